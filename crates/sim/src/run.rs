@@ -1,4 +1,4 @@
-//! One scene from start to end.
+//! Simulation of one scene from start to end.
 
 use std::ops::ControlFlow;
 
@@ -19,8 +19,9 @@ use crate::time::samples::Samples;
 use crate::time::stepper::{Failure, Stepper};
 use crate::{Action, Analysis, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
-/// Error a step may make for each unit of accuracy asked of the run. On crossings of the paper's girder, asked
-/// 1e-2 to 1e-7, the run errs by 0.3 to 0.75 of the accuracy asked at 5 ft/s, and by 0.03 of it at 100 ft/s.
+/// Relative error allowed in a step, per unit of the accuracy required of the run. In crossings of the girder in the
+/// paper with accuracies from 1e-2 to 1e-7, the error of the run was 0.3 to 0.75 of the required accuracy at 5 ft/s,
+/// and 0.03 of it at 100 ft/s.
 const LOCAL_PER_GLOBAL: f64 = 3.0;
 
 /// How a run ended.
@@ -28,25 +29,25 @@ const LOCAL_PER_GLOBAL: f64 = 3.0;
 pub enum Status {
     /// The end time was reached.
     Done,
-    /// A rule ended it.
+    /// A rule ended the run.
     Ended(Fired),
-    /// The caller stopped it.
+    /// The caller stopped the run.
     Stopped,
-    /// No step was small enough at this time.
+    /// The steps became too small at this time.
     StepTooSmall(f64),
-    /// A wheel asked for what its structure does not have, at this time.
+    /// Evaluating the scene failed at this time, for example because a wheel left its structure.
     Failed(f64, Error),
 }
 
 impl Status {
-    /// Whether the run went as far as the scene says: to its end time, or to a rule that ends it.
+    /// Whether the run reached its end time, or a rule that ends it.
     #[must_use]
     pub fn is_complete(&self) -> bool {
         matches!(self, Status::Done | Status::Ended(_))
     }
 }
 
-/// Everything a run found.
+/// Results of a run.
 /// ```
 /// use std::ops::ControlFlow;
 /// use sim::{Body, Contact, Damper, Foundation, NormalLaw, Scene, Wheel};
@@ -67,26 +68,27 @@ impl Status {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Run {
-    /// How it ended.
+    /// How the run ended.
     pub status: Status,
     /// Samples over time.
     pub history: History,
-    /// Rules that acted, in the order of time.
+    /// Rules that acted, in order of time.
     pub fired: Vec<Fired>,
     /// The energy audit; zeros for a quasi-static sweep.
     pub audit: Audit,
-    /// Work done.
+    /// Counts of the work done.
     pub counts: Counts,
     /// The method of integration; `None` for a quasi-static sweep.
     pub method: Option<Method>,
 }
 
-/// Runs `scene` on `foundations`, one a structure. `watch` sees the time reached, and may stop the run.
+/// Runs `scene` on `foundations`, one for each structure. `watch` receives the time reached and may stop the run.
 ///
-/// A dynamic run starts in static equilibrium (y, roll and pitch of bodies whose wheels can carry them, unless
-/// they start with a displacement of their own there), and is integrated in force form by adaptive steps of
-/// [`Method::Auto`], with contacts located in time. The relative error of displacements per unit of motion is near
-/// `scene.accuracy`. A quasi-static run is a static equilibrium at every output time.
+/// A dynamic run starts in static equilibrium of y, roll and pitch of the bodies that wheels can carry, unless a body
+/// on wheels has a starting displacement in these degrees of freedom. It is integrated in force form by adaptive
+/// steps of [`Method::Auto`], and the times at which contacts open and close are located. The relative error of
+/// displacements per unit of motion is close to `scene.accuracy`. A quasi-static run computes a static equilibrium at
+/// every output time.
 ///
 /// # Errors
 /// A scene that cannot be set up: see [`Error`]. A failure during the run ends it with a [`Status`] instead.
@@ -98,11 +100,12 @@ pub fn run(
     run_by(Method::default(), scene, foundations, watch)
 }
 
-/// [`run`] by a [`Method`], or by one with steps of a fixed length. A quasi-static run knows no method.
+/// Same as [`run`], by a given [`Method`] or with steps of a fixed length. A quasi-static run does not use the
+/// method.
 ///
 /// # Errors
-/// Those of [`run`], [`Error::Method`] where the method does not suit the scene, and [`Error::Number`] for a
-/// step that is not positive.
+/// Those of [`run`], [`Error::Method`] if the method does not suit the scene, and [`Error::Number`] if the step is
+/// not positive.
 pub fn run_by(
     stepping: impl Into<Stepping>,
     scene: &Scene,
@@ -146,7 +149,7 @@ pub fn run_by(
     }
 }
 
-/// Sets the entries of every body's degrees of freedom to its six `of`.
+/// Sets the entries of every body's degrees of freedom to the six values that `of` returns for the body.
 fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6]) {
     for (body, numbers) in system.scene.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
         for (number, value) in numbers.iter().zip(of(body)) {
@@ -157,7 +160,7 @@ fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6
     }
 }
 
-/// Whether some body on wheels starts where the scene puts it, not at rest.
+/// Whether any body on wheels starts at a given displacement instead of in static equilibrium.
 fn placed(system: &System) -> bool {
     system.scene.bodies.iter().enumerate().any(|(b, body)| {
         system.mechanics.wheels.iter().any(|wheel| wheel.body == b)
@@ -165,7 +168,7 @@ fn placed(system: &System) -> bool {
     })
 }
 
-/// Integrates the equations of motion from `state`, where the scene puts its bodies.
+/// Integrates the equations of motion from `state`, which holds the starting displacements of the scene.
 fn integrate(
     stepping: Stepping,
     system: &System,
@@ -190,8 +193,8 @@ fn integrate(
     })
 }
 
-/// Brings `state` to the start of a dynamic run: static equilibrium, unless a body is placed, with the starting speeds
-/// and the elements that act then.
+/// Sets `state` to the start of a dynamic run: static equilibrium unless a body has a given displacement, with the
+/// starting speeds and the elements that are active with them.
 fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), Error> {
     if !placed(system) {
         equilibrate(solver, state)?;
@@ -203,7 +206,8 @@ fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), 
     if settle(solver, state)? { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0 }) }
 }
 
-/// Takes steps to the end of the scene, with samples at the output times and rules that act; returns how it ended.
+/// Takes steps to the end of the scene, recording samples at the output times and executing rules; returns how the
+/// run ended.
 fn advance(
     scene: &Scene,
     stepper: &mut Stepper,
@@ -248,14 +252,14 @@ fn advance(
     Ok(Status::Done)
 }
 
-/// The status after the first rule that ends the run.
+/// The status after the first rule that ended the run.
 fn ended(scene: &Scene, fired: &[Fired]) -> Status {
     let rules = &scene.actuators.rules;
     let last = fired.iter().find(|fired| rules[fired.rule].actions.contains(&Action::End));
     last.map_or(Status::Done, |fired| Status::Ended(*fired))
 }
 
-/// Static equilibria at the output times.
+/// Computes static equilibria at the output times.
 fn sweep(
     system: &System,
     solver: &mut Solver,

@@ -1,11 +1,11 @@
-//! Which force elements act: fixed within a step, revised at its end.
+//! The active set of force elements: constant within a step, revised at its end.
 
 use crate::mechanics::state::State;
 
-/// Relative rounding of a penetration.
+/// Relative rounding error of a penetration.
 pub(crate) const ROUNDING: f64 = 1e-12;
 
-/// The elements that may push or pull, and what the dampers of open contacts have stored.
+/// The active elements, and the stored penetrations of the dampers of open contacts.
 #[derive(Clone, PartialEq)]
 pub(crate) struct ActiveSet {
     active: Vec<bool>,
@@ -13,7 +13,7 @@ pub(crate) struct ActiveSet {
 }
 
 impl ActiveSet {
-    /// Elements that `begin` active, the `verticals` vertical contacts first.
+    /// The active set with the initial flags `begin` and `verticals` vertical contacts, which are the first elements.
     pub fn new(begin: Vec<bool>, verticals: usize) -> Self {
         ActiveSet { active: begin, stored: vec![None; verticals] }
     }
@@ -23,7 +23,7 @@ impl ActiveSet {
         self.active[i]
     }
 
-    /// The flags of all elements.
+    /// Active flags of all elements.
     pub fn flags(&self) -> &[bool] {
         &self.active
     }
@@ -33,18 +33,18 @@ impl ActiveSet {
         self.active[i] = is_active;
     }
 
-    /// Penetration that the damper of vertical contact `i` had stored as it opened, and when; `None` where it has not
-    /// opened during the run.
+    /// Penetration of vertical contact `i` at the time it opened, and that time; `None` if it has not opened during
+    /// the run.
     pub fn stored(&self, i: usize) -> Option<[f64; 2]> {
         self.stored[i]
     }
 
-    /// Stores the penetration at which vertical contact `i` opens at `at`.
+    /// Stores the penetration and the time at which vertical contact `i` opens at `at`.
     pub fn store(&mut self, i: usize, at: &State) {
         self.stored[i] = Some([at.p[i].max(0.0) * (1.0 + ROUNDING), at.t]);
     }
 
-    /// Takes all of `other`.
+    /// Copies all data of `other`.
     pub fn copy_from(&mut self, other: &ActiveSet) {
         self.active.clone_from(&other.active);
         self.stored.clone_from(&other.stored);

@@ -1,4 +1,4 @@
-//! One braked contact of a body: B = -mu N tanh(v / speed), v the speed at the treads.
+//! Brake force at one contact of a body: B = -mu N tanh(v / speed), where v is the speed at the treads.
 
 use super::element::{At, Coupling, Element, ElementProbe, Law, Local, Query, Where};
 use super::energy::{Exchanged, Stored};
@@ -7,7 +7,7 @@ use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
 use crate::{Brake, Channel};
 
-/// The force of one braked contact, positive against +x as friction is.
+/// The force of one braked contact. Like friction, it is positive if it acts on the body against +x.
 pub(crate) struct BrakeForce<'a> {
     brake: &'a Brake,
     index: usize,
@@ -15,7 +15,7 @@ pub(crate) struct BrakeForce<'a> {
 }
 
 impl<'a> BrakeForce<'a> {
-    /// All braked contacts of a scene, brake by brake.
+    /// All braked contacts of a scene, ordered by brake.
     pub fn all(mechanics: &Mechanics<'a>) -> Vec<Self> {
         let brakes = mechanics.scene.actuators.brakes.iter().enumerate();
         brakes

@@ -1,15 +1,15 @@
-//! Coordinates in which a stage sees hanging bodies: the stretch of the rope and two angles of its direction.
+//! Local coordinates of a hanging body during a step: the stretch of its rope and two angles of the rope's direction.
 //!
-//! A stage solves Q = q + g V, V = v + g A. Over the X, Y and Z of a body on a taut rope it would cut corners: the
-//! chord of the arc is off the arc by g^2, the rope is made to pull that much more or less, and a stiff one takes
-//! tiny steps. In the coordinates y = (s, alpha, beta) with s the stretch the arc is a straight line. With a the
-//! rope's other end, l its unstretched length and u its direction,
+//! A stage solves Q = q + g V, V = v + g A. In Cartesian coordinates, a body on a taut rope would move along the
+//! chord of its arc. The chord deviates from the arc by O(g^2), which changes the stretch of the rope, so a stiff
+//! rope would require very small steps. In the coordinates y = (s, alpha, beta), where s is the stretch, the arc is a
+//! straight line. With a the other end of the rope, l its unstretched length and u its direction,
 //!
 //! x = a + (l + s) u,  x' = a' + l' u + J y',  x'' = a'' + J y'' + c,  J = [u, (l + s) u_alpha, (l + s) u_beta],
 //!
-//! and Y = y + g Y', Y' = y' + g Y'' become a stage of the same form as above,
-//! V = (a' + l' u + J y' - g (a_p'' + c)) + g A, linear about the last guess: only q and v of the body change.
-//! a_p is the part of a by prescribed motions.
+//! The stage in local coordinates, Y = y + g Y', Y' = y' + g Y'', then has the form of the stage above,
+//! V = (a' + l' u + J y' - g (a_p'' + c)) + g A. It is linearised about the last guess, and only the constant terms
+//! q and v of the body change. a_p is the part of a that follows prescribed motions.
 //!
 //! # Source
 //! Integration in local coordinates: Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), IV.5.3.
@@ -21,37 +21,37 @@ use crate::contact::system::System;
 use crate::mechanics::point::Point;
 use crate::mechanics::state::State;
 
-/// Shortest rope that is given such coordinates, relative to its unstretched length.
+/// Shortest distance of the rope ends for which a chart is used, relative to the unstretched length of the rope.
 const SHORTEST: f64 = 0.1;
 
-/// Coordinates of one body about the other end of its rope.
+/// Local coordinates of one body about the other end of its rope.
 #[derive(Clone)]
 pub(crate) struct Chart {
-    /// Which rope.
+    /// Index of the rope.
     pub rope: usize,
-    /// Whether the body is at the rope's `to`.
+    /// Whether the body is at the end `to` of the rope.
     pub forward: bool,
-    /// Numbers of its X, Y and Z.
+    /// Numbers of the degrees of freedom X, Y and Z of the body.
     pub numbers: [usize; 3],
-    /// Direction of the rope at the start of the step, and two across it.
+    /// Direction of the rope at the start of the step, and two unit vectors perpendicular to it.
     pub frame: [Vector3<f64>; 3],
     /// Coordinates and rates at the start of the step.
     pub start: [[f64; 3]; 2],
-    /// Known parts of the stage's coordinates and rates.
+    /// Constant terms of the coordinates and rates of the stage.
     pub known: [[f64; 3]; 2],
-    /// Second rates of the last stage.
+    /// Second time derivatives of the coordinates in the last stage.
     pub acceleration: [f64; 3],
 }
 
-/// Where the rope's other end is, how it moves by prescribed motions, and the unstretched length with its rates.
+/// The other end of the rope, its prescribed motion, and the unstretched length with its first and second rates.
 pub(crate) struct Anchor<'s> {
     pub point: &'s Point,
-    /// Velocity and acceleration by prescribed motions.
+    /// Velocity and acceleration due to prescribed motions.
     pub given: [Vector3<f64>; 2],
     pub unstretched: [f64; 3],
 }
 
-/// The tangents of a chart at one state.
+/// Coordinates, rates and tangent vectors of a chart at one state.
 pub(crate) struct Local {
     pub y: [f64; 3],
     pub rate: [f64; 3],
@@ -60,7 +60,7 @@ pub(crate) struct Local {
     pub along: [Vector3<f64>; 3],
     /// cos beta squared.
     pub cos_squared: f64,
-    /// c of the module.
+    /// Acceleration c in the equation of x'' of the module.
     pub curve: Vector3<f64>,
 }
 
@@ -102,7 +102,7 @@ impl Chart {
         Some(Anchor { point, given, unstretched })
     }
 
-    /// Position of the body in space less its X, Y and Z.
+    /// Position of the body in space minus its degrees of freedom X, Y and Z.
     pub fn offset(&self, system: &System) -> Option<Vector3<f64>> {
         let [_, own] = self.ends(system)?;
         Some(own.place(&system.mechanics, 0.0, &DVector::zeros(system.mechanics.dofs)))
@@ -112,7 +112,7 @@ impl Chart {
         Vector3::from(self.numbers.map(|number| of[number]))
     }
 
-    /// Coordinates, rates and tangents at (t, q, v).
+    /// Coordinates, rates and tangent vectors at (t, q, v).
     pub fn local(
         &self,
         system: &System,
@@ -149,7 +149,7 @@ impl Chart {
 }
 
 impl Chart {
-    /// The chart of the body at one end of `rope`, centred where it hangs at `from`.
+    /// The chart of the body at one end of `rope`, centred on the rope direction at `from`.
     pub fn at(
         system: &System,
         switches: &Switches,
@@ -187,7 +187,8 @@ impl Chart {
         Some(chart)
     }
 
-    /// Puts the body at the coordinates `y` with their `rate`, about where `at` has the rope's other end.
+    /// Sets the position and the velocity of the body in `at` from the coordinates `y` and their `rate`; the other
+    /// end of the rope is at its position in `at`.
     pub fn place(&self, system: &System, switches: &Switches, y: [f64; 3], rate: [f64; 3], at: &mut State) {
         let (Some(anchor), Some(offset)) = (self.anchor(system, switches, at.t), self.offset(system)) else {
             return;

@@ -1,4 +1,4 @@
-//! Charts of all hanging bodies during one step.
+//! The local coordinates of all hanging bodies during one step.
 
 use nalgebra::DVector;
 
@@ -8,12 +8,16 @@ use crate::contact::system::System;
 use crate::mechanics::point::Point;
 use crate::mechanics::state::{Known, State};
 
-/// The charts of one step, carriers before what hangs on them.
+/// The charts of one step; the chart of a carrier precedes the charts of the bodies that hang on it.
 #[derive(Clone, Default)]
 pub(crate) struct Charts(Vec<Chart>);
 
 impl Charts {
-    /// Charts of the bodies that hang on taut ropes at `from`, where `taut` says which do.
+    /// Creates the charts of the bodies that hang on taut ropes at `from`; `taut` returns whether a rope is taut.
+    ///
+    /// The ropes are tested in the order of decreasing stiffness. A rope gets a chart if one of its ends is a free
+    /// body without a chart, and the other end is fixed or already has a chart. The test is repeated until it adds no
+    /// chart.
     pub fn begin(
         &mut self,
         system: &System,
@@ -62,12 +66,13 @@ impl Charts {
         self.0.is_empty()
     }
 
-    /// Whether degree of freedom `number` has coordinates of a chart.
+    /// Whether degree of freedom `number` belongs to a body with a chart.
     pub fn has(&self, number: usize) -> bool {
         self.0.iter().any(|chart| chart.numbers.contains(&number))
     }
 
-    /// Sets the entries of hanging bodies in `q` and `v` to their coordinates and rates at the start of the step.
+    /// Sets the entries of hanging bodies in `q` and `v` to their local coordinates and rates at the start of the
+    /// step.
     pub fn set_start(&self, q: &mut DVector<f64>, v: &mut DVector<f64>) {
         for chart in &self.0 {
             for (k, &number) in chart.numbers.iter().enumerate() {
@@ -76,7 +81,7 @@ impl Charts {
         }
     }
 
-    /// Takes the known parts of a stage from `known`, and guesses where the stage ends.
+    /// Reads the constant terms of a stage in local coordinates from `known`, and sets `at` to a guess of its end.
     pub fn guess(&mut self, system: &System, switches: &Switches, g: f64, known: &Known, at: &mut State) {
         for chart in &mut self.0 {
             chart.known = [&known.q, &known.v].map(|of| chart.numbers.map(|number| of[number]));
@@ -86,7 +91,7 @@ impl Charts {
         }
     }
 
-    /// Sets the known parts of hanging bodies for X, Y and Z, about the guess `at`.
+    /// Sets the constant terms of hanging bodies in X, Y and Z, linearised about the guess `at`.
     pub fn linearise(&self, system: &System, switches: &Switches, g: f64, known: &mut Known, at: &State) {
         for chart in &self.0 {
             let Some(anchor) = chart.anchor(system, switches, at.t) else { continue };
@@ -104,8 +109,8 @@ impl Charts {
         }
     }
 
-    /// Sets the entries of hanging bodies in `v` and `a`, those of the stage that ended at `at`, to rates and second
-    /// rates of their coordinates.
+    /// Sets the entries of hanging bodies in `v` and `a` to the first and second rates of their local coordinates at
+    /// the end `at` of a stage.
     pub fn set_rates(
         &mut self,
         system: &System,
@@ -124,8 +129,9 @@ impl Charts {
         }
     }
 
-    /// Calls `each` with the number of every degree of freedom of hanging bodies and its part of the errors of
-    /// coordinates and rates that `of` gives by number.
+    /// Calls `each` with the number and the errors of displacement and speed of every degree of freedom of hanging
+    /// bodies. `of` returns the errors of local coordinates and rates by number; they are transformed by the tangent
+    /// vectors.
     pub fn errors(
         &self,
         system: &System,
@@ -146,8 +152,8 @@ impl Charts {
         }
     }
 
-    /// Moves the hanging bodies of `at`, the interpolant between `from` and `to` at `fraction`, to where that of their
-    /// coordinates is.
+    /// Corrects the hanging bodies of `at`, the interpolant between `from` and `to` at `fraction`: their local
+    /// coordinates are interpolated instead of X, Y and Z.
     pub fn interpolate(
         &self,
         system: &System,
@@ -158,7 +164,7 @@ impl Charts {
     ) {
         for chart in &self.0 {
             let mut ends = [State::zeros(3, 0, 0), State::zeros(3, 0, 0)];
-            // motions may jump at the end of a step
+            // Prescribed motions may jump at the end of a step, so the left-hand limit is used there.
             for ((end, state), t) in ends.iter_mut().zip([from, to]).zip([from.t, to.t.next_down()]) {
                 let Some(anchor) = chart.anchor(system, switches, t) else { return };
                 let Some(local) = chart.local(system, &anchor, t, &state.q, &state.v) else { return };

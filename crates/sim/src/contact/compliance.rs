@@ -1,9 +1,9 @@
-//! Compliance of the rails without mass where the wheels are, with as few evaluations as the accuracy asks.
+//! Compliance of the massless rails at the wheels, evaluated only as often as the accuracy requires.
 //!
-//! For each structure, in this order: 1. along a path that was set for the steps to come G is interpolated
-//! ([`CompliancePath`]); 2. where every wheel has moved by less than a distance from the place of the last
-//! evaluation, G is extrapolated by its slope, G + dG/dx dx; 3. else G is evaluated. Both distances are zero until an
-//! accuracy is set.
+//! For each structure, the first applicable rule is used. 1. If a path has been set for the next steps and the wheels
+//! are near it, G is interpolated along it ([`CompliancePath`]). 2. If every wheel is within a tolerance distance of
+//! its position at the last evaluation, G is extrapolated by its slope, G + dG/dx dx. 3. Otherwise G is evaluated.
+//! Both tolerance distances are zero until an accuracy is set.
 
 use splines::{Influence, Probe};
 
@@ -13,8 +13,8 @@ use super::probes::{Entry, Probes};
 use crate::Error;
 use crate::mechanics::assembly::Mechanics;
 
-/// Distance a wheel may move, in radii per unit of step tolerance, before the compliance is evaluated again instead of
-/// extrapolated by its slope.
+/// Distance a wheel may move, in radii per unit of step tolerance, before the compliance is evaluated again instead
+/// of extrapolated by its slope.
 const NEAR: f64 = 1e-3;
 
 /// The compliance between all elements.
@@ -22,21 +22,21 @@ const NEAR: f64 = 1e-3;
 pub(crate) struct RailCompliance {
     matrices: RailMatrices,
     providers: Vec<Provider>,
-    /// Distance from the last evaluation, in radii of a wheel, over which G is extrapolated.
+    /// Largest distance from the last evaluation, in wheel radii, for which G is extrapolated.
     near: f64,
-    /// Distance from the path over which G is extrapolated.
+    /// Largest distance of a wheel from the path for which G is extrapolated.
     reach: f64,
 }
 
-/// What is known of the compliance of one structure.
+/// The latest evaluation of the compliance of one structure.
 #[derive(Clone)]
 struct Provider {
     influence: Influence,
-    /// Where `influence` was evaluated, and how far each wheel has moved from there.
+    /// Probes of the last evaluation, and the distance that each wheel has moved since.
     probes: Vec<Probe>,
     moved: Vec<f64>,
     path: Option<CompliancePath>,
-    /// Whether the matrices are those of the path.
+    /// Whether the matrices were interpolated along the path.
     is_on_path: bool,
     is_evaluated: bool,
 }
@@ -60,35 +60,35 @@ impl RailCompliance {
         }
     }
 
-    /// G and its slopes where the wheels were at the last update.
+    /// G and its slopes at the positions of the last update.
     #[inline]
     pub fn matrices(&self) -> &RailMatrices {
         &self.matrices
     }
 
-    /// Puts other values in place of G; its slopes are left.
+    /// Replaces the values of G; its slopes are unchanged.
     pub fn set_value(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>, elements: usize) {
         for (row, values) in self.matrices.value.chunks_exact_mut(elements).zip(rows) {
             row.copy_from_slice(&values.as_ref()[..elements]);
         }
     }
 
-    /// Lets G be extrapolated as far as steps of the relative error `tolerance` allow; `radius` is that of the smallest
-    /// wheel.
+    /// Sets the tolerance distances of extrapolation for steps with the relative error `tolerance`; `radius` is the
+    /// radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
         self.near = NEAR * tolerance;
         self.reach = (NEAR * tolerance).sqrt() * radius;
     }
 
-    /// Whether paths are of use.
+    /// Whether interpolation along paths is useful.
     pub fn wants_paths(&self) -> bool {
         self.reach != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
     }
 
-    /// Brings G to the rail coordinates `x` of all wheels.
+    /// Updates G to the rail coordinates `x` of all wheels.
     ///
     /// # Errors
-    /// What the compliance of a structure refuses.
+    /// Errors of the compliance of a structure.
     pub fn update(&mut self, mechanics: &Mechanics, probes: &Probes, x: &[f64]) -> Result<(), Error> {
         let m = probes.slots.len();
         let RailCompliance { matrices, providers, near, reach } = self;
@@ -127,8 +127,8 @@ impl RailCompliance {
         Ok(())
     }
 
-    /// Sets the paths of all wheels from `from`, to `beyond` or to `to`, so that no rail element ends before it. Paths
-    /// that lead to `to` already stay.
+    /// Sets the paths of all wheels from `from` to `beyond`, or to `to` if a rail element ends before `beyond`. A
+    /// path that already contains `from` and `to` is kept.
     pub fn set_paths(&mut self, mechanics: &Mechanics, probes: &Probes, [from, to, beyond]: [&[f64]; 3]) {
         let reach = self.reach;
         for (s, (provider, entries)) in self.providers.iter_mut().zip(&probes.entries).enumerate() {
@@ -146,7 +146,7 @@ impl RailCompliance {
                 let of = |k: usize| (0..from.len()).map(|w| within([from[w], end[w]], reach)[k]).collect();
                 [of(0), of(1)]
             };
-            // What the rail refuses here, it refuses the step itself.
+            // An error of the rail is ignored here, because the step itself reports it.
             let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
             let is_set = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
                 let goes_on = is_free(path.end(), &ends[0]);
@@ -158,7 +158,7 @@ impl RailCompliance {
         }
     }
 
-    /// Drops all paths.
+    /// Removes all paths.
     pub fn clear_paths(&mut self) {
         self.providers
             .iter_mut()
@@ -168,8 +168,8 @@ impl RailCompliance {
 }
 
 impl Provider {
-    /// Notes how far the wheels at `x` are from the last evaluation; returns the largest distance in radii, and whether
-    /// the matrices are no longer those of `x`.
+    /// Updates the distances of the wheels at `x` from the last evaluation. Returns the largest distance in wheel
+    /// radii, and whether the matrices are out of date.
     fn move_to(&mut self, mechanics: &Mechanics, entries: &[Entry], x: &[f64]) -> (f64, bool) {
         let (mut farthest, mut has_changed) = (0.0_f64, std::mem::take(&mut self.is_on_path));
         for ((moved, probe), entry) in self.moved.iter_mut().zip(&self.probes).zip(entries) {
@@ -182,7 +182,7 @@ impl Provider {
         (farthest, has_changed)
     }
 
-    /// Sums the compliance over the elements, with what the wheels have moved since it was evaluated: G + dG/dx dx.
+    /// Sums the compliance over the probes of each element, extrapolated by the slopes: G + dG/dx dx.
     fn extrapolate(&self, entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
         let RailMatrices { value: sums, slope: rates, tangential } = matrices;
         for row in entries {
@@ -197,7 +197,8 @@ impl Provider {
         for (i, row) in entries.iter().enumerate() {
             let span = row.element * m..(row.element + 1) * m;
             let (sums, rates) = (&mut sums[span.clone()], &mut rates[span]);
-            // The values are symmetric; their slope by the column's place is that of the mirrored entry.
+            // The values are symmetric, so the derivative by the position of the column is the slope of the
+            // transposed entry.
             let mirrored = &slopes[i * count..(i + 1) * count];
             for (j, column) in entries.iter().enumerate() {
                 let weight = row.weight * column.weight;
@@ -212,14 +213,15 @@ impl Provider {
     }
 }
 
-/// A stretch of the rail without its ends, which may lie at a break: a quarter of `reach` less, or of itself.
+/// The interval without its ends, which may be at the end of a rail element: a quarter of `reach` is removed at both
+/// ends, or a quarter of the interval if that is shorter than `reach`.
 fn within([from, to]: [f64; 2], reach: f64) -> [f64; 2] {
     let off = 0.25 * (to - from).clamp(-reach, reach);
     [from + off, to - off]
 }
 
-/// Copies the first rows and columns of a column-major square matrix into a row-major one of `m` columns, in tiles
-/// that stay in the cache.
+/// Copies the leading rows and columns of a column-major square matrix into a row-major matrix with `m` columns, in
+/// tiles that fit in the cache.
 fn transpose(from: &[f64], to: &mut [f64], m: usize) {
     const TILE: usize = 16;
     let size = from.len().isqrt();

@@ -1,35 +1,37 @@
-//! When the passes of a stage end.
+//! Termination of the passes of a stage.
 
 use nalgebra::DVector;
 
-/// Error that the passes of a stage may leave, by the error that a step may make.
+/// Iteration error allowed in a stage, per unit of the step tolerance.
 const LEFT: f64 = 1e-6;
 
-/// Error of a step above which the passes of one stage tell those of the next all they need to know.
+/// Step tolerance above which the contraction ratio of another stage justifies the full allowed error; below it the
+/// allowed error is reduced by the square of tolerance/LOOSE.
 const LOOSE: f64 = 1e-4;
 
-/// Factor on the contraction ratio of another stage, where that of the stage itself is not known.
+/// Safety factor on the contraction ratio of another stage, used while that of the present stage is unknown.
 const MARGIN: f64 = 100.0;
 
-/// The least contraction ratio that counts: less is rounding.
+/// Lower bound of the contraction ratio; smaller values are due to rounding.
 const LEAST: f64 = 1e-7;
 
-/// Contraction ratio above which the matrices are formed again.
+/// Contraction ratio of the fixed-point iteration above which the Jacobian is rebuilt.
 const POOR: f64 = 0.2;
 
-/// The contraction of the fixed-point iteration of a stage, and the error that it may leave.
+/// Contraction of the fixed-point iteration of a stage, and the error that may remain.
 ///
-/// Where a pass changes the stage by d and the next one by r d, what is left after it is at most d r/(1 - r).
+/// If one pass changes the stage by d and the next one by r d, the error that remains after a change d is at most d
+/// r/(1 - r).
 ///
 /// # Source
 /// Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: stopping criterion of simplified
 /// Newton iterations.
 pub(crate) struct Convergence {
-    /// Scales of displacements and speeds; without them passes end at rounding.
+    /// Scales of displacements and speeds; without them the passes end at rounding.
     scales: Option<[DVector<f64>; 2]>,
-    /// Errors that may be left, judged by the passes of the stage itself and by those of another one.
+    /// Allowed errors: for the contraction ratio of the stage itself, and for that of another stage.
     allowed: [f64; 2],
-    /// Contraction ratio r from stages of the same step; infinite where it is not known.
+    /// Contraction ratio r from stages of the same step; infinite if it is unknown.
     ratio: f64,
 }
 
@@ -39,17 +41,17 @@ impl Default for Convergence {
     }
 }
 
-/// What follows from a pass.
+/// Assessment of a pass.
 pub(crate) struct Verdict {
-    /// What is left is within what is allowed.
+    /// The remaining error is within the allowed error.
     pub has_ended: bool,
-    /// The matrices must be formed again.
+    /// The matrices must be rebuilt.
     pub is_poor: bool,
 }
 
 impl Convergence {
-    /// Lets passes end within a fraction of the error `tolerance` of a step beside the scales of displacements and
-    /// speeds.
+    /// Allows the passes to end within a fraction of the step error `tolerance`, relative to the scales of
+    /// displacements and speeds.
     pub fn set_accuracy(&mut self, tolerance: f64, [scale, rate_scale]: [&DVector<f64>; 2]) {
         let by_others = (tolerance / LOOSE).min(1.0).powi(2);
         self.allowed = [1.0, by_others].map(|share| share * LEFT * tolerance);
@@ -62,17 +64,17 @@ impl Convergence {
         }
     }
 
-    /// Forgets the contraction of the last step.
+    /// Discards the contraction ratio of the last step.
     pub fn begin_step(&mut self) {
         self.ratio = f64::INFINITY;
     }
 
-    /// Smallest error that is allowed; `None`: rounding.
+    /// The smaller of the two allowed errors; `None` if the passes end at rounding.
     pub fn allowed(&self) -> Option<f64> {
         self.scales.as_ref().map(|_| self.allowed[1])
     }
 
-    /// Changes `dq` and `dv` of degree of freedom `k` beside its scales, where it is `q` and `v` then.
+    /// Changes `dq` and `dv` of degree of freedom `k` relative to its scales; `q` and `v` are its new values.
     pub fn weigh(&self, k: usize, [dq, dv]: [f64; 2], [q, v]: [f64; 2]) -> f64 {
         self.scales.as_ref().map_or(0.0, |[scale, rate_scale]| {
             let by_place = dq / scale[k].max(q.abs());
@@ -80,7 +82,8 @@ impl Convergence {
         })
     }
 
-    /// Judges a pass that changed the stage by `change` after one that changed it by `last`, infinite for the first.
+    /// Evaluates a pass that changed the stage by `change` after a pass that changed it by `last`, which is infinite
+    /// for the first pass.
     pub fn judge(&mut self, change: f64, last: f64) -> Verdict {
         let is_own = last.is_finite();
         if is_own {

@@ -1,4 +1,4 @@
-//! A drive that follows a speed: D = clip(gain (v_ref - v), limit) along x, the limit its own or that of the traction.
+//! A drive with speed control: D = clip(gain (v_ref - v), limit) along x. The limit is its own or that of traction.
 
 use super::element::{At, Coupling, Element, ElementProbe, Guard, GuardKind, Law, Local, Query, Where};
 use super::energy::{Exchanged, Stored};
@@ -8,12 +8,12 @@ use crate::mechanics::assembly::Mechanics;
 use crate::numerics::dense::dot;
 use crate::{Channel, Drive};
 
-/// The force of one drive, positive against +x as friction is.
+/// The force of one drive. Like friction, it is positive if it acts on the body against +x.
 pub(crate) struct DriveForce<'a> {
     drive: &'a Drive,
     index: usize,
     grip: Grip,
-    /// Whether traction limits it.
+    /// Whether traction limits the force.
     is_gripped: bool,
 }
 
@@ -37,7 +37,7 @@ impl<'a> DriveForce<'a> {
             .collect()
     }
 
-    /// The largest force with the `traction`, and whether that is the limit.
+    /// The largest force for the available `traction`, and whether traction is the limit.
     fn limit(&self, traction: f64) -> (f64, bool) {
         let max_force = self.drive.max_force;
         let slips = self.is_gripped && traction < max_force;
@@ -72,9 +72,9 @@ impl Element for DriveForce<'_> {
         true
     }
 
-    /// The force at the rate that it produces itself: where it is now `force` at the rate r, which every unit of
-    /// force lowers by `fall`, F = K (r - fall (F - force)); the limit beyond it. A stiff drive converges in one
-    /// iteration so.
+    /// Implicit force law: with r the rate at the present force `force`, and `fall` the decrease of the rate per unit
+    /// of force, the force solves F = K (r - fall (F - force)), bounded by the limit. With this law a stiff drive
+    /// converges in one Newton iteration.
     fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law> {
         if !query.local.is_on {
             return None;
@@ -97,7 +97,8 @@ impl Element for DriveForce<'_> {
         Some(GuardKind::Corner)
     }
 
-    /// The force wanted beyond the limit, and where it is limited the traction beyond the drive's own limit.
+    /// Two guards: the excess of the demanded force over the limit, and, while the force is limited, the excess of
+    /// the traction over the drive's own limit.
     fn guards(&self, at: &At, put: &mut dyn FnMut(Guard)) {
         let Drive { gain, max_force, body, .. } = *self.drive;
         let (state, mechanics) = (at.state, at.mechanics);

@@ -1,4 +1,4 @@
-//! What every force element answers.
+//! The interface of all force elements.
 //!
 //! A force element is one unknown scalar force F_i of a stage: a vertical contact, a flange, friction below a wheel,
 //! a drive, a brake, a rope or a stop. With e = R q + offset its approach, G the compliance of rails without mass and
@@ -6,10 +6,10 @@
 //!
 //! F = law(p, r),  p = e - W F,  r = r_0 - Y F
 //!
-//! by one Newton iteration that never asks what kind of element it solves for. All that differs between kinds is said
-//! by the trait [`Element`]: where an element acts (rows and probes), its law with slopes, the guards whose change of
-//! sign ends a step, its energy, and its channels. Every question has the answer "nothing" by default, so that a new
-//! law answers the few that concern it, in a file of its own and a line of `contact::elements`.
+//! by one Newton iteration that is independent of the kind of element. The trait [`Element`] describes all
+//! differences between kinds: the location of an element (rows and probes), its law with slopes, the guards whose
+//! change of sign ends a step, its energy, and its channels. Every method except the law has a default, so a new
+//! element implements only the methods that concern it, in its own file, and is listed in `contact::elements`.
 
 use std::ops::Deref;
 
@@ -29,17 +29,18 @@ use crate::mechanics::point::PointPair;
 use crate::mechanics::state::State;
 use crate::numerics::dense::along;
 
-/// The questions.
+/// A force element.
 pub(crate) trait Element {
-    // Where it acts.
+    // Location.
 
-    /// Writes the part of its row that is the same at every state.
+    /// Writes the part of its row that is constant.
     fn constant_row(&self, _mechanics: &Mechanics, _row: &mut RowMut) {}
 
-    /// Adds to its row what follows places and time; the rail's shapes are added afterwards.
+    /// Adds the part of its row that depends on positions and time; the shapes of the rail are added afterwards.
     fn update_row(&self, _at: &Where, _row: &mut RowMut, _local: &mut Local) {}
 
-    /// Fraction of its law that acts where the wheels are, and the slope of that fraction along the rail.
+    /// Fraction of its law that acts at the present positions of the wheels, and the slope of this fraction along the
+    /// rail.
     fn fraction(&self, _mechanics: &Mechanics, _places: &Places) -> Option<[f64; 2]> {
         None
     }
@@ -49,18 +50,18 @@ pub(crate) trait Element {
         Vec::new()
     }
 
-    /// The wheel that the slope of its deflected rail pushes along x, where it presses on one.
+    /// The wheel on which the slope of the deflected rail exerts a force along x, if the element acts on a wheel.
     fn tilted_wheel(&self) -> Option<usize> {
         None
     }
 
-    /// Whether it acts along the rail: its rate rows load the degrees of freedom, and the displacement of a rail
-    /// without mass along x is a state.
+    /// Whether it acts along the rail. Its rate rows then load the degrees of freedom, and the longitudinal
+    /// displacement of a massless rail is a state.
     fn is_tangential(&self) -> bool {
         false
     }
 
-    /// Whether its row follows the motion within a stage.
+    /// Whether its row changes with the motion within a stage.
     fn follows_motion(&self) -> bool {
         false
     }
@@ -70,110 +71,112 @@ pub(crate) trait Element {
         false
     }
 
-    /// The two points that it joins, where it is a rope or a stop.
+    /// The two points between which it acts, for a rope or a stop.
     fn points(&self) -> Option<&PointPair> {
         None
     }
 
-    /// Its part in static equilibrium.
+    /// Its role in static equilibrium.
     fn role(&self) -> Role {
         Role::Absent
     }
 
-    // Its law.
+    // Force law.
 
-    /// Whether a rule has put it out of action for good.
+    /// Whether a rule has disabled it permanently.
     fn is_released(&self, _switches: &Switches) -> bool {
         false
     }
 
-    /// Whether it is active where nothing has been decided yet.
+    /// Whether it is active initially, before any decision on the active set.
     fn begins_active(&self) -> bool {
         true
     }
 
-    /// Whether it has no force in the stage that begins at `force`: its column of the mobility is left out.
+    /// Whether it has no force in the stage that begins with the force `_force`; its column of the mobility is then
+    /// omitted.
     fn is_idle(&self, is_active: bool, _local: &Local, _force: f64) -> bool {
         !is_active
     }
 
-    /// Whether its law feels a rate of the degrees of freedom themselves, which forces of the same stage change.
+    /// Whether its law depends on a rate of the degrees of freedom, which the forces of the same stage change.
     fn feels_rates(&self) -> bool {
         false
     }
 
-    /// Whether its penetration is a state while it acts: a damper between wheel and rail.
+    /// Whether its penetration is a state while it is active, as with a damper between wheel and rail.
     fn has_memory(&self) -> bool {
         false
     }
 
-    /// Whether its penetration is followed while it is idle: it may begin to act within a stage, or others ask for it.
+    /// Whether its penetration is evaluated while it is idle, because it may begin to act within a stage or because
+    /// other elements depend on it.
     fn is_followed(&self) -> bool {
         false
     }
 
-    /// Whether an idle element begins to act within a stage at the penetration `p`.
+    /// Whether an idle element begins to act within a stage at the penetration `_p`.
     fn touches(&self, _p: f64) -> bool {
         false
     }
 
-    /// Force by penetration and rate, with slopes; `None` where it does not act. Slopes by forces of other elements
-    /// (and by its own, where the law is implicit) go to `couplings`.
+    /// Force as a function of penetration and rate, with its slopes; `None` if the element does not act. Slopes with
+    /// respect to forces of other elements (and to its own force, for an implicit law) are added to `couplings`.
     fn law(&self, query: &Query, couplings: &mut Vec<Coupling>) -> Option<Law>;
 
-    // Its guards.
+    // Guards.
 
-    /// Positive where it must begin to act (if it does not) or cease (if it does): the force by which it has gone too
-    /// far. `None` where it is not switched.
+    /// Switching function: positive if an inactive element must become active or an active one inactive. The value is
+    /// the force by which the limit is exceeded. `None` if the element is never switched.
     fn switch(&self, _at: &At, _active: &ActiveSet) -> Option<f64> {
         None
     }
 
-    /// The kind of its guards, where it has some.
+    /// The kind of its guards, if it has any.
     fn guard_kind(&self) -> Option<GuardKind> {
         None
     }
 
-    /// Quantities of its law of that kind, at whose change of sign the next step should begin.
+    /// Quantities of its law of this guard kind, at whose change of sign the next step should begin.
     fn guards(&self, _at: &At, _put: &mut dyn FnMut(Guard)) {}
 
-    // Its energy.
+    // Energy.
 
-    /// Adds the energy stored in it.
+    /// Adds the energy stored in the element.
     fn stored(&self, _at: &At, _energy: &mut Stored) {}
 
-    /// Adds the rates of what it dissipates and supplies, less the rate of [`Element::boundary`].
+    /// Adds the power that it dissipates and supplies, without the rate of [`Element::boundary`].
     fn power(&self, _at: &At, _power: &mut Exchanged) {}
 
-    /// Boundary term of what its damper dissipates, whose rate [`Element::power`] leaves out.
+    /// Boundary term of the energy dissipated by its damper; [`Element::power`] omits its rate.
     fn boundary(&self, _at: &At) -> f64 {
         0.0
     }
 
-    /// What it adds to the force along +x that the prescribed motion of root body `b` needs.
+    /// Its contribution to the force along +x that is required for the prescribed motion of root body `_b`.
     fn resistance(&self, _at: &At, _b: usize) -> f64 {
         0.0
     }
 
-    // Its channels.
+    // Channels.
 
-    /// Channels to which it adds its force, each with a divisor.
+    /// Channels to which its force is added, each with a divisor.
     fn channels(&self, _mechanics: &Mechanics) -> Vec<(Channel, f64)> {
         Vec::new()
     }
 
-    /// Channels of its own in a history, beside those of bodies and wheels, in their order.
+    /// Its own channels in a history, in their order, in addition to those of bodies and wheels.
     fn own_channels(&self) -> Vec<Channel> {
         Vec::new()
     }
 
-    /// The channel of the distance of its points.
+    /// The channel of the distance between its two points.
     fn length_channel(&self) -> Option<Channel> {
         None
     }
 }
 
-/// Answers of an element that never change, kept at hand for the innermost loops.
+/// Constant properties of an element, stored for fast access in the innermost loops.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fixed {
     pub feels_rates: bool,
@@ -183,7 +186,7 @@ pub(crate) struct Fixed {
 }
 
 impl Fixed {
-    /// The answers of `element`.
+    /// The constant properties of `element`.
     pub fn of(element: &dyn Element) -> Self {
         Fixed {
             feels_rates: element.feels_rates(),
@@ -194,20 +197,20 @@ impl Fixed {
     }
 }
 
-/// Part of an element in static equilibrium.
+/// Role of an element in static equilibrium.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Role {
-    /// It carries the weights.
+    /// It carries weight.
     Carries,
-    /// It guides across the rails.
+    /// It guides wheels laterally.
     Guides,
-    /// It joins two points by a spring.
+    /// It is a spring between two points.
     Spring,
     /// It has no force at rest.
     Absent,
 }
 
-/// Where rows are asked for.
+/// The state at which rows are evaluated.
 pub(crate) struct Where<'c> {
     pub mechanics: &'c Mechanics<'c>,
     pub t: f64,
@@ -221,14 +224,14 @@ pub(crate) struct Where<'c> {
 /// One probe of an element on a rail.
 pub(crate) struct ElementProbe {
     pub wheel: usize,
-    /// Positive along the axis of the probe.
+    /// Weight, positive along the axis of the probe.
     pub weight: f64,
     pub axis: Axis,
-    /// The rigid part that it presses on, where every part has its own force.
+    /// The rigid part on which it acts, if every part has its own force.
     pub part: Option<usize>,
 }
 
-/// What changes about an element with the state, beside its row.
+/// Properties of an element, other than its row, that change with the state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Local {
     /// Fraction of the law that acts, and its slope along the rail.
@@ -250,30 +253,30 @@ impl Default for Local {
 pub(crate) struct Spring {
     pub stiffness: f64,
     pub damping: f64,
-    /// Unit vector along which the approach grows: from `from` to `to` of a rope, into a stop.
+    /// Unit vector along which the approach increases: from `from` to `to` for a rope, into the stop for a stop.
     pub direction: [f64; 3],
-    /// Distance of the ends of a rope; depth of a stop.
+    /// Distance between the ends of a rope, or penetration of a stop.
     pub length: f64,
     /// Unstretched length of a rope, and its rate.
     pub unstretched: [f64; 2],
-    /// Force below which rounding of places hides whether it acts.
+    /// Force below which rounding of the positions makes the active state undecidable.
     pub noise: f64,
 }
 
-/// What a law is asked.
+/// Arguments of a force law.
 pub(crate) struct Query<'q> {
     /// Index of the element.
     pub index: usize,
-    /// Rate that the law feels.
+    /// Rate on which the law depends.
     pub rate: f64,
-    /// Penetration and rate of every element under the forces at hand.
+    /// Penetration and rate of every element under the present forces.
     pub reached: &'q [[f64; 2]],
-    /// Forces at hand.
+    /// Present forces.
     pub force: &'q [f64],
     pub local: &'q Local,
     /// Whether the element may act.
     pub is_active: bool,
-    /// What a unit of the element's own force takes from its rate.
+    /// Decrease of the element's rate per unit of its own force.
     pub fall: f64,
 }
 
@@ -290,11 +293,11 @@ pub(crate) struct Law {
     pub force: f64,
     pub by_penetration: f64,
     pub by_rate: f64,
-    /// Another element, and the slope by its penetration.
+    /// Another element, and the slope with respect to its penetration.
     pub by_other: Option<(usize, f64)>,
 }
 
-/// Slope of the law of `element` by the force of element `by`.
+/// Slope of the law of `element` with respect to the force of element `by`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Coupling {
     pub element: usize,
@@ -302,23 +305,23 @@ pub(crate) struct Coupling {
     pub slope: f64,
 }
 
-/// A quantity of a law that changes its sign where the law has a kink.
+/// A quantity of a law that changes sign at a kink of the law.
 pub(crate) struct Guard {
     pub value: f64,
-    /// Force per unit of the quantity: changes below a negligible force are not looked at.
+    /// Force per unit of the quantity; changes that correspond to negligible forces are ignored.
     pub stiffness: f64,
 }
 
-/// How a step treats a guard.
+/// Treatment of a guard by a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum GuardKind {
-    /// Looked at where the step errs by more than it may; located on the interpolant.
+    /// Checked only if the error of the step exceeds its tolerance; located on the interpolant.
     Touch,
-    /// Always looked at; located by the secant of both ends.
+    /// Checked in every step; located by the secant between both ends.
     Corner,
 }
 
-/// A scene at one state, to which rows and matrices belong.
+/// A scene at one state, with the rows and matrices of this state.
 pub(crate) struct Frame<'c> {
     pub mechanics: &'c Mechanics<'c>,
     pub probes: &'c Probes,
@@ -327,7 +330,7 @@ pub(crate) struct Frame<'c> {
     pub rails: &'c RailMatrices,
     pub places: &'c Places,
     pub switches: &'c Switches,
-    /// What changes about every element beside its row.
+    /// Properties of every element, other than its row, that change with the state.
     pub local: &'c [Local],
     /// Slope of the deflected rail at every element.
     pub rail_slope: &'c [f64],
@@ -366,48 +369,48 @@ impl At<'_> {
         self.state.force[self.index]
     }
 
-    /// What changes about it beside its row.
+    /// Its properties, other than its row, that change with the state.
     #[inline]
     pub fn local(&self) -> &Local {
         &self.frame.local[self.index]
     }
 
-    /// Slope of the deflected rail there.
+    /// Slope of the deflected rail at the element.
     #[inline]
     pub fn rail_slope(&self) -> f64 {
         self.frame.rail_slope[self.index]
     }
 
-    /// Its approach, before the deflection of the rail.
+    /// Its approach without the deflection of the rail.
     #[inline]
     pub fn approach(&self) -> f64 {
         self.rows.approach_at(self.index, &self.state.q)
     }
 
-    /// Deflection of the rail without mass.
+    /// Deflection of the massless rail.
     #[inline]
     pub fn deflection(&self) -> f64 {
         self.rails.deflection(self.index, &self.state.force)
     }
 
-    /// The rate that it feels, that of the degrees of freedom alone.
+    /// Its rate due to the degrees of freedom alone.
     #[inline]
     pub fn rate(&self) -> f64 {
         self.rate_of(self.index)
     }
 
-    /// The same of element `i`.
+    /// Rate of element `i` due to the degrees of freedom alone.
     #[inline]
     pub fn rate_of(&self, i: usize) -> f64 {
         self.rows.rate_at(i, &self.state.v)
     }
 
-    /// Elastic energy of the rails under its force.
+    /// Elastic energy of the rails due to its force.
     pub fn rail_energy(&self) -> f64 {
         0.5 * self.force() * self.deflection()
     }
 
-    /// Rate that its law feels along the rail: that of its wheels less that of the rail.
+    /// Sliding rate of its law along the rail: the rate of its wheels minus that of the rail.
     pub fn slip(&self) -> f64 {
         let own = self.rate();
         if self.probes.sliding.is_empty() {
@@ -418,7 +421,7 @@ impl At<'_> {
     }
 }
 
-/// Rate of the rail under element `i` that its wheels pass over by their own motion, x' dG/dx F.
+/// Rate of the rail displacement under element `i` due to the motion of its wheels along the rail, x' dG/dx F.
 pub(crate) fn passing(
     mechanics: &Mechanics,
     probes: &Probes,
@@ -431,7 +434,7 @@ pub(crate) fn passing(
         .sum()
 }
 
-/// The tangential contacts of element `i` with their speeds along the rail.
+/// The tangential contacts of element `i` with the speeds of their wheels along the rail.
 pub(crate) fn tangential_of<'s>(
     mechanics: &'s Mechanics,
     probes: &'s Probes,

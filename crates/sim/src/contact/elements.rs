@@ -1,4 +1,4 @@
-//! The kinds of force elements: one line each.
+//! The list of the kinds of force elements.
 
 use std::ops::Deref;
 
@@ -14,7 +14,7 @@ use super::traction::Traction;
 use super::vertical::Vertical;
 use crate::mechanics::assembly::Mechanics;
 
-/// Makes the enum of all kinds, the list of all elements of a scene, and the one match that finds the answers.
+/// Generates the enum of all kinds, the constructor of all elements of a scene, and the dispatch to the kinds.
 macro_rules! force_elements {
     ($($(#[$doc:meta])* $kind:ident($element:ty),)+) => {
         /// One unknown scalar force.
@@ -31,7 +31,7 @@ macro_rules! force_elements {
             }
         }
 
-        /// The questions of the innermost loops, asked of the kind itself: its answer is not looked up in a table.
+        /// Methods of the innermost loops with static dispatch, without a lookup in a virtual table.
         impl ForceElement<'_> {
             /// [`Element::law`].
             #[inline]
@@ -94,7 +94,7 @@ macro_rules! force_elements {
     };
 }
 
-// Vertical contacts stand first: a vertical contact and its wheel group have one index.
+// Vertical contacts must be first: a vertical contact and its wheel group have the same index.
 force_elements! {
     /// A wheel on its rail.
     Vertical(Vertical<'a>),

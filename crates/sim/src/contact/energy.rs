@@ -1,11 +1,11 @@
-//! The terms of the energy balance, to which every force element adds its own.
+//! The terms of the energy balance, to which every force element contributes.
 
 /// Energy stored in a scene at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stored {
     /// Kinetic energy of bodies, wheels and structures.
     pub kinetic: f64,
-    /// Potential energy of weight, zero where every body touches the unloaded rail.
+    /// Potential energy of weight; zero where every body touches the unloaded rail.
     pub gravity: f64,
     /// Elastic energy between wheel and rail, flanges included.
     pub contact: f64,
@@ -16,47 +16,48 @@ pub struct Stored {
 }
 
 impl Stored {
-    /// Sum of all.
+    /// Sum of all terms.
     #[must_use]
     pub fn total(&self) -> f64 {
         self.kinetic + self.gravity + self.contact + self.structure + self.ropes
     }
 }
 
-/// Energy lost and put in since the start.
+/// Energy lost and supplied since the start.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Exchanged {
     /// Lost in the dampers of contacts, ropes and stops.
     pub dampers: f64,
     /// Lost in sliding, brakes included.
     pub friction: f64,
-    /// Lost as flanges let go, and gained as they take hold.
+    /// Lost when flanges are released, and gained when they engage.
     pub flanges: f64,
-    /// Lost as the parts of a structure hand wheels over, one force a part.
+    /// Lost at the transfer of wheels between the parts of a structure that has one force per part.
     pub handover: f64,
-    /// Lost in the structures' damping.
+    /// Lost by the damping of the structures.
     pub structure: f64,
-    /// Lost where a contact opens or closes with a jump of its force.
+    /// Lost when a contact opens or closes with a jump of its force.
     pub switches: f64,
-    /// Put in by prescribed motions and drives.
+    /// Supplied by prescribed motions and drives.
     pub drives: f64,
-    /// Put in by loads.
+    /// Supplied by loads.
     pub loads: f64,
-    /// Put in by hoisting.
+    /// Supplied by hoisting.
     pub hoists: f64,
-    /// Put in where wheels meet steps of uneven rails; what their slopes do is in `drives`, or the body's own.
+    /// Supplied at steps of uneven rails; the work of rail slopes is included in `drives` or in the energy of the
+    /// body.
     pub rail_steps: f64,
 }
 
 impl Exchanged {
-    /// What left the scene, less what was put in.
+    /// Energy that left the scene, minus the energy supplied.
     #[must_use]
     pub fn net_loss(&self) -> f64 {
         self.dampers + self.friction + self.flanges + self.handover + self.structure + self.switches
             - self.supplied()
     }
 
-    /// Work put in by prescribed motions, drives, loads, hoisting and steps of rails.
+    /// Work supplied by prescribed motions, drives, loads, hoisting and rail steps.
     #[must_use]
     pub fn supplied(&self) -> f64 {
         self.drives + self.loads + self.hoists + self.rail_steps

@@ -1,4 +1,4 @@
-//! Flange of a wheel: L = k S(h) (|e| - clearance) sign(e) beyond the clearance, h the height of the wheel.
+//! Flange of a wheel: L = k S(h) (|e| - clearance) sign(e) beyond the clearance, where h is the height of the wheel.
 
 use splines::Axis;
 
@@ -17,7 +17,7 @@ pub(crate) struct FlangeContact<'a> {
     flange: &'a Flange,
     wheel: usize,
     radius: f64,
-    /// The vertical contact whose penetration gives the height of the wheel.
+    /// The vertical contact whose penetration determines the height of the wheel.
     vertical: usize,
 }
 
@@ -36,13 +36,14 @@ impl<'a> FlangeContact<'a> {
 }
 
 impl Element for FlangeContact<'_> {
-    /// As if the wheel had no height.
+    /// The row for a wheel of zero height.
     fn constant_row(&self, mechanics: &Mechanics, row: &mut RowMut) {
         let wheel = &mechanics.wheels[self.wheel];
         row.add_approach(&mechanics.kinematics, wheel.body, arm_rows(wheel.hub)[2], 1.0);
     }
 
-    /// The rail is below the hub by the height of the wheel; z0 takes it along.
+    /// The rail is below the hub by the height of the wheel; the lateral irregularity of the rail reduces the
+    /// approach.
     fn update_row(&self, at: &Where, row: &mut RowMut, _: &mut Local) {
         let (w, kinematics) = (self.wheel, &at.mechanics.kinematics);
         let body = at.mechanics.wheels[w].body;
@@ -80,7 +81,7 @@ impl Element for FlangeContact<'_> {
         Role::Guides
     }
 
-    /// A flange that is free where a stage begins is taken to stay free until it touches.
+    /// A flange that is free at the start of a stage is assumed to be free until it touches.
     fn is_idle(&self, _: bool, _: &Local, force: f64) -> bool {
         force == 0.0
     }
@@ -112,7 +113,7 @@ impl Element for FlangeContact<'_> {
         Some(GuardKind::Touch)
     }
 
-    /// The overlap with the rail, negative where the flange is free.
+    /// The overlap with the rail, negative if the flange is free.
     fn guards(&self, at: &At, put: &mut dyn FnMut(Guard)) {
         let e = at.approach() - at.deflection();
         put(Guard { value: e.abs() - self.flange.clearance, stiffness: self.flange.stiffness });
@@ -127,7 +128,8 @@ impl Element for FlangeContact<'_> {
         energy.contact += 0.5 * flange.stiffness * share * overlap * overlap;
     }
 
-    /// What the flange gives off as it is released while the wheel climbs.
+    /// Energy lost as the flange force is released while the wheel climbs: the power is -k overlap^2/2 times the rate
+    /// of S(h).
     fn power(&self, at: &At, power: &mut Exchanged) {
         let flange = self.flange;
         let (share, slope) = flange.fraction(at.places.height[self.wheel]);

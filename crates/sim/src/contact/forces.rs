@@ -1,12 +1,14 @@
 //! The forces of all elements at one instant or one stage of a step: F = law(p, r), p = e - W F, r = r_0 - Y F.
 //!
-//! W holds the compliance G of the rails and, inside a step, the mobility of the bodies; Y is the mobility that the
-//! rates feel. Which elements are active is given; the caller checks that they push and that the others stay open.
+//! W contains the compliance G of the rails and, inside a step, the mobility of the bodies. Y is the mobility that
+//! acts on the rates. The active set is given; the caller checks that active elements push and that inactive ones
+//! remain open.
 //!
-//! Newton's method on rho(F) = F - law(e - W F, r_0 - Y F), with the Jacobian I + law_p W + law_r Y less the slopes of
-//! the laws by other forces, over the elements whose laws act; those that do not have the row F_i = 0. Steps are halved
-//! while the residual grows. It ends where the change of the forces or their residual is rounding, or the residual is
-//! within the slack that the caller allows. Linear vertical contacts alone are one linear system.
+//! Newton's method is applied to rho(F) = F - law(e - W F, r_0 - Y F). The Jacobian is I + law_p W + law_r Y minus
+//! the slopes of the laws with respect to other forces, over the elements whose laws act; the other elements have the
+//! row F_i = 0. The step is halved while the residual increases. The iteration ends when the change of the forces or
+//! their residual is within rounding, or when the residual is within the slack that the caller allows. If all
+//! elements are linear vertical contacts, a single linear system is solved instead.
 
 use super::element::{Coupling, Law, Local, Query};
 use super::system::System;
@@ -15,26 +17,27 @@ use crate::numerics::dense::{along, factor_general, solve_factored, solve_genera
 /// Relative change of the forces at which Newton's method ends.
 const TOLERANCE: f64 = 1e-13;
 const ITERATIONS: usize = 60;
-/// Fraction of Newton's step below which a smaller one is not tried. A brake on a rail that complies grips within 1e-6
-/// of the forces on either side, and less in short steps.
+/// Damping factor of the Newton step below which the step is not halved again. A brake on
+/// a compliant rail sticks only within 1e-6 of the forces on either side, and within less in short steps.
 const SHORTEST: f64 = 1e-12;
-/// A rate at which every law along the rail gives its limit.
+/// A rate at which every tangential law is at its limit.
 const SATURATED: f64 = 1e150;
 
-/// How an element enters the problem.
+/// Type of the row of an element in the problem.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum RowKind {
-    /// By its law.
+    /// The force follows from the law.
     Law,
-    /// By its law, the rate being that of the penetration: its row of Y is the one of W times this number.
+    /// The force follows from the law, with the rate of the penetration: the row of Y is the row of W times this
+    /// number.
     Memory(f64),
-    /// Its force is known already.
+    /// The force is prescribed.
     Given,
-    /// Its force keeps the displacement of its rail at this value, as far as its law allows.
+    /// The force keeps the displacement of the rail at this value, within the limits of the law.
     Keeps(f64),
 }
 
-/// The effect of all forces on penetrations and rates; matrices over the elements, row-major.
+/// The effect of all forces on penetrations and rates. The matrices are over all elements, row-major.
 pub(crate) struct Effects {
     pub w: Vec<f64>,
     pub y: Vec<f64>,
@@ -46,35 +49,36 @@ pub(crate) struct Effects {
 
 /// Residuals of the laws, and their slopes.
 struct Residuals {
-    /// Penetration and rate of each element under the forces at hand; not kept up for idle elements.
+    /// Penetration and rate of each element under the present forces; not updated for idle elements.
     reached: Vec<[f64; 2]>,
-    /// F - law(F) of every element; then Newton's change.
+    /// Residual F - law(F) of every element; after the solution, Newton's change of the forces.
     value: Vec<f64>,
-    /// Elements whose law acts, and the slopes of these laws.
+    /// Elements whose laws act, and the slopes of these laws.
     acting: Vec<usize>,
     slopes: Vec<Law>,
     couplings: Vec<Coupling>,
-    /// Largest force of what does not act.
+    /// Largest force among the elements that do not act.
     idle: f64,
 }
 
-/// LU factors of a Jacobian over the elements that acted when it was formed.
+/// LU factors of a Jacobian over the elements that acted when it was built.
 struct Factors {
     elements: Vec<usize>,
     jacobian: Vec<f64>,
     pivots: Vec<usize>,
 }
 
-/// One problem of the forces, solved again and again without allocation.
+/// The problem of the forces, solved repeatedly without allocation.
 pub(crate) struct Problem {
     pub effects: Effects,
-    /// Elements that are taken to have no force whatever their law says: their columns of the mobility are not filled.
+    /// Elements that are assumed to have no force, independent of their laws; their columns of the mobility are not
+    /// filled.
     pub idle: Vec<bool>,
-    /// Relative residual of the forces that may be left; rounding alone where it is zero.
+    /// Allowed relative residual of the forces; zero if only rounding is allowed.
     pub slack: f64,
     residuals: Residuals,
     factors: Factors,
-    /// Scratch: the matrix and the unknowns of the linear problem, forces and changes of Newton's method.
+    /// Scratch: matrix and unknowns of the linear problem, forces and changes of Newton's method.
     matrix: Vec<f64>,
     unknown: Vec<usize>,
     start: Vec<f64>,
@@ -92,7 +96,7 @@ impl Effects {
         self.rate[i] - along(&self.y, i, force)
     }
 
-    /// Force of element `i` that keeps the displacement of its rail, beside the others of `force`.
+    /// Force of element `i` that keeps the displacement of its rail, with the other forces of `force` unchanged.
     fn keeping(&self, i: usize, force: &[f64]) -> Option<f64> {
         let RowKind::Keeps(displacement) = self.kind[i] else { return None };
         let own = self.w[i * force.len() + i];
@@ -155,8 +159,8 @@ impl Problem {
         }
     }
 
-    /// Solves for the forces of the `active` elements; `force` holds a first guess. Returns false where Newton's method
-    /// does not converge.
+    /// Solves for the forces of the `active` elements; `force` contains the initial guess. Returns false if the
+    /// solution fails.
     pub fn solve(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
         if system.traits.has_linear_laws && system.traits.is_vertical {
             return self.solve_linear(system, local, active, force);
@@ -164,7 +168,8 @@ impl Problem {
         self.solve_newton(system, local, active, force)
     }
 
-    /// One linear system: F/k + W F + (c/k) Y F = e + (c/k) r, k and c times wheels and fraction.
+    /// Solves the linear system F/k + W F + (c/k) Y F = e + (c/k) r, with k and c multiplied by the number of wheels
+    /// and the fraction.
     fn solve_linear(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
         let m = force.len();
         let Effects { w, y, approach, rate, kind } = &self.effects;
@@ -175,7 +180,7 @@ impl Problem {
         for (row, &i) in self.unknown.iter().enumerate() {
             let law = system.law(i);
             let ratio = law.damping / law.stiffness;
-            // A damper between wheel and rail has Y = W/step: divide its row by 1 + ratio/step.
+            // A damper between wheel and rail has Y = W/step, so its row is divided by 1 + ratio/step.
             let (scale, by_rate) = match kind[i] {
                 RowKind::Memory(per_step) => (1.0 / (1.0 + ratio * per_step), 0.0),
                 _ => (1.0, ratio),
@@ -203,7 +208,7 @@ impl Problem {
         is_solved
     }
 
-    /// Newton's method with step halving on F - law(F) = 0.
+    /// Newton's method with step halving for F - law(F) = 0.
     fn solve_newton(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
         for i in (0..system.verticals()).filter(|&i| !active[i]) {
             force[i] = 0.0;
@@ -235,11 +240,11 @@ impl Problem {
                 return true;
             }
         }
-        // The residual may stall at rounding; accept it where it is small beside the forces.
+        // The residual may stagnate at rounding; it is accepted if it is small relative to the forces.
         size <= 1e-9 * largest(force)
     }
 
-    /// Residual of the laws under `force`, by W and Y; returns its largest entry.
+    /// Evaluates the residuals of the laws under `force` with W and Y; returns the largest absolute residual.
     fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
         for i in 0..force.len() {
             if !self.idle[i] || system.fixed[i].is_followed {
@@ -251,8 +256,8 @@ impl Problem {
         largest(&self.residuals.value)
     }
 
-    /// Fills the residuals F - law(p, r) under `force` at the penetrations and rates reached, the elements that act,
-    /// and the slopes of their laws. What does not act has its force for a residual.
+    /// Fills the residuals F - law(p, r) under `force` at the stored penetrations and rates, the list of acting
+    /// elements, and the slopes of their laws. The residual of an element that does not act is its force.
     fn evaluate_laws(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) {
         let Problem { effects, idle, residuals, .. } = self;
         residuals.clear();
@@ -272,7 +277,7 @@ impl Problem {
             };
             let keeping = effects.keeping(i, force);
             if let Some(wanted) = keeping {
-                // The force that keeps the rail where it is, within what the law gives at the largest rate.
+                // The force that keeps the rail displacement is bounded by the force of the law at a saturated rate.
                 (query.rate, query.fall) = (SATURATED.copysign(wanted), 0.0);
             }
             let known = residuals.couplings.len();
@@ -283,8 +288,8 @@ impl Problem {
             if let Some(wanted) = keeping {
                 law = Law { force: law.force, ..Law::default() };
                 if wanted.abs() <= law.force * wanted.signum() {
-                    // The row is W F/W_ii = displacement/W_ii: the identity of the Jacobian and the diagonal of W/W_ii
-                    // are one.
+                    // The residual is (W F - displacement)/W_ii, so the row of the Jacobian is that of W/W_ii. The
+                    // coupling of slope 1 cancels the diagonal entry of the identity.
                     residuals.couplings.truncate(known);
                     residuals.couplings.push(Coupling { element: i, by: i, slope: 1.0 });
                     law = Law { force: wanted, by_penetration: 1.0 / effects.w[i * m + i], ..Law::default() };
@@ -294,8 +299,8 @@ impl Problem {
         }
     }
 
-    /// Factors the Jacobian of the laws that act: I + law_p W + law_r Y, less what the laws take from other forces.
-    /// Returns false where it is singular.
+    /// Factors the Jacobian of the acting laws: I + law_p W + law_r Y minus the slopes with respect to other forces.
+    /// Returns false if it is singular.
     fn factor(&mut self) -> bool {
         let Problem { effects: Effects { w, y, .. }, residuals, factors, .. } = self;
         let Factors { elements, jacobian, pivots } = factors;
@@ -324,8 +329,8 @@ impl Problem {
         factor_general(&mut jacobian[..count * count], &mut pivots[..count])
     }
 
-    /// Puts Newton's change of the forces in place of their residual, by the factors of the Jacobian. What does not
-    /// act has the rows of the identity.
+    /// Replaces the residuals by Newton's change of the forces, using the factored Jacobian. The rows of elements
+    /// that do not act are those of the identity.
     fn take_newton_step(&mut self) {
         let Problem { effects: Effects { w, y, .. }, residuals, factors, change, .. } = self;
         let (m, count) = (residuals.value.len(), factors.elements.len());
@@ -347,13 +352,13 @@ impl Problem {
         }
     }
 
-    /// Whether the factors of a Jacobian are there.
+    /// Whether a factored Jacobian is available.
     pub fn is_factored(&self) -> bool {
         !self.factors.elements.is_empty()
     }
 
-    /// Newton's change at penetrations and rates that the caller found, by the factors of an earlier Jacobian; `None`
-    /// where other laws act than those whose slopes are factored.
+    /// Newton's change of the forces at penetrations and rates that the caller has set, with the factors of an
+    /// earlier Jacobian. Returns `None` if the set of acting laws differs from the factored one.
     pub fn corrections(
         &mut self,
         system: &System,
@@ -369,7 +374,7 @@ impl Problem {
         Some(&self.residuals.value)
     }
 
-    /// Force of element `i` at a penetration and a rate that are given.
+    /// Force of element `i` at a given penetration and rate.
     pub fn force_at(
         &mut self,
         system: &System,
@@ -394,7 +399,7 @@ impl Problem {
         law.map_or(0.0, |law| law.force)
     }
 
-    /// Takes the penetration and the rate that element `i` has reached.
+    /// Sets the penetration and the rate of element `i`.
     pub fn set_reached(&mut self, i: usize, reached: [f64; 2]) {
         self.residuals.reached[i] = reached;
     }

@@ -1,4 +1,4 @@
-//! Motion of the degrees of freedom without forces of elements, and the mobility that answers to these.
+//! Motion of the degrees of freedom without the forces of elements, and the mobility for these forces.
 
 use nalgebra::{DMatrix, DVector, SVector};
 
@@ -7,18 +7,18 @@ use crate::Error;
 use crate::mechanics::mobility::Mobility;
 use crate::mechanics::state::{Known, State};
 
-/// Loads, mass and mobility at one state, and the motion that they give.
+/// Loads, mass and mobility at one state, and the resulting motion.
 pub(crate) struct FreeMotion<'a> {
-    /// Accelerations a_0 = Z (f - C v - K q); in a stage also the displacements and speeds that they lead to.
+    /// Accelerations a_0 = Z (f - C v - K q); in a stage also the resulting displacements and speeds.
     pub a: DVector<f64>,
     pub q: DVector<f64>,
     pub v: DVector<f64>,
-    /// Forces that do not depend on the elements.
+    /// Forces that are independent of the elements.
     load: DVector<f64>,
     /// Z = (M + g C + g^2 K)^-1 of a stage, and M^-1.
     stage: Mobility<'a>,
     inverse: Mobility<'a>,
-    /// Mass of the bodies, carried ones among them, and scratch for it.
+    /// Mass matrix of the bodies, including carried bodies, and scratch for it.
     mass: DMatrix<f64>,
     columns: Vec<SVector<f64, 6>>,
 }
@@ -43,7 +43,7 @@ impl<'a> FreeMotion<'a> {
     /// Sets the coefficient g of the stage's mobility.
     ///
     /// # Errors
-    /// A structure that is not positive definite.
+    /// Errors of a structure that is not positive definite.
     pub fn set_step(&mut self, system: &System, g: f64) -> Result<(), Error> {
         self.stage.set_step(&system.mechanics, g)
     }
@@ -58,8 +58,8 @@ impl<'a> FreeMotion<'a> {
         &self.inverse
     }
 
-    /// Motion of a stage of the coefficient `g` about `at`: A = Z (f - C v* - K (q* + g v*)), V = v* + g A, Q = q* +
-    /// g V.
+    /// Motion of a stage with coefficient `g` about `at`, without forces of elements: A = Z (f - C v* - K (q* + g
+    /// v*)), V = v* + g A, Q = q* + g V.
     ///
     /// # Errors
     /// A mass that is not positive definite.
@@ -78,7 +78,7 @@ impl<'a> FreeMotion<'a> {
         Ok(())
     }
 
-    /// V = v* + g A and Q = q* + g V by the accelerations at hand.
+    /// Sets V = v* + g A and Q = q* + g V from the present accelerations A.
     fn follow(&mut self, g: f64, known: &Known) {
         for k in 0..self.a.len() {
             self.v[k] = known.v[k] + g * self.a[k];
@@ -86,8 +86,9 @@ impl<'a> FreeMotion<'a> {
         }
     }
 
-    /// Adds to the accelerations of `at` what they lack for its forces, Z (f - M a - B^T F), F those of the elements
-    /// `acting` with the rows `force_row`; the motion of the stage follows. Of bodies alone.
+    /// Sets the accelerations to those of `at` plus the correction Z (f - M a - B^T F) for its forces F, where
+    /// `acting` lists the elements with forces and `force_row` returns their rows; then updates the motion of the
+    /// stage. Applies only to scenes without structures with mass.
     pub fn improve<'r>(
         &mut self,
         system: &System,
@@ -120,7 +121,7 @@ impl<'a> FreeMotion<'a> {
         self.follow(g, known);
     }
 
-    /// Accelerations of `at` by all forces: M^-1 (f - C v - K q - B^T F), with the rows B of all elements.
+    /// Accelerations of `at` due to all forces: M^-1 (f - C v - K q - B^T F), with the rows B of all elements.
     ///
     /// # Errors
     /// A mass that is not positive definite.
@@ -139,14 +140,14 @@ impl<'a> FreeMotion<'a> {
         Ok(())
     }
 
-    /// M^-1 times the forces at `t` that do not depend on the elements.
+    /// M^-1 times the forces at `t` that are independent of the elements.
     pub fn accelerations(&mut self, system: &System, t: f64) -> &DVector<f64> {
         self.fill_load(system, t);
         self.inverse.apply(self.load.as_slice(), self.a.as_mut_slice());
         &self.a
     }
 
-    /// Weights, loads, and what a prescribed x does to the other degrees of freedom.
+    /// Weights, loads, and the inertia forces of a prescribed x on the other degrees of freedom.
     fn fill_load(&mut self, system: &System, t: f64) {
         self.load.copy_from(&system.mechanics.gravity);
         for load in &system.scene.actuators.loads {
@@ -166,7 +167,8 @@ impl<'a> FreeMotion<'a> {
         }
     }
 
-    /// Inertia of carried bodies at `at`, and the forces it adds to the load; the mobility follows.
+    /// Adds the inertia of carried bodies at `at` to the mass matrix and their inertia forces to the load, then
+    /// updates the mobility.
     fn fill_mass(&mut self, system: &System, at: &State, in_stage: bool) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         let constant = mechanics.blocks[0].body_mass();

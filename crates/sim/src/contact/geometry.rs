@@ -1,9 +1,9 @@
-//! The force elements where the wheels are now: places, compliance of the rails, rows.
+//! Geometry of the force elements at one state: positions of wheels, compliance of the rails, rows.
 //!
-//! An update to (t, q) follows this order, since each part reads those before it:
-//! 1. places: prescribed travel and the rail coordinates of all wheels; heights stay those of the last solution;
-//! 2. compliance: G between the elements there, and the fractions of contacts that rigid parts hand over;
-//! 3. rows: the constant part of every element's row, what follows places and time, then the shapes of structures;
+//! An update to (t, q) has the following order, because each part depends on the preceding ones:
+//! 1. positions: prescribed travel and rail coordinates of all wheels; heights remain those of the last solution;
+//! 2. compliance: G between the elements at these positions, and the fractions of contacts between rigid parts;
+//! 3. rows: the constant part of every row, the part due to positions and time, then the shapes of structures;
 //! 4. forces: the slope of the deflected rail under the latest forces, and the rows by which forces load the bodies.
 
 use nalgebra::DVector;
@@ -21,29 +21,29 @@ use crate::numerics::dense::along;
 use crate::scene::dof::arm_rows;
 use crate::{Action, Error};
 
-/// Everything about the elements that depends on where the wheels are.
+/// All data of the elements that depend on the positions of the wheels.
 #[derive(Clone)]
 pub(crate) struct Geometry {
     places: Places,
     rails: RailCompliance,
     rows: Rows,
-    /// The part of the rows that is the same at every state.
+    /// The part of the rows that is constant.
     constant: Rows,
     local: Vec<Local>,
-    /// What rules have switched.
+    /// The switching state that rules have set.
     switches: Switches,
-    /// Slope of the deflected rail under each element, d u/d x, that of its own shape included.
+    /// Slope of the deflected rail under each element, d u/d x, including that of the unloaded rail's shape.
     rail_slope: Vec<f64>,
     shapes: ShapeSlopes,
     is_built: bool,
 }
 
-/// Shapes of structures with mass below the elements.
+/// Shapes of structures with mass at the elements.
 #[derive(Clone)]
 struct ShapeSlopes {
-    /// Slopes of the shapes under each element, over the degrees of freedom, row-major.
+    /// Slopes of the shapes at each element, over the degrees of freedom, row-major.
     all: Vec<f64>,
-    /// Scratch of one probe.
+    /// Scratch for one probe.
     value: Vec<f64>,
     slope: Vec<f64>,
 }
@@ -68,12 +68,12 @@ impl Geometry {
         }
     }
 
-    /// Places of the wheels.
+    /// Positions of the wheels.
     pub fn places(&self) -> &Places {
         &self.places
     }
 
-    /// Compliance of the rails without mass.
+    /// Compliance of the massless rails.
     #[inline]
     pub fn rails(&self) -> &RailMatrices {
         self.rails.matrices()
@@ -85,7 +85,7 @@ impl Geometry {
         &self.rows
     }
 
-    /// What changes about the elements beside their rows.
+    /// Properties of the elements, other than their rows, that change with the state.
     #[inline]
     pub fn local(&self) -> &[Local] {
         &self.local
@@ -97,7 +97,7 @@ impl Geometry {
         self.local[i].fraction[0]
     }
 
-    /// What rules have switched.
+    /// The switching state that rules have set.
     pub fn switches(&self) -> &Switches {
         &self.switches
     }
@@ -107,27 +107,27 @@ impl Geometry {
         self.rail_slope[i]
     }
 
-    /// Approach of element `i` at the degrees of freedom `q`, before the deflection of the rails.
+    /// Approach of element `i` at the degrees of freedom `q`, without the deflection of the rails.
     pub fn approach(&self, i: usize, q: &DVector<f64>) -> f64 {
         self.rows.approach_at(i, q)
     }
 
-    /// Rate that the damper or the friction of element `i` feels at the speeds `v`.
+    /// Rate for the damper or the friction law of element `i` at the speeds `v`.
     pub fn rate(&self, i: usize, v: &DVector<f64>) -> f64 {
         self.rows.rate_at(i, v)
     }
 
-    /// Deflection of the rail without mass at element `i` under `force`.
+    /// Deflection of the massless rail at element `i` under `force`.
     pub fn deflection(&self, i: usize, force: &[f64]) -> f64 {
         self.rails().deflection(i, force)
     }
 
-    /// Compliance of the rail at element `i` by its own force.
+    /// Compliance of the rail at element `i` under its own force.
     pub fn own_compliance(&self, i: usize) -> f64 {
         self.rails().value[i * self.local.len() + i]
     }
 
-    /// The scene at `state`, to which this geometry belongs.
+    /// The scene at `state`; this geometry must belong to `state`.
     #[inline]
     pub fn frame<'c>(&'c self, system: &'c System<'c>, state: &'c State) -> Frame<'c> {
         Frame {
@@ -144,10 +144,10 @@ impl Geometry {
         }
     }
 
-    /// Updates everything to (t, q); `force` are the latest forces, for the slopes of the rails.
+    /// Updates all data to (t, q); `force` contains the latest forces, for the slopes of the rails.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Errors of the rail models.
     pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         self.places.move_to(mechanics, t, q);
@@ -212,8 +212,9 @@ impl Geometry {
         Ok(())
     }
 
-    /// Slope of the deflected rail under each element that presses, for the forces and degrees of freedom given and the
-    /// wheels where the last update found them. Where nothing presses, nothing feels it: zero.
+    /// Computes the slope of the deflected rail under each element with a force, for the given forces and degrees of
+    /// freedom and the wheel positions of the last update. It is set to zero for elements without force, where it has
+    /// no effect.
     pub fn update_rail_slope(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
         for (i, own) in force.iter().enumerate() {
             if *own == 0.0 {
@@ -230,8 +231,8 @@ impl Geometry {
         }
     }
 
-    /// Rows of the forces: those of the approach, or of the rate along the rail, less the rail's slope times the rows
-    /// of the wheel's x.
+    /// Computes the rows of the forces: the rows of the approach, or of the rate for tangential elements, minus the
+    /// slope of the rail times the rows of the wheel's x.
     fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
         let n = system.mechanics.dofs;
         for (i, fixed) in system.fixed.iter().enumerate() {
@@ -255,8 +256,8 @@ impl Geometry {
         }
     }
 
-    /// Heights of the wheels' centres above their rails by the penetrations of `at`; returns the largest relative
-    /// change where heights matter.
+    /// Computes the heights of the wheel centres above their rails from the penetrations of `at`. Returns the largest
+    /// relative change, or zero if no element depends on heights.
     pub fn update_heights(&mut self, system: &System, at: &State) -> f64 {
         if !system.traits.uses_heights {
             return 0.0;
@@ -276,36 +277,37 @@ impl Geometry {
         self.places.reset_heights(&system.mechanics);
     }
 
-    /// Puts wheel `w` on a piece of its uneven rail.
+    /// Sets the piece of the uneven rail on which wheel `w` runs.
     pub fn set_piece(&mut self, w: usize, piece: usize) {
         self.places.piece[w] = piece;
     }
 
-    /// Puts all wheels on pieces of their uneven rails.
+    /// Sets the pieces of uneven rails on which the wheels run.
     pub fn set_pieces(&mut self, pieces: &[usize]) {
         self.places.piece.copy_from_slice(pieces);
     }
 
-    /// Carries out `action` of a rule at time `t`; whether the run ends.
+    /// Executes `action` of a rule at time `t`. Returns whether the run ends.
     ///
     /// # Errors
-    /// Hoisting that would take in more rope than there is before the end.
+    /// A hoisting speed that would wind up the whole rope before the end of the run.
     pub fn switch(&mut self, system: &System, action: Action, t: f64) -> Result<bool, Error> {
         self.switches.switch(system.scene, action, t)
     }
 
-    /// Lets the compliance be extrapolated as far as steps of the relative error `tolerance` allow.
+    /// Sets the tolerance distances for extrapolation of the compliance, for steps with the relative error
+    /// `tolerance`; `radius` is the radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
         self.rails.set_accuracy(tolerance, radius);
     }
 
-    /// Whether paths are of use.
+    /// Whether interpolation of the compliance along paths is useful.
     pub fn wants_paths(&self) -> bool {
         self.rails.wants_paths()
     }
 
-    /// Sets the paths along which the compliance is interpolated, from the first of three times and degrees of
-    /// freedom to the second or, where no rail element ends before it, to the third.
+    /// Sets the paths along which the compliance is interpolated. `ends` are three times with their degrees of
+    /// freedom. The path runs from the first to the third, or to the second if a rail element ends before the third.
     pub fn set_paths(&mut self, system: &System, ends: [(f64, &DVector<f64>); 3]) {
         let mechanics = &system.mechanics;
         let places = ends.map(|(t, q)| {
@@ -315,13 +317,13 @@ impl Geometry {
         self.rails.set_paths(mechanics, &system.probes, places.each_ref().map(Vec::as_slice));
     }
 
-    /// Drops the paths of the compliance.
+    /// Removes the paths of the compliance.
     pub fn clear_paths(&mut self) {
         self.rails.clear_paths();
     }
 
-    /// Puts the wheels of a crossing at uniform `speed` where they are at time `t`, from their `start`, without an
-    /// update of anything else.
+    /// Sets the rail coordinates of wheels that cross at constant `speed` from their coordinates `start`, at time
+    /// `t`. No other data are updated, except the travel of body `root`.
     pub fn move_uniformly(
         &mut self,
         system: &System,
@@ -340,12 +342,12 @@ impl Geometry {
         }
     }
 
-    /// Takes slopes of the deflected rails that were found otherwise.
+    /// Sets slopes of the deflected rails that were computed elsewhere.
     pub fn set_rail_slope(&mut self, slope: &[f64]) {
         self.rail_slope.copy_from_slice(slope);
     }
 
-    /// Takes a compliance that was found otherwise, row by row.
+    /// Sets a compliance that was computed elsewhere, row by row.
     pub fn set_compliance(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>) {
         self.rails.set_value(rows, self.local.len());
     }

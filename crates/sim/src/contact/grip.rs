@@ -1,4 +1,4 @@
-//! The wheels through which a drive or a brake acts: where they touch their rails, and how hard they are pressed.
+//! The wheels through which a drive or a brake acts: their contact points and the limit of traction.
 
 use splines::Axis;
 
@@ -6,17 +6,18 @@ use super::element::{Coupling, ElementProbe};
 use crate::mechanics::assembly::Mechanics;
 use crate::scene::dof::arm_rows;
 
-/// Wheels of some contacts of a body, acted on evenly at their treads.
+/// Wheels of some contacts of a body that transmit the force in equal parts at their treads.
 pub(crate) struct Grip {
-    /// Mean row of the treads: their speed along x by the body's degrees of freedom; that of the origin without wheels.
+    /// Mean of the rows of the treads, which yield their speeds along x from the degrees of freedom of the body.
+    /// Without wheels it is the row of the body's origin.
     pub row: [f64; 6],
     pub wheels: Vec<usize>,
-    /// Vertical contacts whose force lets the element act, each with its mu.
+    /// Vertical contacts whose forces determine the traction, each with its friction coefficient mu.
     pressed: Vec<(usize, f64)>,
 }
 
 impl Grip {
-    /// The grip of `contacts`; with `is_limited` its traction, the sum of mu N, limits the force.
+    /// The grip of `contacts`. If `is_limited` is true, the traction (the sum of mu N) limits the force.
     pub fn new(mechanics: &Mechanics, contacts: &[usize], is_limited: bool) -> Grip {
         let all = mechanics.wheels.iter().enumerate();
         let wheels = all.filter(|(_, wheel)| contacts.contains(&wheel.contact)).map(|(w, _)| w).collect();
@@ -24,19 +25,19 @@ impl Grip {
         Grip { row: tread_row(mechanics, contacts), wheels, pressed }
     }
 
-    /// Sum of mu N, N >= 0.
+    /// Traction: the sum of mu N over contacts with N > 0.
     pub fn traction(&self, force: &[f64]) -> f64 {
         self.pressed.iter().map(|&(vertical, mu)| mu * force[vertical].max(0.0)).sum()
     }
 
-    /// Adds the slopes of a law that grows with the traction by `slope`.
+    /// Adds the couplings of a law whose derivative with respect to the traction is `slope`.
     pub fn couple(&self, element: usize, force: &[f64], slope: f64, couplings: &mut Vec<Coupling>) {
         for &(vertical, mu) in self.pressed.iter().filter(|(vertical, _)| force[*vertical] > 0.0) {
             couplings.push(Coupling { element, by: vertical, slope: slope * mu });
         }
     }
 
-    /// A probe along the rail below every wheel.
+    /// One longitudinal probe on the rail below every wheel.
     pub fn probes(&self) -> Vec<ElementProbe> {
         let weight = 1.0 / self.wheels.len() as f64;
         let wheels = self.wheels.iter();
@@ -44,7 +45,7 @@ impl Grip {
     }
 }
 
-/// Mean over the wheels of `contacts` of the rows of their treads; the origin's where there are none.
+/// Mean of the tread rows of the wheels of `contacts`; the row of the body's origin if there are none.
 fn tread_row(mechanics: &Mechanics, contacts: &[usize]) -> [f64; 6] {
     let wheels: Vec<_> = mechanics.wheels.iter().filter(|wheel| contacts.contains(&wheel.contact)).collect();
     if wheels.is_empty() {

@@ -7,9 +7,9 @@ use crate::numerics::dense::along;
 pub(crate) struct RailMatrices {
     /// G: deflection of the rail at element i per unit of force j.
     pub value: Vec<f64>,
-    /// d G(i, j)/d x_i, by the place of element i along its rail.
+    /// d G(i, j)/d x_i, where x_i is the position of element i along its rail.
     pub slope: Vec<f64>,
-    /// d G(i, j)/d x by the place of each tangential contact of element i, over elements j.
+    /// Derivative of G(i, j) with respect to the position of each tangential contact of element i, over elements j.
     pub tangential: Vec<f64>,
 }
 

@@ -1,10 +1,10 @@
-//! Where the contacts are, how rails and bodies comply there, and the forces of one stage.
+//! Geometry of the contacts, compliance of rails and bodies at them, and the forces of one stage.
 //!
-//! Every unknown scalar force is a force element. [`element`] says what an element answers, one file each holds the
-//! kinds ([`vertical`], [`flange`], [`traction`], [`drive`], [`brake`], [`rope`], [`stop`]), [`elements`] lists them,
-//! and [`system`] is a scene with its elements. [`geometry`] brings them to a state, [`forces`] solves for their
-//! forces, and [`solver`] puts both together at an instant and in a stage. The wing stands on `mechanics` and knows
-//! no step.
+//! Every unknown scalar force is a force element. [`element`] defines the trait of an element, and each kind has one
+//! file ([`vertical`], [`flange`], [`traction`], [`drive`], [`brake`], [`rope`], [`stop`]). [`elements`] lists the
+//! kinds, and [`system`] is a scene with its elements. [`geometry`] evaluates the elements at a state, [`forces`]
+//! solves for their forces, and [`solver`] combines both at one instant and in one stage of a step. This module
+//! depends on `mechanics` and is independent of the time integration.
 
 pub(crate) mod active;
 pub(crate) mod brake;

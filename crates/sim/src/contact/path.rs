@@ -1,10 +1,11 @@
-//! Compliance of three and more wheels of one structure along their path.
+//! Compliance of three or more wheels of one structure, interpolated along their path.
 //!
 //! For structures with a symmetric G, the compliance is evaluated at both ends of a path of up to four steps and
-//! interpolated between them. Wheels of one contact move alike: a group is what they do to one element. With s in [0,
-//! 1] the fraction of the path, G(s) is the cubic by the values and the slopes at both ends; the slopes of single
-//! groups are the quadratics of least curvature that agree with it, dG/ds = G_x x' + G_y y', so that forces along the
-//! rail do the work that the rail stores. Beside the path G is extrapolated by its slopes.
+//! interpolated between them. The wheels of one contact move together; a group consists of the wheels of one contact
+//! that act on one element. With s in [0, 1] the fraction of the path, G(s) is the cubic defined by the values and
+//! the slopes at both ends. The slopes of single groups are the quadratics of least curvature that satisfy dG/ds =
+//! G_x x' + G_y y', so that the work of forces along the rail equals the change of the elastic energy in the rail. At
+//! a distance from the path, G is extrapolated by its slopes.
 
 use splines::{Compliance, Influence, Probe};
 
@@ -13,19 +14,19 @@ use super::probes::Entry;
 use crate::Foundation;
 use crate::mechanics::assembly::Mechanics;
 
-/// Number of probes from which it pays.
+/// Number of probes from which interpolation along a path is faster than evaluation.
 const MANY: usize = 3;
 
-/// The wheels of one contact under one element.
+/// The wheels of one contact that act on one element.
 #[derive(Clone)]
 struct Group {
     element: usize,
-    /// A wheel of it.
+    /// One of its wheels.
     wheel: usize,
     tangential: Option<usize>,
 }
 
-/// The part of one wheel in a group.
+/// The contribution of one probe to a group.
 #[derive(Clone, Copy)]
 struct Member {
     group: usize,
@@ -33,43 +34,44 @@ struct Member {
     weight: f64,
 }
 
-/// The compliance over the groups at one place of each.
+/// The compliance over the groups at one end of the path.
 #[derive(Clone, Default)]
 struct PathEnd {
     /// Rail coordinate of each group's wheel.
     x: Vec<f64>,
     value: Vec<f64>,
-    /// By the row's place.
+    /// Derivatives with respect to the position of the row's group.
     slope: Vec<f64>,
 }
 
-/// The path of a structure's wheels.
+/// The path of the wheels of a structure.
 #[derive(Clone)]
 pub(crate) struct CompliancePath {
     groups: Vec<Group>,
-    /// Of each entry: its group, its probe and its weight. A drive and a brake of one wheel probe the same.
+    /// Group, probe and weight of each entry. A drive and a brake on the same wheel have a common probe.
     members: Vec<Member>,
     probes: Vec<Probe>,
     /// The wheel of each probe.
     wheels: Vec<usize>,
     influence: Influence,
     ends: [PathEnd; 2],
-    /// Rail coordinates of all wheels at the end.
+    /// Rail coordinates of all wheels at the end of the path.
     last: Vec<f64>,
-    /// Length of the path of each group, and its distance from the path at the last place.
+    /// Length of the path of each group, and the distance of each group from the path at the latest position.
     length: Vec<f64>,
     offset: Vec<f64>,
-    /// Coefficients of s^0 to s^3 of the values, of s^0 to s^2 of the slopes; over pairs of groups, row-major.
+    /// Polynomial coefficients, s^0 to s^3 of the values and s^0 to s^2 of the slopes, over pairs of groups,
+    /// row-major.
     value: [Vec<f64>; 4],
     slope: [Vec<f64>; 3],
-    /// Values and slopes at the last place.
+    /// Values and slopes at the latest position.
     now: [Vec<f64>; 2],
     is_set: bool,
 }
 
 impl CompliancePath {
-    /// The path of the probes `entries`, not set yet. `None` where evaluating the compliance is as fast, and where it
-    /// is not symmetric.
+    /// Creates the path of the probes `entries`, which is not set yet. Returns `None` if direct evaluation of the
+    /// compliance is as fast, if the compliance is not symmetric, or if the structure consists of rigid parts.
     pub fn new(mechanics: &Mechanics, foundation: &Foundation, entries: &[Entry]) -> Option<CompliancePath> {
         let compliance = foundation.compliance.as_ref()?;
         if entries.len() < MANY || !compliance.is_symmetric() || foundation.parts.is_some() {
@@ -113,11 +115,12 @@ impl CompliancePath {
         })
     }
 
-    /// Sets the path between two places of all wheels, `from` and `to`; no rail element ends between them. It begins
-    /// where the last path ended, if `goes_on` and that is within the distance `reach`.
+    /// Sets the path between the positions `from` and `to` of all wheels; no rail element may end between them. If
+    /// `goes_on` is true and `from` is within the distance `reach` of the end of the last path, the new path starts
+    /// at that end.
     ///
     /// # Errors
-    /// What the compliance refuses.
+    /// Errors of the compliance.
     pub fn set(
         &mut self,
         compliance: &dyn Compliance,
@@ -140,7 +143,7 @@ impl CompliancePath {
         Ok(())
     }
 
-    /// Whether the path leads to `places`, within the distance `reach`.
+    /// Whether `places` is within the distance `reach` of the path.
     pub fn leads_to(&mut self, places: &[f64], reach: f64) -> bool {
         self.is_set && self.project(places).1 <= reach
     }
@@ -150,12 +153,12 @@ impl CompliancePath {
         &self.last
     }
 
-    /// Drops the path.
+    /// Removes the path.
     pub fn clear(&mut self) {
         self.is_set = false;
     }
 
-    /// The compliance at one end, its entries summed over the groups.
+    /// Evaluates the compliance at one end and sums its entries over the groups.
     fn evaluate(
         &mut self,
         end: usize,
@@ -200,7 +203,7 @@ impl CompliancePath {
                 let (rise, start, end) = (to.value[there] - from.value[there], along(from), along(to));
                 let cubic =
                     [from.value[there], start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise];
-                // dG/ds less what slopes that grow evenly make of it is bend s (1 - s).
+                // dG/ds minus the part of linearly varying group slopes equals bend (x^2 + y^2) s (1 - s).
                 let squares = x * x + y * y;
                 let bend = if squares > 0.0 { -3.0 * cubic[3] / squares } else { 0.0 };
                 for (pair, length) in [(there, x), (back, y)] {
@@ -217,8 +220,8 @@ impl CompliancePath {
         }
     }
 
-    /// Fraction of the path that is nearest to `places`, and the largest distance of a wheel from it; `offset` takes
-    /// the distance of each.
+    /// Fraction of the path at the point nearest to `places`, and the largest distance of a wheel from that point.
+    /// The distances of all groups are stored in `offset`.
     fn project(&mut self, places: &[f64]) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
         for ((group, offset), (start, length)) in
@@ -237,8 +240,8 @@ impl CompliancePath {
         (s, farthest)
     }
 
-    /// Brings values and slopes to where the wheels are, if the path is set and they are within the distance `reach`
-    /// of it.
+    /// Updates values and slopes to the positions `places`. Returns false if the path is not set or a wheel is
+    /// farther than `reach` from it.
     pub fn follow(&mut self, places: &[f64], reach: f64) -> bool {
         if !self.is_set {
             return false;
@@ -272,7 +275,7 @@ impl CompliancePath {
         true
     }
 
-    /// Puts the last values and slopes into the matrices over `m` elements.
+    /// Writes the latest values and slopes into the matrices over `m` elements.
     pub fn put(&self, m: usize, matrices: &mut RailMatrices) {
         let RailMatrices { value: sums, slope: rates, tangential } = matrices;
         for group in &self.groups {

@@ -1,20 +1,21 @@
-//! Where the wheels are: travel of bodies, rail coordinates, heights, and the pieces of uneven rails.
+//! Positions of the wheels: travel of bodies, rail coordinates, heights, and the pieces of uneven rails.
 
 use nalgebra::DVector;
 
 use crate::Travel;
 use crate::mechanics::assembly::Mechanics;
 
-/// Places of the wheels at one state.
+/// Positions of the wheels at one state.
 #[derive(Clone)]
 pub(crate) struct Places {
     /// Travel of each body whose x is prescribed.
     pub travel: Vec<Travel>,
     /// Rail coordinate of each wheel.
     pub x: Vec<f64>,
-    /// Piece of the uneven rail that each wheel is on; it changes where a wheel crosses a corner, not within a step.
+    /// Piece of the uneven rail on which each wheel runs; it changes when a wheel passes a corner, never within a
+    /// step.
     pub piece: Vec<usize>,
-    /// Height of each wheel's centre above its rail, from the last solution.
+    /// Height of each wheel's centre above its rail in the last solution.
     pub height: Vec<f64>,
 }
 
@@ -38,7 +39,7 @@ impl Places {
         }
     }
 
-    /// Brings the prescribed travel to time `t`.
+    /// Updates the prescribed travel to time `t`.
     pub fn travel_to(&mut self, mechanics: &Mechanics, t: f64) {
         for (travel, body) in self.travel.iter_mut().zip(&mechanics.scene.bodies) {
             if let Some(profile) = &body.motion {
@@ -47,7 +48,7 @@ impl Places {
         }
     }
 
-    /// Brings travel and rail coordinates to (t, q).
+    /// Updates travel and rail coordinates to (t, q).
     pub fn move_to(&mut self, mechanics: &Mechanics, t: f64, q: &DVector<f64>) {
         self.travel_to(mechanics, t);
         for w in 0..mechanics.wheels.len() {
@@ -55,7 +56,7 @@ impl Places {
         }
     }
 
-    /// Rail coordinate of wheel `w` at the degrees of freedom `q`, its prescribed travel being that of the last update.
+    /// Rail coordinate of wheel `w` at the degrees of freedom `q`, with the prescribed travel of the last update.
     pub fn of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
         let wheel = &mechanics.wheels[w];
         let body = &mechanics.scene.bodies[wheel.body];

@@ -1,18 +1,18 @@
-//! Where force elements load the structures: probes on rails, and the unknowns that rails without mass add.
+//! Load points of the force elements on the structures: probes on rails, and the additional states of massless rails.
 
 use splines::Probe;
 
-/// One probe of a structure: the element that it belongs to, and its signed weight there.
+/// One probe of a structure: its element, and its signed weight in that element.
 pub(crate) struct Entry {
     pub element: usize,
     pub weight: f64,
     pub wheel: usize,
     pub probe: Probe,
-    /// The tangential contact that it belongs to, an index into [`Probes::tangential`].
+    /// The tangential contact of the probe, an index into [`Probes::tangential`].
     pub tangential: Option<usize>,
 }
 
-/// Wheels of one contact under an element along a rail that complies: they move alike.
+/// Wheels of one contact below one element along a compliant rail; they have the same motion along the rail.
 pub(crate) struct TangentialContact {
     pub element: usize,
     /// The first of its wheels.
@@ -23,13 +23,13 @@ pub(crate) struct TangentialContact {
 pub(crate) struct Probes {
     /// Probes of each structure.
     pub entries: Vec<Vec<Entry>>,
-    /// Whether the probes of a structure are the elements in their order, with weight -1 each: the compliance of the
-    /// elements is then the structure's.
+    /// Whether the probes of a structure are the elements in their order, each with weight -1. The compliance between
+    /// the elements is then that of the structure.
     pub is_direct: Vec<bool>,
-    /// Where elements along the rails load structures that comply along them.
+    /// Contacts of tangential elements with structures that are compliant along their rails.
     pub tangential: Vec<TangentialContact>,
-    /// Where the state holds the penetration of each element, or the displacement of its rail along x.
+    /// Index in the state of the penetration of each element, or of the longitudinal displacement of its rail.
     pub slots: Vec<Option<usize>>,
-    /// Elements whose rails' displacement along x is a state.
+    /// Elements for which the longitudinal displacement of the rail is a state.
     pub sliding: Vec<usize>,
 }

@@ -1,6 +1,6 @@
-//! The mobility of bodies and structures as the elements see it: Z B^T, R Z B^T and R' Z B^T.
+//! The mobility of bodies and structures, projected on the rows of the elements: Z B^T, R Z B^T and R' Z B^T.
 //!
-//! Columns are those of the elements that may have a force in a stage; idle ones are left out.
+//! The columns are those of the elements that may have a force in a stage; idle elements are omitted.
 
 use nalgebra::DVector;
 
@@ -15,12 +15,12 @@ pub(crate) struct Projection {
     columns: Vec<usize>,
     /// Z B^T, degrees of freedom x columns, row-major.
     spread: Vec<f64>,
-    /// R Z B^T, elements x columns, row-major; and the same with the rows of rates that are felt.
+    /// R Z B^T, elements x columns, row-major; and R' Z B^T for the rows of rates.
     approach: Vec<f64>,
     rate: Vec<f64>,
-    /// Whether the products stay, since rows and mobility do.
+    /// Whether the products are constant because rows and mobility are constant.
     is_constant: bool,
-    /// Scratch: forces of the columns, and an answer of the mobility.
+    /// Scratch: forces of the columns, and a product with the mobility.
     force: Vec<f64>,
     answer: DVector<f64>,
 }
@@ -50,18 +50,18 @@ impl Projection {
         &self.approach[i * count..(i + 1) * count]
     }
 
-    /// Row `i` of R' Z B^T, over the columns; only of elements that feel rates.
+    /// Row `i` of R' Z B^T, over the columns; defined only for elements whose laws depend on rates.
     pub fn rate_row(&self, i: usize) -> &[f64] {
         let count = self.columns.len();
         &self.rate[i * count..(i + 1) * count]
     }
 
-    /// Fills the products for the elements that are not `idle`.
+    /// Computes the products for the elements that are not `idle`.
     pub fn fill(&mut self, system: &System, rows: &Rows, mobility: &Mobility, idle: &[bool]) {
         if self.is_constant {
             return;
         }
-        // Rows that stay serve whatever acts later.
+        // Constant products include all elements, because they are used for every later active set.
         let all = system.traits.has_constant_rows && system.mechanics.carried.is_empty();
         self.columns.clear();
         self.columns.extend((0..idle.len()).filter(|&j| all || !idle[j]));
@@ -83,7 +83,7 @@ impl Projection {
         self.is_constant = all;
     }
 
-    /// `a` = `free` + `sign` Z B^T F, with the forces F of the columns in `force`.
+    /// Sets `a` = `free` + `sign` Z B^T F, where F are the entries of `force` for the columns.
     pub fn add_forces(&mut self, free: &DVector<f64>, sign: f64, force: &[f64], a: &mut DVector<f64>) {
         self.force.clear();
         self.force.extend(self.columns.iter().map(|&j| force[j]));
@@ -94,7 +94,7 @@ impl Projection {
     }
 }
 
-/// `sum` = `row` times a row-major matrix as wide as `sum`.
+/// Sets `sum` to the product of `row` and a row-major matrix with as many columns as `sum` has entries.
 fn product(row: &[f64], matrix: &[f64], sum: &mut [f64]) {
     sum.fill(0.0);
     let width = sum.len().max(1);

@@ -1,4 +1,4 @@
-//! An elastic rope between two points: T = EA (l - l0)/l0 + c (l' - l0') where it is taut.
+//! An elastic rope between two points: T = EA (l - l0)/l0 + c (l' - l0') if it is taut.
 
 use super::active::ActiveSet;
 use super::element::{At, Coupling, Element, Law, Local, Query, Role, Where};
@@ -14,7 +14,7 @@ use crate::{Channel, Rope};
 pub(crate) struct RopeForce<'a> {
     pub rope: &'a Rope,
     index: usize,
-    /// From the end `from` to the end `to`; boxed, since wheels need little room.
+    /// The pair from the end `from` to the end `to`; boxed, because the other kinds of elements are much smaller.
     points: Box<PointPair>,
 }
 
@@ -31,7 +31,7 @@ impl<'a> RopeForce<'a> {
             .collect()
     }
 
-    /// Both ends; `None` where there is none to begin from.
+    /// Both ends; `None` if there is no first end.
     pub fn ends(&self) -> Option<[&Point; 2]> {
         Some([self.points.from.as_ref()?, &self.points.to])
     }
@@ -105,7 +105,7 @@ impl Element for RopeForce<'_> {
         let p = at.approach();
         spring::dissipate(at, power);
         if spring.unstretched[1] != 0.0 {
-            // EA p^2/(2 l0) also falls and grows with l0 itself.
+            // The elastic energy EA p^2/(2 l0) also depends on l0 explicitly.
             let share = 0.5 * spring.stiffness * p * p / spring.unstretched[0];
             power.hoists -= (at.force() + share) * spring.unstretched[1];
         }

@@ -1,8 +1,9 @@
 //! The rows of all force elements over the degrees of freedom.
 //!
-//! Element i approaches its rail (or stretches, or meets its stop) by e_i = R_i q + offset, and moves at the rate
-//! R'_i v + offset'; its force loads the degrees of freedom by f = -B_i^T F_i. B_i is R_i (or R'_i, for forces along a
-//! rail) and, where wheels roll freely, the force along the rail by its slope.
+//! The approach of element i to its rail (or its stretch, or its penetration into a stop) is e_i = R_i q + offset,
+//! and its rate is R'_i v + offset'. Its force loads the degrees of freedom by f = -B_i^T F_i. B_i is R_i (or R'_i,
+//! for forces along a rail), plus the component of the force along the rail due to the slope of the rail, if bodies
+//! move freely along it.
 
 use nalgebra::DVector;
 
@@ -13,19 +14,19 @@ use crate::numerics::dense::along;
 #[derive(Clone)]
 pub(crate) struct Rows {
     dofs: usize,
-    /// R, the approach by the degrees of freedom, before the deflection of the rails; and its offset.
+    /// R, the rows of the approach without the deflection of the rails, and its offset.
     pub approach: Vec<f64>,
     pub approach_offset: Vec<f64>,
-    /// R', the rates that dampers and friction feel; and their offset.
+    /// R', the rows of the rates of dampers and friction, and their offset.
     pub rate: Vec<f64>,
     pub rate_offset: Vec<f64>,
-    /// B, the loads on the degrees of freedom.
+    /// B, the rows of the loads on the degrees of freedom.
     pub force: Vec<f64>,
-    /// Growth of each approach along the rail by the shape of the unloaded rail, d e/d x.
+    /// Derivative of each approach along the rail due to the shape of the unloaded rail, d e/d x.
     pub rise: Vec<f64>,
 }
 
-/// The row of one element while it is written.
+/// The row of one element, for writing.
 pub(crate) struct RowMut<'r> {
     pub approach: &'r mut [f64],
     pub approach_offset: &'r mut f64,
@@ -48,7 +49,7 @@ impl Rows {
         }
     }
 
-    /// Takes approach and rate rows with the offset of the approach from `constant`; the shape of the rail is flat.
+    /// Copies the rows of approach and rate and the offset of the approach from `constant`; sets `rise` to zero.
     pub fn reset(&mut self, constant: &Rows) {
         self.approach.copy_from_slice(&constant.approach);
         self.rate.copy_from_slice(&constant.rate);
@@ -56,7 +57,7 @@ impl Rows {
         self.rise.fill(0.0);
     }
 
-    /// The row of element `i`, to be written.
+    /// The row of element `i`, for writing.
     pub fn row_mut(&mut self, i: usize) -> RowMut<'_> {
         let span = i * self.dofs..(i + 1) * self.dofs;
         RowMut {
@@ -85,13 +86,13 @@ impl Rows {
         &self.force[i * self.dofs..(i + 1) * self.dofs]
     }
 
-    /// Approach of element `i` at the degrees of freedom `q`, before the deflection of the rails.
+    /// Approach of element `i` at the degrees of freedom `q`, without the deflection of the rails.
     #[inline]
     pub fn approach_at(&self, i: usize, q: &DVector<f64>) -> f64 {
         self.approach_offset[i] + along(&self.approach, i, q.as_slice())
     }
 
-    /// Rate that the damper or the friction of element `i` feels at the speeds `v`.
+    /// Rate for the damper or the friction law of element `i` at the speeds `v`.
     #[inline]
     pub fn rate_at(&self, i: usize, v: &DVector<f64>) -> f64 {
         self.rate_offset[i] + along(&self.rate, i, v.as_slice())
@@ -99,8 +100,8 @@ impl Rows {
 }
 
 impl RowMut<'_> {
-    /// Adds `scale` times a combination `line` of the displacements of a body to the approach. A constant part of x is
-    /// left out: it is the place along the rail.
+    /// Adds `scale` times the linear combination `line` of the displacements of a body to the approach. The constant
+    /// part of x is omitted because it is the position along the rail.
     pub fn add_approach(&mut self, kinematics: &Kinematics, body: usize, line: [f64; 6], scale: f64) {
         let (terms, constant) = (kinematics.terms(body), kinematics.constant(body));
         for (i, entry) in line.into_iter().enumerate() {
@@ -113,7 +114,7 @@ impl RowMut<'_> {
         }
     }
 
-    /// Adds a combination `line` of the speeds of a body to the rate.
+    /// Adds the linear combination `line` of the speeds of a body to the rate.
     pub fn add_rate(&mut self, kinematics: &Kinematics, body: usize, line: [f64; 6]) {
         for (entry, terms) in line.into_iter().zip(kinematics.terms(body)) {
             for &(number, coefficient) in terms {

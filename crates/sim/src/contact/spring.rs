@@ -1,4 +1,4 @@
-//! The law that ropes and stops share: a one-sided spring with a damper, F = k p + c p' where p > 0 and F > 0.
+//! The force law of ropes and stops: a one-sided spring with a damper, F = k p + c p' where p > 0 and F > 0.
 
 use super::active::ActiveSet;
 use super::element::{At, Law, Query, Spring, Where};
@@ -7,17 +7,17 @@ use super::rows::RowMut;
 use crate::mechanics::point::PointPair;
 use crate::numerics::dense::dot;
 
-/// Rounding of a stretch or depth, relative to the places it comes from.
+/// Rounding error of a stretch or penetration, relative to the positions from which it is computed.
 pub(crate) const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl Spring {
-    /// Force by stretch or depth `p` and its rate, as if it could both pull and push.
+    /// Force for the stretch or penetration `p` and its rate, without the one-sided limit.
     pub fn force(&self, p: f64, rate: f64) -> f64 {
         self.stiffness * p + self.damping * rate
     }
 
-    /// The force at `p` and `rate`; negative where it must not act: the lesser of the law and its spring, since the
-    /// damper's force may jump where it begins.
+    /// Switching margin at `p` and `rate`: the smaller of the total force and the spring force, because the force of
+    /// the damper may jump when the spring begins to act. The spring must not act if the margin is negative.
     pub fn margin(&self, p: f64, rate: f64) -> f64 {
         self.force(p, rate).min(self.stiffness * p)
     }
@@ -34,7 +34,7 @@ pub(crate) fn law(query: &Query) -> Option<Law> {
     })
 }
 
-/// Guard of a spring: its force beyond the noise of its places.
+/// Switching function of a spring: its margin reduced by the noise of its positions.
 pub(crate) fn switch(at: &At, active: &ActiveSet) -> f64 {
     let spring = &at.local().spring;
     let margin = spring.margin(at.approach(), at.rate());
@@ -49,19 +49,20 @@ pub(crate) fn stored(at: &At, energy: &mut Stored) {
     }
 }
 
-/// Adds what the damper of an active spring dissipates.
+/// Adds the power dissipated by the damper of an active spring.
 pub(crate) fn dissipate(at: &At, power: &mut Exchanged) {
     power.dampers += at.local().spring.damping * at.rate() * at.rate();
 }
 
-/// What an active spring asks of the prescribed motion of root body `b`.
+/// Contribution of an active spring to the force required for the prescribed motion of root body `b`.
 pub(crate) fn resistance(points: &PointPair, at: &At, b: usize) -> f64 {
     let state = at.state;
     let by_travel = points.by_travel(at.mechanics, b, (state.t, &state.q), at.local().spring.direction);
     by_travel * at.force()
 }
 
-/// Writes the row of a pair of points whose `approach` grows along `direction`, with its `rate` by prescribed motions.
+/// Writes the row of a pair of points whose `approach` increases along `direction`; `rate` is its rate due to
+/// prescribed motions.
 pub(crate) fn write_row(
     points: &PointPair,
     at: &Where,

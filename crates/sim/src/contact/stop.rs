@@ -1,4 +1,4 @@
-//! A one-sided stop: a point of a body meets a plane in space or on another body, and is pushed back by k p + c p'.
+//! A one-sided stop: a point of a body meets a plane in space or on another body, with the reaction k p + c p'.
 
 use nalgebra::DVector;
 
@@ -15,7 +15,7 @@ use crate::{Channel, RopeEnd, Stop};
 pub(crate) struct StopForce<'a> {
     stop: &'a Stop,
     index: usize,
-    /// From the bearer of the plane, where a body bears it, to the point that meets it.
+    /// The pair from the body with the plane, if there is one, to the point that meets the plane.
     points: Box<PointPair>,
 }
 

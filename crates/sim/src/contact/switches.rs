@@ -1,8 +1,8 @@
-//! What rules have switched so far: brakes, drives, hoisting speeds and released ropes.
+//! The switching state set by rules: brakes, drives, hoisting speeds and released ropes.
 
 use crate::{Action, Actuators, Error, Scene};
 
-/// What rules have switched so far; where they have not, actuators follow their own times and tables.
+/// The switching state set by rules. An actuator that no rule has switched follows its own times and tables.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Switches {
     brakes: Vec<Option<bool>>,
@@ -11,7 +11,7 @@ pub(crate) struct Switches {
     released: Vec<bool>,
 }
 
-/// Hoisting at a speed since a time, when `taken` of the rope was taken in.
+/// Hoisting at a constant speed since a time at which the length `taken` had been wound up.
 #[derive(Clone, Copy, Debug)]
 struct Hoist {
     speed: f64,
@@ -30,10 +30,10 @@ impl Switches {
         }
     }
 
-    /// Carries out `action` at `t`; whether the run ends.
+    /// Executes `action` at `t`. Returns whether the run ends.
     ///
     /// # Errors
-    /// Hoisting that would take in more rope than there is before the end.
+    /// A hoisting speed that would wind up the whole rope before the end of the run.
     pub fn switch(&mut self, scene: &Scene, action: Action, t: f64) -> Result<bool, Error> {
         let actuators = &scene.actuators;
         match action {
@@ -66,7 +66,7 @@ impl Switches {
         self.brakes[index].unwrap_or(t >= actuators.brakes[index].from)
     }
 
-    /// Speed that drive `index` follows at `t`; `None` where it is off.
+    /// Reference speed of drive `index` at `t`; `None` if it is off.
     pub fn drive_speed(&self, actuators: &Actuators, index: usize, t: f64) -> Option<f64> {
         let drive = &actuators.drives[index];
         self.drives[index].unwrap_or_else(|| (t < drive.until).then(|| drive.speed.at(t)))
@@ -81,12 +81,12 @@ impl Switches {
         }
     }
 
-    /// Second rate of the unstretched length of a rope at `t`.
+    /// Second time derivative of the unstretched length of a rope at `t`.
     pub fn unstretched_acceleration(&self, actuators: &Actuators, rope: usize, t: f64) -> f64 {
         if self.hoists[rope].is_some() { 0.0 } else { -actuators.ropes[rope].speed.slope(t) }
     }
 
-    /// Whether rope `rope` was let go.
+    /// Whether rope `rope` has been released.
     pub fn is_released(&self, rope: usize) -> bool {
         self.released.get(rope).copied().unwrap_or_default()
     }

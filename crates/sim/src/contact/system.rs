@@ -1,6 +1,6 @@
 //! The numbered scene with its force elements: M q'' + C q' + K q = f(t) - B^T F.
 //!
-//! Vertical contacts stand first among the elements, then come flanges, frictions, drives, brakes, ropes and stops.
+//! The elements are ordered by kind: vertical contacts, flanges, frictions, drives, brakes, ropes and stops.
 
 use splines::{Axis, Probe};
 
@@ -19,36 +19,37 @@ pub(crate) struct System<'a> {
     pub foundations: &'a [Foundation],
     pub mechanics: Mechanics<'a>,
     pub elements: Vec<ForceElement<'a>>,
-    /// What never changes about each element.
+    /// Properties of each element that are the same at every state.
     pub fixed: Vec<Fixed>,
     pub probes: Probes,
     pub traits: Traits,
-    /// Elements that guide across the rails, and elements that join points by springs.
+    /// Elements that guide wheels laterally, and springs between two points (ropes and stops).
     guides: Vec<usize>,
     springs: Vec<usize>,
-    /// The element of each rope.
+    /// Element index of each rope.
     ropes: Vec<usize>,
-    /// Elements with guards of each kind.
+    /// Elements whose guards are of kind `Touch`, and of kind `Corner`.
     touching: Vec<usize>,
     cornered: Vec<usize>,
 }
 
-/// Simplifications that hold for a scene.
+/// Simplifications that apply to a scene.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Traits {
-    /// Whether some wheel runs on an uneven rail.
+    /// Whether at least one wheel runs on an uneven rail.
     pub is_uneven: bool,
-    /// Whether the rows of all elements are the same at every time and place.
+    /// Whether the rows of all elements are the same at every time and position.
     pub has_constant_rows: bool,
-    /// Whether rigid parts hand wheels over, one force a part.
+    /// Whether a structure consists of rigid parts that transfer wheels to one another, with one contact force per
+    /// part.
     pub has_parts: bool,
     /// Whether vertical contacts are the only elements.
     pub is_vertical: bool,
     /// Whether every vertical law is linear.
     pub has_linear_laws: bool,
-    /// Whether some law depends on the heights of wheels.
+    /// Whether the law of at least one element depends on the heights of wheels.
     pub uses_heights: bool,
-    /// Whether places or rows follow the motion within a stage, so that its matrices change with its solution.
+    /// Whether positions or rows change with the motion within a stage, so that its matrices depend on its solution.
     pub follows_motion: bool,
     /// Whether the linear contact equations are symmetric: see [`crate::contact::forces`].
     pub is_symmetric: bool,
@@ -58,7 +59,7 @@ impl<'a> System<'a> {
     /// Numbers a scene.
     ///
     /// # Errors
-    /// What [`Mechanics::new`] refuses.
+    /// Every error that [`Mechanics::new`] reports.
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         let mechanics = Mechanics::new(scene, foundations)?;
         let elements = ForceElement::all(&mechanics);
@@ -89,7 +90,7 @@ impl<'a> System<'a> {
         })
     }
 
-    /// Number of vertical contacts, the first of all elements.
+    /// Number of vertical contacts, which are the first elements.
     pub fn verticals(&self) -> usize {
         self.mechanics.groups.len()
     }
@@ -102,22 +103,22 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Law of vertical contact `i`, of one wheel.
+    /// Normal law of one wheel of vertical contact `i`.
     pub fn law(&self, i: usize) -> &'a NormalLaw {
         &self.scene.wheels[self.mechanics.groups[i].kind].normal
     }
 
-    /// Elements that guide across the rails.
+    /// Elements that guide wheels laterally.
     pub fn guides(&self) -> &[usize] {
         &self.guides
     }
 
-    /// Elements that join points by springs: ropes and stops.
+    /// Springs between two points: ropes and stops.
     pub fn springs(&self) -> &[usize] {
         &self.springs
     }
 
-    /// Elements with guards of that kind.
+    /// Elements whose guards are of the given kind.
     pub fn guarded(&self, kind: GuardKind) -> &[usize] {
         match kind {
             GuardKind::Touch => &self.touching,
@@ -125,7 +126,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Rope `index` of the scene with its element.
+    /// Rope `index` of the scene with the index of its element.
     pub fn rope(&self, index: usize) -> Option<(usize, &RopeForce<'a>)> {
         let element = *self.ropes.get(index)?;
         match &self.elements[element] {
@@ -134,7 +135,7 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Force of the friction below wheel `w` at `at`; zero where it has none.
+    /// Friction force below wheel `w` at `at`; zero where the wheel has no friction element.
     pub fn friction_of(&self, w: usize, at: &State) -> f64 {
         let is_own = |element: &ForceElement| match element {
             ForceElement::Traction(traction) => traction.wheel() == w,
@@ -170,7 +171,7 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
     let slots = (0..elements.len()).map(slot).collect();
     let contact_of = |wheel: usize| mechanics.wheels[wheel].contact;
     let structure_of = |wheel: usize| mechanics.scene.contacts[contact_of(wheel)].structure;
-    // Wheels of one contact move alike: one tangential contact serves them.
+    // Wheels of one contact have the same motion along the rail, so one tangential contact represents them.
     let mut tangential: Vec<TangentialContact> = Vec::new();
     let find = |all: &[TangentialContact], element: usize, wheel: usize| {
         let same = |known: &TangentialContact| {
@@ -220,7 +221,7 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
     Probes { entries, is_direct, tangential, slots, sliding }
 }
 
-/// Finds which simplifications hold.
+/// Determines which simplifications apply.
 fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
     let is_uneven = (0..mechanics.wheels.len()).any(|w| mechanics.irregularity(w).is_some());
     let is_vertical = elements.len() == mechanics.groups.len();

@@ -1,4 +1,4 @@
-//! Friction along the rail below a wheel that spins: T = mu N S(s), s the sliding velocity.
+//! Friction along the rail below a wheel with spin: T = mu N S(s), where s is the sliding velocity.
 
 use splines::Axis;
 
@@ -13,7 +13,7 @@ use crate::{Channel, Friction};
 pub(crate) struct Traction<'a> {
     friction: &'a Friction,
     wheel: usize,
-    /// The vertical contacts that press the wheel, with the number of wheels that share each.
+    /// The vertical contacts of the wheel, each with the number of wheels that share its force.
     verticals: Vec<(usize, f64)>,
 }
 
@@ -34,7 +34,7 @@ impl<'a> Traction<'a> {
             .collect()
     }
 
-    /// The wheel.
+    /// Index of the wheel.
     pub fn wheel(&self) -> usize {
         self.wheel
     }

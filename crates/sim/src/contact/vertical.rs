@@ -1,8 +1,8 @@
 //! Vertical contact of a wheel, or of the wheels of massless equalisers, with a rail: F = n s (k p^e + S(p) c r).
 //!
-//! p is the penetration, r its rate or that of the wheel alone, n the number of wheels and s the fraction of the law
-//! that acts where rigid parts hand a wheel over. The contact is one-sided: it opens where its force would pull, and
-//! closes where spring and damper would push.
+//! p is the penetration, r its rate or that of the wheel alone, n the number of wheels, and s the fraction of the law
+//! that acts while a wheel passes between rigid parts. The contact is one-sided: it opens if its force would be
+//! tensile, and closes if spring and damper would push.
 
 use std::ops::Range;
 
@@ -27,7 +27,7 @@ pub(crate) struct Vertical<'a> {
     body: usize,
     wheels: Range<usize>,
     contact: usize,
-    /// The rigid part that it presses on, where every part has its own force.
+    /// The rigid part on which it acts, if every part has its own force.
     part: Option<usize>,
 }
 
@@ -51,13 +51,14 @@ impl<'a> Vertical<'a> {
         self.wheels.len() as f64
     }
 
-    /// Whether an active contact must open: it pulls though it may not, or its part has let go of the wheel.
+    /// Whether an active contact must open: a one-sided contact has a tensile force, or the fraction of its part is
+    /// zero.
     pub fn opens(&self, force: f64, fraction: f64) -> bool {
         fraction == 0.0 || (force < 0.0 && !self.law.bilateral)
     }
 
-    /// Force of one wheel that open contact `i` would have if it closed now at `at`, where its damper feels `rate`;
-    /// positive: it must close.
+    /// Force of one wheel that open contact `i` would have if it closed now at `at`, where `rate` is the rate of its
+    /// damper to ground. A positive value means that it must close.
     pub fn closing(
         &self,
         i: usize,
@@ -81,9 +82,10 @@ impl<'a> Vertical<'a> {
         if at.p[i] <= 0.0 { spring } else { law.at(at.p[i], rate).force }
     }
 
-    /// Penetration that spring and damper of an open contact still have at `t`. Free of force they relax from the one
-    /// `stored` as it opened by k p + c p' = 0, and wheel and rail are apart until they meet there. `None` where that
-    /// is not known.
+    /// Remaining penetration of spring and damper of an open contact at `t`. Without force, the penetration `stored`
+    /// at opening decays by k p + c p' = 0, and wheel and rail are separated until the wheel reaches the remaining
+    /// penetration. `None` if no penetration is stored, or if the law is not linear or has no damper between wheel
+    /// and rail.
     fn relaxed(&self, stored: Option<[f64; 2]>, t: f64) -> Option<f64> {
         let law = self.law;
         let [p, since] = stored.filter(|_| law.has_memory() && law.is_linear())?;
@@ -100,7 +102,7 @@ impl Element for Vertical<'_> {
         row.rate.copy_from_slice(row.approach);
     }
 
-    /// The shape of the unloaded rail: y0 up brings the rail nearer.
+    /// Shape of the unloaded rail: an upward irregularity increases the approach.
     fn update_row(&self, at: &Where, row: &mut RowMut, _: &mut Local) {
         if !at.is_uneven {
             return;
@@ -166,8 +168,9 @@ impl Element for Vertical<'_> {
         })
     }
 
-    /// A contact closes where its spring is pressed and its law pushes: the lesser of the two, since the damper's
-    /// force may jump where wheel and rail meet, the spring's where a pressed contact begins to push.
+    /// A contact closes if its spring is compressed and its law pushes. The value is the smaller of the two forces,
+    /// because the damper force may jump when wheel and rail meet, and the spring force may jump when a compressed
+    /// contact begins to push.
     fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {
         let i = at.index;
         if active.has(i) {
@@ -208,8 +211,8 @@ impl Element for Vertical<'_> {
         }
     }
 
-    /// With d the wheel's displacement and S the ramp of a damper to ground, integral of c S(p) d' dp =
-    /// [c d' Q(p)] - integral of c d'' Q(p) dt, Q' = S.
+    /// With d the displacement of the wheel and S the ramp of a damper to ground, the integral of c S(p) d' dp equals
+    /// [c d' Q(p)] minus the integral of c d'' Q(p) dt, where Q' = S. This is the boundary term c d' Q(p).
     fn boundary(&self, at: &At) -> f64 {
         let law = self.law;
         if !law.is_grounded() || at.force() == 0.0 {

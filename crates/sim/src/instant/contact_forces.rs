@@ -1,4 +1,4 @@
-//! Contact forces at states that the caller gives: what another program's forces are compared with.
+//! Contact forces at given states, for comparison with the forces of another program.
 
 use nalgebra::DMatrix;
 
@@ -12,46 +12,48 @@ use crate::{Channel, Error, Foundation, Scene};
 /// A state of a scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Instant {
-    /// Time; it gives x and its rate where they are prescribed.
+    /// Time; it determines x and its rate if they are prescribed.
     pub time: f64,
-    /// Six displacements a body; those that are not free are not read.
+    /// Six displacements for each body; those that are not free are not used.
     pub displacement: Vec<[f64; 6]>,
-    /// Their rates.
+    /// Rates of the displacements.
     pub speed: Vec<[f64; 6]>,
-    /// Speed of spin a wheel; read where the wheel has a spin of its own.
+    /// Spin speed of each wheel; used if the spin of the wheel is a degree of freedom.
     pub spin: Vec<f64>,
-    /// Penetration a contact of the scene, where a damper between wheel and rail makes it a state: `Some` for a
-    /// contact that acts, `None` for one that is open. Not read elsewhere.
+    /// Penetration of each contact of the scene, for contacts with a damper between wheel and rail, whose penetration
+    /// is a state: `Some` for an active contact, `None` for an open one. Not used for other contacts.
     pub penetration: Vec<Option<f64>>,
 }
 
-/// What acts between wheels and rails at an instant.
+/// Contact forces between wheels and rails at an instant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ContactForces {
-    /// Force on the rail, positive down, a wheel.
+    /// Vertical force of each wheel on the rail, positive down.
     pub vertical: Vec<f64>,
-    /// Force of the flange on the rail, positive along +z, a wheel.
+    /// Force of the flange of each wheel on the rail, positive along +z.
     pub lateral: Vec<f64>,
-    /// Friction on the wheel along -x, a wheel.
+    /// Friction force on each wheel along -x.
     pub traction: Vec<f64>,
-    /// Force that the slope of the deflected rail exerts on the wheel along +x, a wheel; of vertical forces alone.
+    /// Force along +x on each wheel due to the slope of the deflected rail, from vertical forces only.
     pub slope_force: Vec<f64>,
-    /// Approach of wheel and rail before the rail deflects, a contact of the scene.
+    /// Approach of wheel and rail before the rail deflects, for each contact of the scene.
     pub approach: Vec<f64>,
-    /// Penetration, a contact of the scene; negative where it is open.
+    /// Penetration of each contact of the scene; negative if it is open.
     pub penetration: Vec<f64>,
-    /// Compliance of the rails, contacts x contacts: downwards at the row per unit force down at the column.
+    /// Compliance of the rails, contacts x contacts: deflection down at the row per unit force down at the column.
     pub compliance: DMatrix<f64>,
 }
 
 /// Contact forces of `scene` on `foundations` at each of `instants`.
 ///
-/// Vertical forces solve p + G F = e over the contacts that act, F the law of p and its rate; where p is given,
-/// its rate follows. Structures with degrees of freedom of their own rest where they are unloaded.
+/// The vertical forces satisfy p + G F = e for the active contacts, where F follows from the law of p and its rate.
+/// If p is given, its rate is the unknown. Structures with their own degrees of freedom are at their unloaded
+/// position.
 ///
 /// # Errors
-/// A scene that cannot be set up, foundations of parts with one force each, an instant of the wrong shape, and
-/// [`Error::NoForces`] where the equations have no solution: a penetration given where the rail cannot comply.
+/// A scene that cannot be set up, foundations of parts, which have more than one force per wheel, an instant with the
+/// wrong number of values, and [`Error::NoForces`] if the equations have no solution, for example if a penetration is
+/// given where the rail cannot comply.
 pub fn contact_forces(
     scene: &Scene,
     foundations: &[Foundation],
@@ -95,7 +97,7 @@ fn forces_at(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<C
     Err(none)
 }
 
-/// Puts the instant's numbers into the state.
+/// Copies the values of the instant to the state.
 fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     for (what, found, expected) in [
@@ -130,14 +132,14 @@ fn place(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<(), E
     solver.update(at)
 }
 
-/// The penetration that the instant gives to vertical contact `i`.
+/// The penetration of vertical contact `i` in the instant, if its penetration is a state.
 fn given(solver: &Solver, instant: &Instant, i: usize) -> Option<f64> {
     let remembers = solver.system().law(i).has_memory();
     instant.penetration[solver.system().mechanics.groups[i].contact].filter(|_| remembers)
 }
 
-/// Finds the rates of the penetrations that are given such that p + G F = e; a rigid rail takes the wheel's
-/// own penetration and rate. Returns whether it converged.
+/// Finds the rates of the given penetrations for which p + G F = e; on a rigid rail, penetration and rate are those
+/// of the wheel. Returns whether the iteration converged.
 fn solve_rates(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<bool, Error> {
     let system = solver.system();
     for i in (0..system.verticals()).filter(|&i| system.law(i).has_memory() && solver.is_on_rigid_rail(i)) {

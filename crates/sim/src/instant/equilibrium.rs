@@ -1,4 +1,4 @@
-//! Static equilibrium: weights, loads, wheels and the deflection of the rail in balance.
+//! Static equilibrium of weights, loads and contact forces on wheels, with the deflection of the rails.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -8,33 +8,36 @@ use crate::mechanics::state::State;
 use crate::numerics::dense::dot;
 use crate::{BodyDof, Error};
 
-/// Sweeps of the active set.
+/// Largest number of sweeps of the active set.
 const SWEEPS: usize = 60;
-/// Iterations on the forces of flanges.
+/// Largest number of iterations on the forces of flanges.
 const FLANGES: usize = 60;
-/// Change of the degrees of freedom, by the largest penetration, at which wheels are taken to be where they will stay.
+/// Change of the degrees of freedom, relative to the largest penetration, below which the positions of the wheels
+/// have converged.
 const SETTLED: f64 = 1e-9;
-/// Newton iterations on the laws of one active set.
+/// Largest number of Newton iterations on the contact laws of one active set.
 const ITERATIONS: usize = 50;
-/// Relative error of the balance beyond which the wheels cannot carry the weight.
+/// Relative residual of the equilibrium equations above which the wheels cannot carry the weight.
 const BALANCE: f64 = 1e-6;
 
 /// Moves y, roll and pitch of every body (where they are free and wheels resist them) and the degrees of freedom of
 /// the structures to static equilibrium at `at.t`; the other degrees of freedom stay.
 ///
 /// Unknowns are the penetrations p and forces F of the vertical contacts and the degrees of freedom q. With the
-/// active contacts, p + (G + Phi K^-1 Phi^T) F = R q + constant, F = law(p) and R^T F = weights and loads are solved
-/// by Newton's method; sweeps over the active set drop contacts that pull and add contacts that are pressed until it
-/// stays. The balance is repeated with the slopes of the rails and the places of the wheels that it leads to, and
-/// with the forces of flanges, which are relaxed by Aitken's method, until nothing changes.
+/// active contacts, the equations p + (G + Phi K^-1 Phi^T) F = R q + constant, F = law(p) and R^T F = weights and
+/// loads are solved by Newton's method. Sweeps over the active set drop contacts that pull and add contacts that are
+/// pressed, until the set no longer changes. The solution is repeated with the slopes of the rails and the positions
+/// of the wheels that follow from it, and with the forces of flanges, which are relaxed by Aitken's method, until
+/// nothing changes.
 ///
 /// # Errors
-/// [`Error::NoEquilibrium`] where the wheels cannot carry the bodies, and what the structures refuse.
+/// [`Error::NoEquilibrium`] if the wheels cannot carry the bodies, and any error from evaluating the structures.
 pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let none = Error::NoEquilibrium { time: at.t };
     at.v.fill(0.0);
-    // Ropes pull as they did where the bodies came from: an instant on the way would find them slack.
+    // The rope forces are kept at their values on entry: solving an instant during the iteration would find the ropes
+    // slack.
     let springs: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
     let restore = |force: &mut [f64]| {
         system.springs().iter().zip(&springs).for_each(|(&i, pull)| force[i] = *pull);
@@ -70,14 +73,14 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
     Err(none)
 }
 
-/// Whether the degrees of freedom have stayed where they were `before`.
+/// Whether the degrees of freedom have changed by no more than the tolerance since `before`.
 pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(p.abs()));
     let pairs = before.iter().zip(at.q.iter());
     pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
 }
 
-/// The balance under the flange forces of `at`.
+/// Solves the equilibrium for the flange forces of `at`.
 fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let none = Error::NoEquilibrium { time: at.t };
@@ -100,7 +103,7 @@ fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     rest_structures(solver, at)
 }
 
-/// Degrees of freedom of the bodies that balance the weights: those of y, roll and pitch that some wheel resists.
+/// Degrees of freedom of the bodies for which equilibrium is solved: y, roll and pitch, if a wheel resists them.
 fn balancing(solver: &Solver) -> Vec<usize> {
     let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
     let numbers = solver.system().mechanics.kinematics.numbers.iter();
@@ -111,12 +114,12 @@ fn balancing(solver: &Solver) -> Vec<usize> {
         .collect()
 }
 
-/// Elements that press on rails at rest: the vertical contacts, then the guides.
+/// Elements that can load the rails at rest: the vertical contacts, then the guides.
 fn pressing(system: &System) -> Vec<usize> {
     (0..system.verticals()).chain(system.guides().iter().copied()).collect()
 }
 
-/// G + Phi K^-1 Phi^T over the elements that press on rails at rest.
+/// Static compliance G + Phi K^-1 Phi^T of the elements that can load the rails at rest.
 fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
     let system = solver.system();
     let (m, pressing) = (system.elements.len(), pressing(system));
@@ -132,7 +135,7 @@ fn static_compliance(solver: &Solver) -> Result<DMatrix<f64>, Error> {
     Ok(compliance)
 }
 
-/// Degrees of freedom of structures under the vertical and the guiding forces of `at`.
+/// Sets the degrees of freedom of structures to static equilibrium under the vertical and the guiding forces of `at`.
 fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let (rows, pressing) = (solver.geometry().rows(), pressing(system));
@@ -147,14 +150,14 @@ fn rest_structures(solver: &Solver, at: &mut State) -> Result<(), Error> {
     Ok(())
 }
 
-/// Weight on degree of freedom `number` that ropes and stops take, at the forces of `at`.
+/// Load on degree of freedom `number` from ropes and stops, for the forces of `at`.
 fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
     let rows = solver.geometry().rows();
     solver.system().springs().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
 }
 
-/// Aitken's relaxation of a fixed-point iteration on forces: omega <- -omega r_old . (r - r_old) / |r - r_old|^2, r the
-/// change of the forces by one iteration.
+/// Aitken's relaxation of a fixed-point iteration on forces: omega <- -omega r_old . (r - r_old) / |r - r_old|^2,
+/// where r is the change of the forces in one iteration.
 ///
 /// # Source
 /// Irons, Tuck, Int. J. Numer. Meth. Engng 1 (1969) 275-277.
@@ -165,7 +168,8 @@ struct Relaxation {
 }
 
 impl Relaxation {
-    /// From the forces `taken` and those that `followed`: the next ones to take, in place of these, and the change.
+    /// Replaces the forces `followed`, which result from the forces `taken`, by the relaxed forces of the next
+    /// iteration; returns the largest change before relaxation.
     fn step(&mut self, taken: &[f64], followed: &mut [f64]) -> f64 {
         let residual: Vec<f64> = followed.iter().zip(taken).map(|(new, old)| new - old).collect();
         let bend: Vec<f64> = residual.iter().zip(&self.residual).map(|(new, old)| new - old).collect();
@@ -183,14 +187,15 @@ impl Relaxation {
     }
 }
 
-/// The balance of the vertical contacts at one place: p + A F = `constant` + `rows` q, F = law(p), `rows`^T F = weight.
+/// Equilibrium equations of the vertical contacts at fixed positions: p + A F = `constant` + `rows` q, F = law(p),
+/// `rows`^T F = weight.
 struct Balance<'a> {
     system: &'a System<'a>,
-    /// Share of each contact's law that acts, times its wheels.
+    /// Active fraction of the law of each contact, times its number of wheels.
     share: Vec<f64>,
-    /// Numbers of the degrees of freedom q.
+    /// Numbers of the unknown degrees of freedom q.
     moving: Vec<usize>,
-    /// A, contacts x contacts.
+    /// Compliance matrix A, contacts x contacts.
     compliance: DMatrix<f64>,
     /// Contacts x degrees of freedom.
     rows: DMatrix<f64>,
@@ -203,8 +208,9 @@ struct Balance<'a> {
 }
 
 impl<'a> Balance<'a> {
-    /// The balance of `moving` where the solver's geometry is; every wheel that may act is taken to carry alike.
-    /// Where nothing moves, the wheels that reach into their rails carry.
+    /// Sets up the equilibrium of the degrees of freedom `moving` for the current geometry of the solver. As a first
+    /// estimate, all wheels that may act carry the same force. If no degree of freedom is unknown, the wheels with
+    /// positive penetration carry.
     fn new(solver: &Solver<'a>, moving: Vec<usize>, at: &State) -> Result<Self, Error> {
         let (system, geometry) = (solver.system(), solver.geometry());
         let rows = geometry.rows();
@@ -237,7 +243,7 @@ impl<'a> Balance<'a> {
                 weight[j] += load.value.at(at.t);
             }
         }
-        // A rail pushes along itself where it slopes: on the hub, so that a body is turned.
+        // Where a rail slopes, its force on the hub has a longitudinal component, which turns the body.
         let tilted = |i: usize, k: usize| (rows.force_row(i)[k] - rows.approach_row(i)[k]) * at.force[i];
         for (j, &k) in moving.iter().enumerate() {
             weight[j] -= (0..count).map(|i| tilted(i, k)).sum::<f64>();
@@ -259,7 +265,7 @@ impl<'a> Balance<'a> {
         })
     }
 
-    /// Sweeps of the active set; false where no set balances the weights.
+    /// Sweeps over the active set; returns false if no set is in equilibrium with the weights.
     fn solve(&mut self) -> bool {
         for _ in 0..SWEEPS {
             if self.active.is_empty() {
@@ -273,8 +279,8 @@ impl<'a> Balance<'a> {
         false
     }
 
-    /// Newton's method with the active contacts; `None` where they cannot carry the weight, else whether it
-    /// converged.
+    /// Newton's method with the active contacts. Returns `None` if they cannot carry the weight, otherwise whether
+    /// the iteration converged.
     fn iterate(&mut self) -> Option<bool> {
         for _ in 0..ITERATIONS {
             let solved = self.linearised()?;
@@ -287,8 +293,8 @@ impl<'a> Balance<'a> {
         Some(false)
     }
 
-    /// Forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k, R^T F = weight, with f and k force
-    /// and stiffness of the laws at p; sets q.
+    /// Newton's linear system: the forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k and R^T
+    /// F = weight, where f and k are force and stiffness of the laws at p. Sets q.
     fn linearised(&mut self) -> Option<DVector<f64>> {
         let size = self.active.len();
         let mut matrix =
@@ -318,7 +324,8 @@ impl<'a> Balance<'a> {
         Some(solved)
     }
 
-    /// Moves the penetrations to the forces `solved`, kept positive for curved laws; returns the largest change.
+    /// Updates the penetrations to those for the forces `solved` by the linearised laws, keeping them positive for
+    /// nonlinear laws; returns the largest change.
     fn advance(&mut self, solved: &DVector<f64>) -> f64 {
         let mut change = 0.0_f64;
         self.force.fill(0.0);
@@ -335,7 +342,7 @@ impl<'a> Balance<'a> {
         change
     }
 
-    /// Drops the contacts that pull, adds those that are pressed; returns whether the active set changed.
+    /// Drops the contacts that pull and adds those that are pressed; returns whether the active set changed.
     fn sweep(&mut self) -> bool {
         let deepest = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
         let before = self.active.clone();

@@ -1,4 +1,4 @@
-//! Static equilibrium of bodies that stand on nothing, below their ropes or on their floors.
+//! Static equilibrium of bodies without wheels that carry them: below their ropes or on their floors.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -9,15 +9,16 @@ use crate::instant::equilibrium::{balance_wheels, has_settled};
 use crate::mechanics::point::{Point, scalar};
 use crate::mechanics::state::State;
 
-/// Newton iterations, and sweeps between hanging bodies and those on rails.
+/// Largest number of Newton iterations, and of alternations between hanging bodies and bodies on rails.
 const ITERATIONS: usize = 200;
 const SWEEPS: usize = 100;
 
-/// Moves everything that may settle to static equilibrium at `at.t`: bodies on rails by
-/// [`balance_wheels`], hanging bodies below their ropes, until the tensions stay.
+/// Moves all bodies and structures to static equilibrium at `at.t`. Bodies on rails are balanced by
+/// [`balance_wheels`] and hanging bodies are moved to the minimum of their potential energy, in alternation, until
+/// the tensions and the displacements no longer change.
 ///
 /// # Errors
-/// [`Error::NoEquilibrium`] where the tensions do not come to rest, and what [`balance_wheels`] refuses.
+/// [`Error::NoEquilibrium`] if the tensions do not converge, and any error of [`balance_wheels`].
 pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     if system.springs().is_empty() {
@@ -28,14 +29,16 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
     let mut places = at.q.clone();
     at.v.fill(0.0);
     for _ in 0..SWEEPS {
-        // the carriers have moved: a rope that fell slack would say nothing
+        // The carriers have moved, and a slack rope would not show where its load hangs, so the loads are placed
+        // again.
         place_below_ropes(solver, at)?;
         rest_hanging(solver, &hanging, at)?;
         let tensions: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
         let scale = tensions.iter().fold(weight(solver), |max, force| max.max(force.abs()));
         let pairs = tensions.iter().zip(&before);
         let moved = pairs.fold(0.0_f64, |max, (now, then)| max.max((now - then).abs()));
-        // A rope that leans with what it hangs from pulls as hard, to the first order, but not as it should.
+        // The tension of a rope does not change to first order when the rope inclines, so the displacements are
+        // checked as well.
         if moved <= 1e-12 * scale && has_settled(&places, at) {
             return Ok(());
         }
@@ -51,7 +54,7 @@ fn weight(solver: &Solver) -> f64 {
 }
 
 /// Newton's method with step halving on the potential of the `hanging` degrees of freedom, which is convex; sets the
-/// forces of the links.
+/// forces of ropes and stops.
 fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<(), Error> {
     let mut potential = springs_at(solver, hanging, at)?;
     for _ in 0..ITERATIONS {
@@ -78,7 +81,7 @@ fn rest_hanging(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Resul
     Ok(())
 }
 
-/// Potential of weight, loads and links at `at`, whose link forces it sets.
+/// Potential energy of weights, loads, ropes and stops at `at`; sets the forces of ropes and stops.
 fn springs_at(solver: &mut Solver, hanging: &[usize], at: &mut State) -> Result<f64, Error> {
     let system = solver.system();
     solver.update(at)?;
@@ -99,7 +102,7 @@ fn static_load(solver: &Solver, number: usize, t: f64) -> f64 {
     system.mechanics.gravity[number] + loads.map(|load| load.value.at(t)).sum::<f64>()
 }
 
-/// Newton's step of the `hanging` degrees of freedom; `None` where there is none to take.
+/// Newton step of the `hanging` degrees of freedom; `None` if they have no stiffness.
 fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64>> {
     let system = solver.system();
     let n = system.mechanics.dofs;
@@ -137,7 +140,7 @@ fn descent(solver: &Solver, hanging: &[usize], at: &State) -> Option<DVector<f64
     matrix.cholesky().map(|factor| factor.solve(&force))
 }
 
-/// Puts hanging bodies below the ends of their ropes, stretched by their weight.
+/// Places hanging bodies below the ends of their ropes, which are stretched by the weight of the bodies.
 pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     for &b in &system.scene.actuators.hanging {
@@ -162,7 +165,7 @@ pub(crate) fn place_below_ropes(solver: &mut Solver, at: &mut State) -> Result<(
     solver.update(at)
 }
 
-/// Degrees of freedom of the hanging bodies that links reach.
+/// Translational degrees of freedom of the hanging bodies that are attached to ropes or stops.
 fn hanging(system: &System) -> Vec<usize> {
     let is_joined = |b: usize| {
         let mut points = system.springs().iter().filter_map(|&i| system.elements[i].points());

@@ -1,6 +1,7 @@
-//! One instant solved: static equilibrium, which contacts act, contact forces at given states, natural modes.
+//! Solutions at one instant: static equilibrium, the active contacts, contact forces at given states, and natural
+//! modes.
 //!
-//! It stands on `contact` and, for the energies of natural modes, on `record`.
+//! This module depends on `contact` and, for the energies of natural modes, on `record`.
 
 pub(crate) mod contact_forces;
 pub(crate) mod equilibrium;

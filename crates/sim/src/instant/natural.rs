@@ -1,4 +1,4 @@
-//! Natural modes of a scene that stands still: bodies on their contacts and ropes, on structures that comply.
+//! Natural modes of a scene at rest: bodies on their contacts and ropes, on flexible structures.
 
 use nalgebra::{DMatrix, SymmetricEigen};
 
@@ -12,13 +12,13 @@ use crate::mechanics::state::State;
 use crate::record::energy::stored;
 use crate::{Actuators, Error, Foundation, Scene};
 
-/// Most degrees of freedom of a scene whose modes are found.
+/// Largest number of degrees of freedom for which natural modes are computed.
 const MOST: usize = 300;
 
-/// Move of a degree of freedom, beside what its wheels are pressed in at rest, over which forces are linear.
+/// Step of the differences of forces, relative to the largest penetration at rest.
 const MOVE: f64 = 1e-3;
 
-/// Square of a frequency, beside the largest, below which nothing holds a motion.
+/// Square of a frequency, relative to the largest, below which a mode is regarded as an unrestrained motion.
 const LOOSE: f64 = 1e-10;
 
 /// A natural mode of a scene.
@@ -26,23 +26,23 @@ const LOOSE: f64 = 1e-10;
 pub struct NaturalMode {
     /// Circular frequency, > 0, radian/time.
     pub omega: f64,
-    /// Share of each body's six degrees of freedom in the kinetic energy, phi_i (M phi)_i / phi^T M phi; together with
-    /// `structures` they sum to 1.
+    /// Fraction of each body's six degrees of freedom in the kinetic energy, phi_i (M phi)_i / phi^T M phi; together
+    /// with `structures` the fractions sum to 1.
     pub fraction: Vec<[f64; 6]>,
-    /// Share of the degrees of freedom of structures with mass.
+    /// Fraction of the degrees of freedom of structures with mass.
     pub structures: f64,
 }
 
-/// Undamped natural modes of `scene` on `foundations` where its bodies stand at time `t`, lowest first; `place` is
-/// the x of each body then. None where it has too many degrees of freedom.
+/// Undamped natural modes of `scene` on `foundations` at the position of its bodies at time `t`, lowest first;
+/// `place` is the x of each body at that time. Returns `None` if the scene has too many degrees of freedom.
 ///
-/// K phi = omega^2 M phi, with M from the kinetic energy and K from differences of the forces about static
-/// equilibrium: of vertical contacts, ropes that are taut and stops that are touched there, in which structures
-/// comply, and of weights that swing. Without dampers, friction, drives and brakes; flanges hold where they touch at
-/// rest. Motions that nothing holds are left out.
+/// The modes satisfy K phi = omega^2 M phi. M is computed from the kinetic energy, and K from central differences of
+/// the forces about static equilibrium: those of vertical contacts, of taut ropes and of touched stops, with the
+/// compliance of the structures, and the effect of weight on swinging bodies. Dampers, friction, drives and brakes
+/// are left out; flanges are included if they touch at rest. Rigid-body motions are left out.
 ///
 /// # Errors
-/// A scene that cannot be set up or has no equilibrium there.
+/// A scene that cannot be set up or has no equilibrium at that position.
 pub fn natural_modes(
     scene: &Scene,
     foundations: &[Foundation],
@@ -75,7 +75,7 @@ pub fn natural_modes(
     Ok(modes(&system, &mass, &stiffness))
 }
 
-/// The scene at rest: nothing prescribed, driven, braked, damped or rubbing.
+/// The scene at rest, without prescribed motions, drives, brakes, damping and friction.
 fn stilled(scene: &Scene, place: &[f64]) -> Scene {
     let mut still = Scene { gauges: Vec::new(), analysis: Analysis::Dynamic, ..scene.clone() };
     let Actuators { loads, ropes, stops, hanging: hung, .. } = still.actuators;
@@ -100,7 +100,7 @@ fn stilled(scene: &Scene, place: &[f64]) -> Scene {
     still
 }
 
-/// M at `at`, from the kinetic energy T: M_ij = T(e_i + e_j) - T(e_i) - T(e_j) + T(0).
+/// Mass matrix at `at`, from the kinetic energy T: M_ij = T(e_i + e_j) - T(e_i) - T(e_j) + T(0).
 fn mass(solver: &Solver, at: &State) -> DMatrix<f64> {
     let n = solver.system().mechanics.dofs;
     let mut probe = at.clone();
@@ -122,7 +122,7 @@ fn mass(solver: &Solver, at: &State) -> DMatrix<f64> {
     mass
 }
 
-/// K at `at`, by central differences of M a.
+/// Stiffness matrix at `at`, by central differences of M a.
 fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
     let n = solver.system().mechanics.dofs;
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(*p));
@@ -145,7 +145,7 @@ fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMa
     Ok(0.5 * (&out + out.transpose()))
 }
 
-/// Modes of K and M that something holds; `None` where M is not positive definite.
+/// Modes of K and M without rigid-body motions; `None` if M is not positive definite.
 fn modes(system: &System, mass: &DMatrix<f64>, stiffness: &DMatrix<f64>) -> Option<Vec<NaturalMode>> {
     let lower = mass.clone().cholesky()?.l();
     let half = lower.solve_lower_triangular(stiffness)?;

@@ -1,4 +1,4 @@
-//! Rates of penetrations that are given, by Newton's method.
+//! Rates of given penetrations, by Newton's method.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -6,10 +6,13 @@ use crate::Error;
 use crate::contact::solver::Solver;
 use crate::mechanics::state::State;
 
-/// Newton iterations on the rates of penetration.
+/// Largest number of Newton iterations on the rates of penetration.
 const ITERATIONS: usize = 30;
 
-/// Finds the rates of the penetrations of the contacts `unknown` such that p + G F = e. Returns whether it converged.
+/// Finds the penetration rates of the contacts `unknown` for which their given penetrations satisfy p + G F = e. In
+/// each Newton iteration the contact forces are solved at the current rates, and the rates are corrected by the
+/// solution of G C dr = residual of p, where C holds the derivatives of the laws with respect to the rates. The
+/// iteration stops when the residual is at the level of rounding and no longer halves. Returns whether it converged.
 pub(crate) fn solve_rates_of(solver: &mut Solver, unknown: &[usize], at: &mut State) -> Result<bool, Error> {
     let system = solver.system();
     let m = system.elements.len();

@@ -1,4 +1,4 @@
-//! Which vertical contacts act: the complementarity problem of one instant.
+//! Determination of the active contacts: the complementarity problem of one instant.
 
 use crate::Error;
 use crate::contact::active::ROUNDING;
@@ -6,15 +6,16 @@ use crate::contact::solver::{RIGID, Solver};
 use crate::mechanics::state::State;
 use crate::numerics::complementarity::complementarity;
 
-/// Finds which elements act at (t, q, v), and the forces.
+/// Finds the active elements at (t, q, v), and the forces.
 ///
-/// Ropes and stops act where they would pull or push. For the vertical contacts this is a complementarity problem,
-/// solved by sweeps of the active set: with the forces of the contacts that act, the one that pulls hardest opens;
-/// where none pulls, the one that is pressed deepest of those that should push closes; where there is none either,
-/// the set is found. Returns whether that happened within a number of sweeps that grows with the contacts.
+/// Ropes are active where they would pull and stops where they would push. For the vertical contacts this is a
+/// complementarity problem in the forces and the active set. It is solved by sweeps: the forces of the active
+/// contacts are solved, and the contact with the largest pull is opened. If none pulls, the open contact with the
+/// largest penetration that should push is closed. The solution is found if there is none either. Returns whether
+/// this happened within a number of sweeps that grows with the number of contacts.
 ///
 /// # Errors
-/// What the rails refuse.
+/// Any error from evaluating the rails.
 pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
     let count = solver.system().verticals();
     if !solver.system().springs().is_empty() {
@@ -43,9 +44,8 @@ pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error>
     Ok(false)
 }
 
-/// Rate of penetration of a contact that closes now. Where the rail complies, its penetration and so its force go on
-/// without a jump: the force starts at zero, on the side where the contact presses. On a rigid rail it is the rate of
-/// the wheel itself.
+/// Initial rate of penetration of a contact that closes. If the rail complies, penetration and force are continuous:
+/// the force starts at zero, on the side where the contact presses. On a rigid rail the rate is that of the wheel.
 fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {
     let system = solver.system();
     let law = system.law(i);
@@ -57,8 +57,8 @@ fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {
     }
 }
 
-/// Active contacts of the complementarity problem (G + 1/k) F - e >= 0, F >= 0, where every law is
-/// linear and undamped: the sweeps of [`settle`] start from its solution.
+/// Estimates the active contacts from the complementarity problem (G + 1/k) F - e >= 0, F >= 0, if every law is
+/// linear and undamped. The sweeps of [`settle`] start from its solution.
 fn guess_active(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     let (m, count) = (system.elements.len(), system.verticals());

@@ -1,8 +1,9 @@
-//! Corners and steps of uneven rails: what happens where a wheel passes one.
+//! Corners and steps of uneven rails: changes of the state when a wheel passes one.
 //!
-//! At a step the approach e jumps. On a rail that complies, the penetration under a damper between wheel and rail
-//! goes on, p + G F = e, and the force jumps by way of its rate. On a rigid rail the penetration jumps with e: the
-//! damper pushes with the impulse c (Q(p1) - Q(p0)), Q the integral of its ramp; it does not pull.
+//! At a step the approach e jumps. If the rail complies, the penetration under a damper between wheel and rail is
+//! continuous and p + G F = e holds, so the force jumps through the rate of penetration. On a rigid rail the
+//! penetration jumps with e, and the damper exerts the impulse c (Q(p1) - Q(p0)), where Q is the integral of its
+//! ramp; the damper does not pull.
 
 use crate::Error;
 use crate::contact::solver::Solver;
@@ -10,8 +11,8 @@ use crate::instant::rates::solve_rates_of;
 use crate::mechanics::state::State;
 use crate::numerics::step::step_integral;
 
-/// Puts every wheel on the piece of its rail where it is at (t, q), moving at the speeds v; where it rests, where
-/// its prescribed acceleration takes it, or ahead.
+/// Assigns every wheel to the piece of its rail at (t, q). At a corner the direction is that of the speed v, else
+/// that of the prescribed acceleration, else forwards.
 pub(crate) fn locate_wheels(solver: &mut Solver, at: &State) -> Result<(), Error> {
     let system = solver.system();
     if !system.traits.is_uneven {
@@ -31,7 +32,7 @@ pub(crate) fn locate_wheels(solver: &mut Solver, at: &State) -> Result<(), Error
     Ok(())
 }
 
-/// Moves wheels that have reached the end of their piece to the next one; returns whether some have.
+/// Moves wheels that have reached the end of their piece to the next piece; returns whether any wheel has.
 pub(crate) fn pass_corners(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
     let system = solver.system();
     let mut jump = vec![0.0; system.verticals()];
@@ -56,13 +57,13 @@ pub(crate) fn pass_corners(solver: &mut Solver, at: &mut State) -> Result<bool, 
         strike(solver, &jump, at);
         let felt: Vec<usize> =
             (0..system.verticals()).filter(|&i| solver.remembers(i) && !solver.is_on_rigid_rail(i)).collect();
-        // Rates only: a guess is enough.
+        // Only the rates are affected, so an approximate result is sufficient and the return value is not checked.
         solve_rates_of(solver, &felt, at)?;
     }
     Ok(crosses)
 }
 
-/// Penetrations, impulses and rates of dampers on rigid rails whose approach has jumped.
+/// Applies penetrations, impulses and rates of dampers on rigid rails whose approach has jumped.
 fn strike(solver: &Solver, jump: &[f64], at: &mut State) {
     let system = solver.system();
     let mut response = vec![0.0; system.mechanics.dofs];
@@ -86,7 +87,7 @@ fn strike(solver: &Solver, jump: &[f64], at: &mut State) {
     follow_rigid_rails(solver, at);
 }
 
-/// Rates of penetration under dampers on rigid rails: those of the approach.
+/// Sets the rates of penetration under dampers on rigid rails to those of the approach.
 pub(crate) fn follow_rigid_rails(solver: &Solver, at: &mut State) {
     for i in (0..solver.system().verticals()).filter(|&i| is_rigid(solver, i)) {
         at.p_rate[i] = solver.approach_rate(i, at);

@@ -1,9 +1,10 @@
-//! The equations of motion without forces between wheels and rails: numbered degrees of freedom, kinematics and
+//! The equations of motion without the wheel-rail forces: numbering of the degrees of freedom, kinematics and
 //! inertia.
 //!
-//! M q'' + C q' + K q = f(t) - R^T F. The degrees of freedom are numbered body by body, then come the spins of wheels,
-//! then those of each structure. M, C and K are block diagonal but for the couplings between bodies and the structures
-//! that they carry. The forces F and their rows R are added by the wing `contact`.
+//! M q'' + C q' + K q = f(t) - R^T F. The degrees of freedom are numbered in this order: those of the bodies, body by
+//! body, the spins of the wheels, and those of each structure. M, C and K are block diagonal except for the inertial
+//! coupling between a body and the structure that it carries. The module `contact` adds the forces F and their rows
+//! R.
 
 use std::ops::Range;
 
@@ -19,42 +20,44 @@ use crate::scene::check::check_carriers;
 use crate::scene::dof::arm_rows;
 use crate::{BodyDof, Error, Foundation, Irregularity, Load, Scene, Travel};
 
-/// Fraction of a degree of freedom's mass below which what it moves by itself is rounding.
+/// Cholesky pivot of the mass matrix, as a fraction of the diagonal entry, below which a degree of freedom is treated
+/// as massless.
 const MASSLESS: f64 = 1e-13;
 
-/// A scene with its degrees of freedom numbered.
+/// A scene with numbered degrees of freedom and assembled inertia.
 pub(crate) struct Mechanics<'a> {
     pub scene: &'a Scene,
     pub foundations: &'a [Foundation],
-    /// Displacements of the bodies over the degrees of freedom.
+    /// Displacements of the bodies as a linear map of the degrees of freedom.
     pub kinematics: Kinematics<'a>,
     /// All physical wheels.
     pub wheels: Vec<WheelPoint<'a>>,
-    /// Wheels that share one vertical force.
+    /// Groups of wheels that share one vertical force.
     pub groups: Vec<WheelGroup>,
-    /// Groups of each contact.
+    /// Range of wheel groups of each contact.
     of_contact: Vec<Range<usize>>,
-    /// Bodies that are carried by bodies.
+    /// Bodies that are carried by other bodies.
     pub carried: CarriedBodies,
-    /// Numbers of each structure's degrees of freedom.
+    /// Range of the degrees of freedom of each structure.
     pub structures: Vec<Range<usize>>,
     /// Number of all degrees of freedom.
     pub dofs: usize,
-    /// Whether some wheel's place along its rail depends on the degrees of freedom.
+    /// Whether the rail coordinate of any wheel depends on the degrees of freedom.
     pub moves_freely: bool,
-    /// M, C and K: the bodies and spins, then each structure; without bodies that are carried by others.
+    /// M, C and K: first the block of bodies and spins, then one block per structure. Bodies that are carried by
+    /// other bodies are not included.
     pub blocks: Vec<Block>,
-    /// Inertia between the bodies and structures on them.
+    /// Inertial couplings between the carriers and the structures on them.
     pub couplings: Vec<InertialCoupling>,
-    /// Weights, without those of bodies that are carried by others.
+    /// Weights, without those of bodies that are carried by other bodies.
     pub gravity: DVector<f64>,
 }
 
 impl<'a> Mechanics<'a> {
-    /// Numbers a scene and adds up its inertia.
+    /// Numbers the degrees of freedom of a scene and assembles its inertia.
     ///
     /// # Errors
-    /// What the checks of the scene refuse, carried bodies in an unknown arrangement, and degrees of freedom without
+    /// A scene that fails its checks, an unsupported arrangement of carried bodies, or a degree of freedom without
     /// inertia.
     pub fn new(scene: &'a Scene, foundations: &'a [Foundation]) -> Result<Self, Error> {
         scene.check(foundations.len())?;
@@ -112,61 +115,62 @@ impl<'a> Mechanics<'a> {
         Ok(mechanics)
     }
 
-    /// Number of the degrees of freedom of bodies and spins, the first of all.
+    /// Number of degrees of freedom of bodies and spins, which are numbered first.
     pub fn body_dofs(&self) -> usize {
         self.structures.first().map_or(self.dofs, |range| range.start)
     }
 
-    /// Whether some structure has degrees of freedom of its own.
+    /// Whether any structure has degrees of freedom of its own.
     pub fn has_structures(&self) -> bool {
         self.structures.iter().any(|range| !range.is_empty())
     }
 
-    /// Whether some structure is loaded along its rails.
+    /// Whether any structure is loaded along its rails.
     pub fn has_sliding_rails(&self) -> bool {
         self.foundations.iter().any(|foundation| foundation.is_loaded_along)
     }
 
-    /// The wheel groups that `wheel` belongs to: one, or one a rigid part.
+    /// The wheel groups that `wheel` belongs to: a single one, or one for each rigid part of the rail.
     pub fn groups_of(&self, wheel: usize) -> Range<usize> {
         self.of_contact[self.wheels[wheel].contact].clone()
     }
 
-    /// Number of the degree of freedom on which `load` acts.
+    /// Index of the degree of freedom on which `load` acts.
     pub fn loaded(&self, load: &Load) -> Option<usize> {
         self.kinematics.numbers[load.body][load.dof as usize]
     }
 
-    /// Shape of the unloaded rail of wheel `w`, where it is uneven.
+    /// Irregularity of the rail under wheel `w`; `None` where the rail is straight.
     pub fn irregularity(&self, w: usize) -> Option<&'a Irregularity> {
         let contact = &self.scene.contacts[self.wheels[w].contact];
         let shapes = &self.foundations[contact.structure].irregularities;
         shapes.get(contact.rail).filter(|shape| !shape.is_straight())
     }
 
-    /// Displacements and speeds of body `b` in all six degrees of freedom at time `t`.
+    /// Displacements and velocities of body `b` in all six degrees of freedom at time `t`.
     pub fn body(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
         self.kinematics.motion(b, t, q, v)
     }
 
-    /// Speed of wheel `w` along its rail, that of its hub.
+    /// Velocity of the hub of wheel `w` along its rail.
     pub fn speed_along(&self, w: usize, at: &State) -> f64 {
         let wheel = &self.wheels[w];
         let (_, speed) = self.body(wheel.body, at.t, &at.q, &at.v);
         arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
     }
 
-    /// Angle, speed and acceleration of the spin of wheel `w` at `t`, where it is prescribed.
+    /// Angle, angular velocity and angular acceleration of wheel `w` at `t`; `None` where its spin is not prescribed.
     pub fn turn(&self, w: usize, t: f64) -> Option<Travel> {
         self.wheels[w].turn.map(|motion| motion.at(t))
     }
 
-    /// Inertia of the spin of wheel `w`.
+    /// Moment of inertia of wheel `w` about its axle.
     pub fn spin_inertia(&self, w: usize) -> f64 {
         self.scene.wheels[self.wheels[w].kind].spin_inertia.unwrap_or_default()
     }
 
-    /// Kinetic energy of the wheels whose spin is prescribed, without that of their bodies.
+    /// Rotational kinetic energy of the wheels whose spin is prescribed. The kinetic energy of their bodies is not
+    /// included.
     pub fn energy_of_turns(&self, t: f64) -> f64 {
         let all = (0..self.wheels.len()).filter_map(|w| Some((w, self.turn(w, t)?)));
         all.map(|(w, at)| 0.5 * self.spin_inertia(w) * at.v * at.v).sum()
@@ -219,8 +223,9 @@ impl<'a> Mechanics<'a> {
     }
 }
 
-/// The first of `count` degrees of freedom that moves no mass but what those before it move: where the factor L L^T of
-/// their mass ends.
+/// The first of `count` degrees of freedom that moves no mass independently of those before it. The function factors
+/// the mass matrix into L L^T row by row and returns the first row whose pivot is not greater than `MASSLESS` times
+/// the diagonal entry; `None` where the matrix is positive definite.
 fn first_massless(mass: &DMatrix<f64>, count: usize) -> Option<usize> {
     let mut factor = DMatrix::<f64>::zeros(count, count);
     for i in 0..count {
@@ -239,7 +244,8 @@ fn first_massless(mass: &DMatrix<f64>, count: usize) -> Option<usize> {
     None
 }
 
-/// Adds the weight of a mass that moves with a body, given by its line of y and the body's displacements.
+/// Adds the weight of a mass that moves with a body. `line` is the y row of its 6 x 6 mass matrix and `terms` are the
+/// displacements of the body.
 fn add_weight(gravity: &mut DVector<f64>, scene: &Scene, terms: &[Terms; 6], line: &[f64; 6]) {
     for (mass, terms) in line.iter().zip(terms) {
         for &(number, coefficient) in terms {

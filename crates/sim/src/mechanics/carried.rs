@@ -1,13 +1,14 @@
-//! Bodies on structures that are carried by bodies: a trolley on the girders of a bridge.
+//! Bodies on structures that are carried by other bodies, for example a trolley on the girders of a bridge.
 //!
-//! The degrees of freedom of a carried body are relative to its track. Let r be the place of a point of it from the
-//! carrier's origin, e the axis of its rail, and R the turn from the rail's frame to the carrier's axes. Then
+//! The degrees of freedom of a carried body are relative to its track. Let r be the position of a point of the
+//! carried body relative to the origin of the carrier, e the direction of its rail, and R the rotation from the rail
+//! frame to the axes of the carrier. Then
 //!
 //! p' = u_c' + theta_c' cross r(x) + R (u' + theta' cross at) + x' theta_c cross e = J q' + prescribed parts,
 //! p'' = J q'' + 2 x' theta_c' cross e + X'' (e + theta_c cross e) + X_c''.
 //!
-//! Forces between the trolley's wheels and their rails act within carrier and trolley: their rows have entries for
-//! relative degrees of freedom alone, and the carrier feels them through J^T M J and J^T M g.
+//! The forces between the wheels of the trolley and their rails are internal to carrier and trolley, so their rows
+//! have entries for the relative degrees of freedom alone. The carrier is loaded through J^T M J and J^T M g.
 
 use nalgebra::{DMatrix, DVector, Matrix3, SVector, Vector3};
 
@@ -15,23 +16,23 @@ use super::carried_point::{CarriedPoint, Track, hub};
 use super::kinematics::Kinematics;
 use crate::{CarriedRail, Error, Foundation};
 
-/// Slack allowed between directions of rails of one track.
+/// Tolerance on the directions and lengths of the rails of one track.
 const SLACK: f64 = 1e-9;
 
-/// All bodies that are carried by bodies.
+/// All bodies that are carried by other bodies.
 pub(crate) struct CarriedBodies {
-    /// The track of each body's tree, by its root.
+    /// Track of the tree of pinned bodies that each body belongs to; `None` where the body is not carried.
     tracks: Vec<Option<Track>>,
-    /// The centres of mass of the carried bodies.
+    /// Centres of mass of the carried bodies.
     centres: Vec<CarriedPoint>,
 }
 
 impl CarriedBodies {
-    /// The carried bodies of a scene, found by their contacts.
+    /// Finds the carried bodies of a scene from their contacts.
     ///
     /// # Errors
-    /// [`Error::Carried`]: a tree with contacts on several carriers or rails of different directions, one that
-    /// carries what it rides on, loads on carried bodies, and structures on carried bodies.
+    /// [`Error::Carried`]: a tree with contacts on several carriers or on rails of different directions, a tree that
+    /// carries its own carrier, a load on a carried body, or a structure on a carried body.
     pub fn new(foundations: &[Foundation], kinematics: &Kinematics) -> Result<Self, Error> {
         let scene = kinematics.scene;
         let count = scene.bodies.len();
@@ -80,18 +81,18 @@ impl CarriedBodies {
         self.centres.is_empty()
     }
 
-    /// Whether body `b` is carried.
+    /// Whether body `b` is carried by another body.
     pub fn has(&self, b: usize) -> bool {
         self.tracks[b].is_some()
     }
 
-    /// The point `at` of body `b`, where it is carried.
+    /// The point `at` of body `b`; `None` where the body is not carried.
     pub fn point(&self, kinematics: &Kinematics, b: usize, at: [f64; 3]) -> Option<CarriedPoint> {
         self.tracks[b].as_ref().map(|track| CarriedPoint::new(kinematics, track, b, at))
     }
 
-    /// Adds to `mass` and `load` what the carried bodies do at (t, q, v): J^T M J, and -J^T M (bias + g). `columns` is
-    /// scratch.
+    /// Adds the contribution of the carried bodies at (t, q, v): J^T M J to `mass` and -J^T M (bias + g) to `load`.
+    /// `columns` is scratch memory.
     pub fn add(
         &self,
         kinematics: &Kinematics,
@@ -133,7 +134,7 @@ impl CarriedBodies {
         }
     }
 
-    /// Kinetic energy and energy of weight at (t, q, v).
+    /// Kinetic energy and gravitational potential energy of the carried bodies at (t, q, v).
     pub fn energy(&self, kinematics: &Kinematics, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
         let mut sum = [0.0; 2];
         for point in &self.centres {
@@ -146,7 +147,8 @@ impl CarriedBodies {
         sum
     }
 
-    /// Force along its track that the carried bodies ask of the prescribed x of root `b`, at accelerations `a`.
+    /// Force along its track that the carried bodies require to move root `b` as its x is prescribed, at the
+    /// accelerations `a`.
     pub fn drive(&self, kinematics: &Kinematics, [q, v, a]: [&DVector<f64>; 3], t: f64, b: usize) -> f64 {
         let mut sum = 0.0;
         for point in &self.centres {
@@ -171,7 +173,8 @@ fn inertias(body: &crate::Body) -> SVector<f64, 6> {
     SVector::from([body.mass, body.mass, body.mass, roll, yaw, pitch])
 }
 
-/// Axes of a rail's frame as columns; `None` where it is not level or not of length 1.
+/// Axes of a rail frame as the columns of a matrix; `None` where the rail is not level or its direction is not of
+/// unit length.
 fn frame(rail: &CarriedRail) -> Option<Matrix3<f64>> {
     let x = Vector3::from(rail.along);
     let level = x[1].abs() < SLACK && (x.norm() - 1.0).abs() < SLACK;

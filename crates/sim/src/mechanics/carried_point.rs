@@ -1,5 +1,5 @@
-//! A point of a body that is carried by another body: where it is, how it moves, and its columns over the degrees of
-//! degree of freedom.
+//! A point of a body that is carried by another body: its position, its motion, and its columns over the degrees of
+//! freedom.
 
 use nalgebra::{DVector, Matrix3, SVector, Vector3};
 
@@ -9,13 +9,13 @@ use crate::scene::dof::arm_rows;
 
 type Rows = SVector<f64, 6>;
 
-/// Where the rails of a tree are on its carrier.
+/// The track of a tree of pinned bodies on its carrier.
 #[derive(Clone)]
 pub(crate) struct Track {
     pub carrier: usize,
-    /// Columns: the axes of the rail's frame in the carrier's axes.
+    /// Rotation whose columns are the axes of the rail frame in the axes of the carrier.
     pub turn: Matrix3<f64>,
-    /// Origin of the tree's root from the carrier's, in the carrier's axes, where its x is 0.
+    /// Origin of the root of the tree at x = 0, relative to the origin of the carrier and in its axes.
     pub origin: Vector3<f64>,
 }
 
@@ -25,23 +25,25 @@ pub(crate) struct CarriedPoint {
     pub carrier: usize,
     turn: Matrix3<f64>,
     at: [f64; 3],
-    /// From the carrier's origin, in the carrier's axes, where the body's x is 0 and nothing has moved.
+    /// Position relative to the origin of the carrier, in its axes, where the x of the body and all displacements are
+    /// zero.
     origin: Vector3<f64>,
     columns: Vec<Column>,
 }
 
-/// What a degree of freedom does to a point: velocity in the carrier's axes, then rotation in the rail's.
+/// Motion of a point per unit of one degree of freedom: the velocity in the axes of the carrier, then the rotation in
+/// the rail frame.
 struct Column {
     number: usize,
-    /// At x = 0 on a carrier that is not turned.
+    /// Motion at x = 0 on a carrier without rotation.
     still: Rows,
-    /// More of the velocity by x: the carrier's rotation cross e.
+    /// Change of the velocity per unit of x: the rotation of the carrier cross e.
     by_x: Vector3<f64>,
-    /// Its coefficient in the body's x.
+    /// Coefficient of the degree of freedom in the x of the body.
     x: f64,
 }
 
-/// Carried body and carrier at one instant.
+/// Displacements and velocities of the carried body and its carrier at one instant.
 pub(crate) struct Pose {
     own: [f64; 6],
     own_speed: [f64; 6],
@@ -89,7 +91,8 @@ impl CarriedPoint {
         self.turn.column(0).into()
     }
 
-    /// Velocity and rotation by the six of the body and of the carrier, with the body at `x`.
+    /// Velocity and rotation for the six velocities `own` of the body and `base` of the carrier, with the body at
+    /// `x`.
     fn motion(&self, x: f64, tilt: &Vector3<f64>, own: &[f64; 6], base: &[f64; 6]) -> Rows {
         let arm = self.origin + self.axis() * x;
         let shift = self.turn * combine(self.at, own) + tilt * own[0] + combine(arm.into(), base);
@@ -103,34 +106,34 @@ impl CarriedPoint {
         Pose { own, own_speed, base, base_speed, tilt: turned(&base).cross(&self.axis()) }
     }
 
-    /// Number of degrees of freedom it moves with.
+    /// Number of degrees of freedom that move the point.
     pub fn count(&self) -> usize {
         self.columns.len()
     }
 
-    /// Number of degree of freedom `i` of those.
+    /// Index in the scene of degree of freedom `i` of the point.
     pub fn number(&self, i: usize) -> usize {
         self.columns[i].number
     }
 
-    /// Velocity in the carrier's axes, then rotation in the rail's, per unit of degree of freedom `i`.
+    /// Velocity in the axes of the carrier, then rotation in the rail frame, per unit of degree of freedom `i`.
     pub fn column(&self, i: usize, pose: &Pose) -> Rows {
         let Column { still, by_x, x, .. } = &self.columns[i];
         let more = by_x * pose.own[0] + pose.tilt * *x;
         still + Rows::new(more[0], more[1], more[2], 0.0, 0.0, 0.0)
     }
 
-    /// The same for the speeds of now.
+    /// Velocity and rotation at the velocities of `pose`.
     pub fn speed(&self, pose: &Pose) -> Rows {
         self.motion(pose.own[0], &pose.tilt, &pose.own_speed, &pose.base_speed)
     }
 
-    /// e + theta_c cross e: its velocity per unit of the body's x.
+    /// e + theta_c cross e: velocity of the point per unit velocity of the x of the body.
     pub fn along(&self, pose: &Pose) -> Vector3<f64> {
         self.axis() + pose.tilt
     }
 
-    /// Acceleration at q'' = 0.
+    /// Acceleration of the point at q'' = 0.
     pub fn bias(&self, kinematics: &Kinematics, t: f64, pose: &Pose) -> Vector3<f64> {
         let prescribed = |b: usize| {
             let motion = kinematics.scene.bodies[kinematics.root(b)].motion.as_ref();
@@ -141,7 +144,7 @@ impl CarriedPoint {
             + prescribed(self.carrier) * Vector3::x()
     }
 
-    /// Displacement in the carrier's axes from where all displacements are zero.
+    /// Displacement in the axes of the carrier from the position at which all displacements are zero.
     pub fn shift(&self, pose: &Pose) -> Vector3<f64> {
         let x = pose.own[0];
         let mut rest = pose.own;
@@ -149,7 +152,7 @@ impl CarriedPoint {
         self.motion(x, &Vector3::zeros(), &rest, &pose.base).fixed_rows::<3>(0) + self.axis() * x
     }
 
-    /// Place where all displacements are zero, from the carrier's origin.
+    /// Position relative to the origin of the carrier where all displacements are zero.
     pub fn origin(&self) -> Vector3<f64> {
         self.origin
     }
@@ -159,13 +162,14 @@ fn turned(all: &[f64; 6]) -> Vector3<f64> {
     Vector3::new(all[3], all[4], all[5])
 }
 
-/// Displacement of a point at `at` of a body by its six.
+/// Displacement of a point at `at` of a body for the six displacements `by` of the body.
 fn combine(at: [f64; 3], by: &[f64; 6]) -> Vector3<f64> {
     let rows = arm_rows(at);
     Vector3::from_fn(|k, _| rows[k].iter().zip(by).map(|(r, u)| r * u).sum::<f64>())
 }
 
-/// A point at `at` of body `b` from the origin of the tree's root, at rest; its x is that of the body.
+/// Position of the point `at` of body `b` at rest, relative to the origin of the root of its tree. The x component is
+/// relative to the origin of the body.
 pub(crate) fn hub(scene: &Scene, b: usize, at: [f64; 3]) -> [f64; 3] {
     let ([mut x, mut y, mut z], mut b) = (at, b);
     while let Some(pin) = &scene.bodies[b].pinned {

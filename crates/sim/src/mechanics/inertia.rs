@@ -1,4 +1,4 @@
-//! Mass, damping and stiffness of all degrees of freedom, in blocks: the bodies, then each structure.
+//! Mass, damping and stiffness of all degrees of freedom in blocks: one for the bodies and one for each structure.
 
 use std::ops::Range;
 
@@ -7,9 +7,10 @@ use nalgebra::DMatrix;
 use crate::numerics::dense::dot;
 use crate::{Dynamics, Error, Structure};
 
-/// M, C and K of degrees of freedom that only contact couples to others.
+/// M, C and K of one group of degrees of freedom. Groups are coupled by contact forces and by inertial couplings
+/// only.
 pub(crate) struct Block {
-    /// Numbers of the degrees of freedom.
+    /// Range of the degrees of freedom.
     pub range: Range<usize>,
     pub matrices: Matrices,
 }
@@ -23,7 +24,7 @@ pub(crate) enum Matrices {
         damping: DMatrix<f64>,
         stiffness: DMatrix<f64>,
     },
-    /// Modes of mass 1: 2 zeta omega and omega^2.
+    /// Natural modes of unit modal mass: 2 zeta omega and omega^2.
     Modes {
         damping: Vec<f64>,
         stiffness: Vec<f64>,
@@ -50,7 +51,7 @@ impl Block {
         Block { range, matrices }
     }
 
-    /// `load` -= C v + K q, all three over all degrees of freedom.
+    /// Subtracts C v + K q from `load`. All three vectors are over all degrees of freedom.
     pub fn resist(&self, v: &[f64], q: &[f64], load: &mut [f64]) {
         let range = self.range.clone();
         let (v, q, load) = (&v[range.clone()], &q[range.clone()], &mut load[range]);
@@ -72,7 +73,7 @@ impl Block {
         }
     }
 
-    /// M of bodies.
+    /// Mass matrix, where this is the block of the bodies.
     pub fn body_mass(&self) -> Option<&DMatrix<f64>> {
         match &self.matrices {
             Matrices::Bodies(mass) => Some(mass),
@@ -80,7 +81,7 @@ impl Block {
         }
     }
 
-    /// 1/2 v^T M v.
+    /// Kinetic energy 1/2 v^T M v.
     pub fn kinetic(&self, v: &[f64]) -> f64 {
         let v = &v[self.range.clone()];
         match &self.matrices {
@@ -89,7 +90,7 @@ impl Block {
         }
     }
 
-    /// 1/2 q^T K q.
+    /// Elastic energy 1/2 q^T K q.
     pub fn elastic(&self, q: &[f64]) -> f64 {
         let q = &q[self.range.clone()];
         match &self.matrices {
@@ -99,7 +100,7 @@ impl Block {
         }
     }
 
-    /// v^T C v.
+    /// Dissipated power v^T C v.
     pub fn loss(&self, v: &[f64]) -> f64 {
         let v = &v[self.range.clone()];
         match &self.matrices {
@@ -109,10 +110,11 @@ impl Block {
         }
     }
 
-    /// K^-1 `load`, one column a load; loads and displacements over the block's own degrees of freedom.
+    /// Static displacements K^-1 `load`, with one column per load. Loads and displacements are over the degrees of
+    /// freedom of the block.
     ///
     /// # Errors
-    /// A stiffness that is not positive definite.
+    /// The stiffness matrix is not positive definite.
     pub fn rest(&self, load: &DMatrix<f64>) -> Result<DMatrix<f64>, Error> {
         match &self.matrices {
             Matrices::Bodies(_) => Ok(DMatrix::zeros(load.nrows(), load.ncols())),

@@ -1,8 +1,8 @@
-//! How bodies move with the degrees of freedom: the six displacements of every body as a linear map of them.
+//! Kinematics of the bodies: the six displacements of every body as a linear map of the degrees of freedom.
 //!
-//! u_b = J_b q + c_b + e_x x(t): the degrees of freedom of the body itself and of the bodies it is pinned to, a
-//! constant part from starting values that do not change, and the prescribed travel of the body at the root of its
-//! tree. M = sum of J_b^T M_b J_b.
+//! u_b = J_b q + c_b + e_x x(t), where J_b contains the degrees of freedom of the body and of the bodies that it is
+//! pinned to, c_b is the constant part due to fixed starting values, and x(t) is the prescribed travel of the body at
+//! the root of the tree. M = sum of J_b^T M_b J_b.
 
 use std::ops::Range;
 
@@ -12,31 +12,31 @@ use crate::scene::body::parents_first;
 use crate::scene::dof::arm_rows;
 use crate::{Body, Error, Foundation, Scene};
 
-/// Degrees of freedom and their coefficients in one displacement.
+/// Indices of degrees of freedom and their coefficients in one displacement.
 pub(crate) type Terms = Vec<(usize, f64)>;
 
-/// The maps J_b, and what follows from them.
+/// The maps J_b and the quantities derived from them.
 pub(crate) struct Kinematics<'a> {
     pub scene: &'a Scene,
-    /// Numbers of the degrees of freedom of each body itself; `None`: fixed or prescribed.
+    /// Indices of the degrees of freedom of each body; `None` where the displacement is fixed or prescribed.
     pub numbers: Vec<[Option<usize>; 6]>,
-    /// J_b, one line a displacement of each body.
+    /// J_b: six rows per body, one per displacement.
     terms: Vec<[Terms; 6]>,
-    /// Displacements c_b of each body at q = 0, without the travel of its root.
+    /// Displacements c_b of each body at q = 0, without the prescribed travel of its root.
     constant: Vec<[f64; 6]>,
-    /// Body at the root of each body's tree.
+    /// Root body of the tree of each body.
     root: Vec<usize>,
-    /// Inertia of each root's tree between its x and the degrees of freedom.
+    /// Inertial coupling between the x of each root and the degrees of freedom.
     travel_inertia: Vec<Terms>,
-    /// Mass of each root's tree.
+    /// Total mass of the tree of each root.
     mass: Vec<f64>,
 }
 
 impl<'a> Kinematics<'a> {
-    /// Maps of the bodies of `scene`, whose own degrees of freedom have `numbers`.
+    /// Builds the maps of the bodies of `scene`, whose degrees of freedom have the indices `numbers`.
     ///
     /// # Errors
-    /// [`Error::Pinned`] where the pins form a circle.
+    /// [`Error::Pinned`] where the pins form a cycle.
     pub fn new(scene: &'a Scene, numbers: Vec<[Option<usize>; 6]>) -> Result<Self, Error> {
         let count = scene.bodies.len();
         let mut kinematics = Kinematics {
@@ -54,8 +54,8 @@ impl<'a> Kinematics<'a> {
         Ok(kinematics)
     }
 
-    /// Adds up the masses of the trees and of the structures on them, without bodies that are carried by others.
-    /// `structures` are the numbers of the structures' degrees of freedom.
+    /// Sums the masses of the trees and of the structures on them, without bodies that are carried by other bodies.
+    /// `structures` are the ranges of the degrees of freedom of the structures.
     pub fn add_masses(
         &mut self,
         foundations: &[Foundation],
@@ -75,7 +75,7 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Adds a mass that moves with body `b`, given by its line of x.
+    /// Adds a mass that moves with body `b`; `line` is the x row of its 6 x 6 mass matrix.
     fn add_mass_of_tree(&mut self, b: usize, line: &[f64; 6]) {
         let root = self.root[b];
         self.mass[root] += line[0];
@@ -86,6 +86,7 @@ impl<'a> Kinematics<'a> {
         }
     }
 
+    /// Builds J_b, c_b and the root of body `b`. The body that it is pinned to must have been processed before.
     fn follow(&mut self, body: &Body, b: usize) {
         let arms = body.pinned.as_ref().map(|pin| arm_rows(pin.at));
         for i in 0..6 {
@@ -116,22 +117,23 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Body at the root of `b`'s tree: `b` itself where it is pinned to none.
+    /// Root body of the tree of `b`: `b` itself where it is not pinned.
     pub fn root(&self, b: usize) -> usize {
         self.root[b]
     }
 
-    /// The displacements of body `b` over the degrees of freedom.
+    /// Displacements of body `b` as terms in the degrees of freedom.
     pub fn terms(&self, b: usize) -> &[Terms; 6] {
         &self.terms[b]
     }
 
-    /// The displacements of body `b` where all degrees of freedom are zero, without the travel of its root.
+    /// Displacements of body `b` at q = 0, without the prescribed travel of its root.
     pub fn constant(&self, b: usize) -> &[f64; 6] {
         &self.constant[b]
     }
 
-    /// A combination `line` of the displacements of body `b` over the degrees of freedom.
+    /// Linear combination of the displacements of body `b` with the coefficients `line`, as terms in the degrees of
+    /// freedom.
     pub fn combine(&self, b: usize, line: &[f64; 6]) -> Terms {
         let mut sum = Vec::new();
         for (scale, terms) in line.iter().zip(&self.terms[b]).filter(|(scale, _)| **scale != 0.0) {
@@ -143,13 +145,13 @@ impl<'a> Kinematics<'a> {
         sum
     }
 
-    /// Displacements or speeds of body `b` for the degrees of freedom `q`, without constant and prescribed parts.
+    /// Displacements or velocities of body `b` for the vector `q`, without the constant and prescribed parts.
     pub fn apply(&self, b: usize, q: &DVector<f64>) -> [f64; 6] {
         let value = |terms: &Terms| terms.iter().map(|&(number, c)| c * q[number]).sum::<f64>();
         std::array::from_fn(|i| value(&self.terms[b][i]))
     }
 
-    /// Displacements and speeds of body `b` in all six degrees of freedom at time `t`.
+    /// Displacements and velocities of body `b` in all six degrees of freedom at time `t`.
     pub fn motion(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
         let body = &self.scene.bodies[b];
         if body.pinned.is_some() {
@@ -181,18 +183,18 @@ impl<'a> Kinematics<'a> {
         (displacement, speed)
     }
 
-    /// Inertia between the x of root `b` with all that is pinned to it and the degrees of freedom: force per
-    /// acceleration.
+    /// Inertial coupling between the x of root `b`, with all bodies pinned to it, and the degrees of freedom: force
+    /// per unit acceleration.
     pub fn travel_inertia(&self, b: usize) -> &[(usize, f64)] {
         &self.travel_inertia[b]
     }
 
-    /// Mass of root `b` with all that is pinned to it; 0 for a body that is pinned.
+    /// Mass of root `b` with all bodies pinned to it; 0 for a pinned body.
     pub fn mass(&self, b: usize) -> f64 {
         self.mass[b]
     }
 
-    /// Adds J^T M J of body `b` to `total`.
+    /// Adds J^T M J of body `b` with its mass matrix `matrix` to `total`.
     pub fn add_mass(&self, b: usize, matrix: &[[f64; 6]; 6], total: &mut DMatrix<f64>) {
         for (line, rows) in matrix.iter().zip(&self.terms[b]) {
             for (entry, columns) in line.iter().zip(&self.terms[b]) {

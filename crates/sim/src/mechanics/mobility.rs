@@ -1,9 +1,10 @@
-//! The mobility Z = (M + g C + g^2 K)^-1: accelerations per unit load inside a step with the coefficient g; M^-1 for
-//! g = 0.
+//! The mobility Z = (M + g C + g^2 K)^-1, the accelerations per unit load in a step with the coefficient g. For g = 0
+//! it is M^-1.
 //!
-//! The bodies and every structure are inverted block by block. Where a body carries a structure with mass, B couples
-//! the two blocks ([`InertialCoupling`]): with Z_s = (M_s + g C_s + g^2 K_s)^-1 the bodies respond through the inverse
-//! of S = M_b - B^T Z_s B.
+//! The block of the bodies and the block of every structure are inverted separately. Where a body carries a structure
+//! with mass, B couples the two blocks ([`InertialCoupling`]). With Z_s = (M_s + g C_s + g^2 K_s)^-1, the block of
+//! the bodies is then the inverse of the Schur complement S = M_b - B^T Z_s B, and the accelerations are a_b = S^-1
+//! (f_b - B^T Z_s f_s) and a_s = Z_s (f_s - B a_b).
 
 use std::ops::Range;
 
@@ -15,28 +16,28 @@ use super::inertia::{Block, Matrices};
 use crate::Error;
 use crate::numerics::dense::invert_spd;
 
-/// (M + g C + g^2 K)^-1 of the whole scene.
+/// Mobility (M + g C + g^2 K)^-1 of the whole scene.
 pub(crate) struct Mobility<'a> {
     parts: BlockMobility,
     couplings: &'a [InertialCoupling],
-    /// Z_s B of each tie.
+    /// Z_s B of each inertial coupling.
     answers: Vec<DMatrix<f64>>,
-    /// Sum of B^T Z_s B.
+    /// Sum of B^T Z_s B over the inertial couplings.
     reduced: DMatrix<f64>,
-    /// Mass of the bodies.
+    /// Mass matrix of the bodies.
     mass: DMatrix<f64>,
-    /// S^-1 B^T of each tie.
+    /// S^-1 B^T of each inertial coupling.
     pulls: Vec<DMatrix<f64>>,
-    /// Scratch.
+    /// Scratch memory.
     row: DVector<f64>,
     step: f64,
 }
 
 impl<'a> Mobility<'a> {
-    /// M^-1; where bodies are carried by others, what [`Mobility::set_mass`] makes it later.
+    /// Builds M^-1. Where bodies are carried by other bodies, the result is valid only after [`Mobility::set_mass`].
     ///
     /// # Errors
-    /// A mass that is not positive definite.
+    /// A mass matrix that is not positive definite.
     pub fn new(mechanics: &'a Mechanics) -> Result<Mobility<'a>, Error> {
         let later = !mechanics.carried.is_empty() || !mechanics.couplings.is_empty();
         let bodies = mechanics.body_dofs();
@@ -58,19 +59,20 @@ impl<'a> Mobility<'a> {
         Ok(whole)
     }
 
-    /// Changes the mass of the bodies.
+    /// Sets the mass matrix of the bodies.
     ///
     /// # Errors
-    /// A mass that is not positive definite.
+    /// A mass matrix that is not positive definite.
     pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
         self.mass.copy_from(mass);
         self.answer()
     }
 
-    /// Changes the coefficient g; where bodies are carried by others, [`Mobility::set_mass`] must follow.
+    /// Sets the coefficient g. Where bodies are carried by other bodies, [`Mobility::set_mass`] must be called
+    /// afterwards.
     ///
     /// # Errors
-    /// A structure that is not positive definite.
+    /// A structure whose matrix is not positive definite.
     pub fn set_step(&mut self, mechanics: &Mechanics, g: f64) -> Result<(), Error> {
         self.parts.set_step(&mechanics.blocks, g)?;
         if g != self.step && !self.couplings.is_empty() {
@@ -83,6 +85,7 @@ impl<'a> Mobility<'a> {
         Ok(())
     }
 
+    /// Computes Z_s B of each coupling and the sum of B^T Z_s B for the present g.
     fn reduce(&mut self, freedoms: usize) {
         if self.couplings.is_empty() {
             return;
@@ -100,6 +103,7 @@ impl<'a> Mobility<'a> {
         }
     }
 
+    /// Inverts the Schur complement S = M_b - sum of B^T Z_s B and computes S^-1 B^T of each coupling.
     fn answer(&mut self) -> Result<(), Error> {
         if self.couplings.is_empty() {
             return self.parts.set_mass(&self.mass);
@@ -117,7 +121,7 @@ impl<'a> Mobility<'a> {
         Ok(())
     }
 
-    /// `out` = Z `load`.
+    /// Computes `out` = Z `load`.
     pub fn apply(&self, load: &[f64], out: &mut [f64]) {
         self.parts.apply(load, out);
         let (bodies, others) = out.split_at_mut(self.mass.nrows());
@@ -134,7 +138,7 @@ impl<'a> Mobility<'a> {
         }
     }
 
-    /// Degrees of freedom of a structure after those of the bodies.
+    /// Range of the degrees of freedom of a structure, counted from the end of those of the bodies.
     fn own(&self, tie: &InertialCoupling) -> Range<usize> {
         let bodies = self.mass.nrows();
         tie.range.start - bodies..tie.range.end - bodies
@@ -147,7 +151,7 @@ enum Inverse {
     Diagonal(Vec<f64>),
 }
 
-/// (M + g C + g^2 K)^-1 without inertial couplings, block by block.
+/// Mobility (M + g C + g^2 K)^-1 without inertial couplings, block by block.
 struct BlockMobility {
     step: f64,
     blocks: Vec<(Range<usize>, Inverse)>,
@@ -155,10 +159,10 @@ struct BlockMobility {
 }
 
 impl BlockMobility {
-    /// Changes the mass of the bodies.
+    /// Sets the mass matrix of the bodies.
     ///
     /// # Errors
-    /// A mass that is not positive definite.
+    /// A mass matrix that is not positive definite.
     pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
         if let Some((_, Inverse::Matrix(bodies))) = self.blocks.first_mut() {
             bodies.copy_from(mass);
@@ -169,14 +173,16 @@ impl BlockMobility {
         Ok(())
     }
 
-    /// `out` = Z `load` of the bodies alone, both over their degrees of freedom.
+    /// Computes `out` = Z `load` for the block of the bodies alone; both vectors are over the degrees of freedom of
+    /// the bodies.
     pub fn apply_to_bodies(&self, load: &[f64], out: &mut [f64]) {
         if let Some((_, inverse)) = self.blocks.first() {
             inverse.apply(load, out);
         }
     }
 
-    /// M^-1; of bodies whose mass changes, what [`BlockMobility::set_mass`] makes it later.
+    /// Builds M^-1. Where the mass of the bodies changes, their block is valid only after
+    /// [`BlockMobility::set_mass`].
     pub fn new(blocks: &[Block], mass_changes: bool) -> Result<BlockMobility, Error> {
         let of = |block: &Block| {
             let inverse = match &block.matrices {
@@ -190,7 +196,7 @@ impl BlockMobility {
         Ok(BlockMobility { step: 0.0, blocks, scratch: vec![0.0; bodies * bodies] })
     }
 
-    /// Changes the coefficient g; the bodies' block does not depend on it.
+    /// Sets the coefficient g. The block of the bodies does not depend on it.
     pub fn set_step(&mut self, blocks: &[Block], g: f64) -> Result<(), Error> {
         if g != self.step {
             for ((_, inverse), block) in self.blocks.iter_mut().zip(blocks) {
@@ -203,7 +209,7 @@ impl BlockMobility {
         Ok(())
     }
 
-    /// `out` = Z `load`.
+    /// Computes `out` = Z `load`.
     pub fn apply(&self, load: &[f64], out: &mut [f64]) {
         for (range, inverse) in &self.blocks {
             inverse.apply(&load[range.clone()], &mut out[range.clone()]);
@@ -231,7 +237,7 @@ impl Inverse {
     }
 }
 
-/// The inverse of M + g C + g^2 K of a block.
+/// Inverse of M + g C + g^2 K of a block.
 fn inverse_of(block: &Block, g: f64) -> Result<Inverse, Error> {
     match &block.matrices {
         Matrices::Bodies(mass) => inverse(mass.clone()).map(Inverse::Matrix),

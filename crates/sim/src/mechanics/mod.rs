@@ -1,8 +1,8 @@
-//! The numbered unknowns of the motion: degrees of freedom, kinematics, carried bodies, mass, and the state of a scene
-//! at one time.
+//! The unknowns of the motion: numbered degrees of freedom, kinematics, carried bodies, mass, and the state of a
+//! scene at one time.
 //!
-//! [`assembly`] numbers a scene and adds up M, C and K; [`mobility`] inverts them for a step. Nothing here knows of
-//! contact forces. The wing stands on `scene` and `numerics`.
+//! [`assembly`] numbers the degrees of freedom and assembles M, C and K; [`mobility`] inverts them for a step. This
+//! module does not depend on contact forces. It depends on `scene` and `numerics` only.
 
 pub(crate) mod assembly;
 pub(crate) mod carried;

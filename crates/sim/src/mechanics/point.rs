@@ -1,9 +1,9 @@
-//! A point of a body, or of space: where it is, how it moves, and its row over the degrees of freedom.
+//! A point of a body or of space: its position, its motion, and its row over the degrees of freedom.
 //!
-//! The space frame has X along the rails (the rail coordinate), Y up from the unloaded rail, Z to the right. A body
-//! on a track has its origin at Z = z and Y = y + radius - hub height, a pinned one at its pin, so that its wheels
-//! just touch at y = 0; a body that stands on nothing is a point in space, X = x, Y = y, Z = z. Rotations are small:
-//! the rows are constant, but for points of bodies that are carried by bodies.
+//! The space frame has X along the rails (the rail coordinate), Y upwards from the unloaded rail and Z to the right.
+//! A body on a track has its origin at Z = z and Y = y + radius - hub height, so that its wheels just touch the rail
+//! at y = 0. The origin of a pinned body is at its pin. A body without wheels is a point in space with X = x, Y = y,
+//! Z = z. Rotations are small, so the rows are constant except for points of carried bodies.
 
 use nalgebra::{DVector, Vector3};
 
@@ -14,21 +14,21 @@ use crate::numerics::dense::dot;
 use crate::scene::dof::arm_rows;
 use crate::{RopeEnd, Travel};
 
-/// A point fixed to a body, or to space where there is no body.
+/// A point fixed to a body, or to space where `body` is `None`.
 pub(crate) struct Point {
     pub body: Option<usize>,
-    /// From the body's origin; in space, the place itself.
+    /// Position relative to the origin of the body; for a point in space, the position itself.
     pub at: [f64; 3],
-    /// Y and Z of the body's origin (of its carrier's, where it is carried) where all displacements are zero.
+    /// Y and Z of the origin of the body (of the carrier, for a carried body) where all displacements are zero.
     origin: [f64; 2],
-    /// Its displacement over the degrees of freedom, where it is not carried.
+    /// Its displacement as terms in the degrees of freedom, where the body is not carried.
     rows: [Terms; 3],
-    /// Where it is carried.
+    /// Kinematics of the point where the body is carried by another body.
     carried: Option<Box<CarriedPoint>>,
 }
 
 impl Point {
-    /// A point in space.
+    /// A point whose motion is expressed in the space frame.
     pub fn new(mechanics: &Mechanics, end: &RopeEnd) -> Point {
         let carried = end.body.and_then(|b| mechanics.carried.point(&mechanics.kinematics, b, end.at));
         let origin = rest(mechanics, carried.as_ref().map_or(end.body, |point| Some(point.carrier)));
@@ -41,7 +41,7 @@ impl Point {
         }
     }
 
-    /// A point in the frame of its body's track, which may be carried.
+    /// A point whose motion is expressed in the frame of the track of its body, even where that body is carried.
     pub fn on_track(mechanics: &Mechanics, end: &RopeEnd) -> Point {
         let origin = rest(mechanics, end.body);
         Point { body: end.body, at: end.at, origin, rows: rows(mechanics, end), carried: None }
@@ -56,7 +56,7 @@ impl Point {
         self.carried.as_deref().map(|point| (point, point.pose(&mechanics.kinematics, t, q, q)))
     }
 
-    /// Place in space at (t, q).
+    /// Position in space at (t, q).
     pub fn position(&self, mechanics: &Mechanics, t: f64, q: &DVector<f64>) -> [f64; 3] {
         let Some(b) = self.body else { return self.at };
         let moved: [f64; 3] = match self.pose(mechanics, t, q) {
@@ -70,23 +70,24 @@ impl Point {
         [moved[0], moved[1] + self.origin[0], moved[2] + self.origin[1]]
     }
 
-    /// Place in space at (t, q), as a vector.
+    /// Position in space at (t, q), as a vector.
     pub fn place(&self, mechanics: &Mechanics, t: f64, q: &DVector<f64>) -> Vector3<f64> {
         self.position(mechanics, t, q).into()
     }
 
-    /// Whether a body that moves carries it: its rows change.
+    /// Whether the body of the point is carried by another body, so that its rows change with the motion.
     pub fn is_carried(&self) -> bool {
         self.carried.is_some()
     }
 
-    /// Its displacement by the degrees of freedom, or a rate of it by theirs; it is not carried.
+    /// Displacement for the degrees of freedom `of`, or velocity for their rates. The body must not be carried.
     pub fn rate(&self, of: &DVector<f64>) -> Vector3<f64> {
         let along = |terms: &Terms| terms.iter().map(|&(number, share)| share * of[number]).sum();
         Vector3::from(self.rows.each_ref().map(along))
     }
 
-    /// Numbers of its X, Y and Z where nothing else moves it, and no wheel holds it.
+    /// Indices of the degrees of freedom of X, Y and Z, where each is moved by exactly one degree of freedom and no
+    /// wheel is on the tree of the body; `None` otherwise.
     pub fn free_numbers(&self, mechanics: &Mechanics) -> Option<[usize; 3]> {
         let own = self.body?;
         let root = |b: usize| mechanics.kinematics.root(b);
@@ -99,7 +100,7 @@ impl Point {
         ([*a, *b, *c] == [1.0; 3]).then_some([*x, *y, *z])
     }
 
-    /// Velocity by prescribed motions alone at (t, q), `travel` being those of t.
+    /// Velocity due to the prescribed motions alone at (t, q); `travel` are the prescribed motions at t.
     pub fn drift(&self, mechanics: &Mechanics, travel: &[Travel], t: f64, q: &DVector<f64>) -> [f64; 3] {
         let mut sum = [0.0; 3];
         for (b, body) in mechanics.scene.bodies.iter().enumerate() {
@@ -111,7 +112,7 @@ impl Point {
         sum
     }
 
-    /// Adds `direction` times the rows of its displacement at (t, q) by the degrees of freedom to `row`.
+    /// Adds `direction` times the rows of the displacement of the point at (t, q) to `row`.
     pub fn add_row(
         &self,
         mechanics: &Mechanics,
@@ -133,7 +134,7 @@ impl Point {
         }
     }
 
-    /// What it moves per unit of the x of root `b` at (t, q).
+    /// Displacement of the point per unit of the x of root `b` at (t, q).
     pub fn by_travel(&self, mechanics: &Mechanics, b: usize, t: f64, q: &DVector<f64>) -> [f64; 3] {
         let root = |b: usize| mechanics.kinematics.root(b);
         let Some(own) = self.body else { return [0.0; 3] };
@@ -154,7 +155,7 @@ impl Point {
     }
 }
 
-/// Y and Z of the origin of a body, in the frame of its track, where all displacements are zero.
+/// Y and Z of the origin of a body in the frame of its track, where all displacements are zero.
 fn rest(mechanics: &Mechanics, body: Option<usize>) -> [f64; 2] {
     let (mut origin, mut next) = ([0.0; 2], body);
     while let Some(b) = next {
@@ -179,7 +180,8 @@ fn rows(mechanics: &Mechanics, end: &RopeEnd) -> [Terms; 3] {
     arm_rows(end.at).map(|component| mechanics.kinematics.combine(b, &component))
 }
 
-/// Height of the origin of body `b` over that of the body `root` that it is pinned to.
+/// Height of the origin of body `b` above the origin of `root`, the body that it is pinned to directly or through
+/// others.
 fn height_over(mechanics: &Mechanics, b: usize, root: usize) -> f64 {
     let (mut height, mut at) = (0.0, b);
     while let Some(pin) = mechanics.scene.bodies[at].pinned.as_ref().filter(|_| at != root) {
@@ -189,11 +191,11 @@ fn height_over(mechanics: &Mechanics, b: usize, root: usize) -> f64 {
     height
 }
 
-/// Two points that an element joins; without the first, the second and a plane in space.
+/// Two points that are joined by an element. Without `from`, the element joins `to` and a plane in space.
 pub(crate) struct PointPair {
     pub from: Option<Point>,
     pub to: Point,
-    /// Whether their direction turns as they move across it.
+    /// Whether the direction of the element rotates as the points move transversely.
     pub swings: bool,
 }
 
@@ -217,7 +219,7 @@ impl PointPair {
         }
     }
 
-    /// Rate of the distance along `direction` by the x of root body `b`, at (t, q).
+    /// Rate of the distance along `direction` per unit velocity of the x of root body `b`, at (t, q).
     pub fn by_travel(
         &self,
         mechanics: &Mechanics,
@@ -230,7 +232,7 @@ impl PointPair {
     }
 }
 
-/// `a` - `b`.
+/// Difference `a` - `b`.
 pub(crate) fn difference(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }

@@ -1,28 +1,29 @@
-//! The state of a scene at one time, and the polynomial between two of them.
+//! The state of a scene at one time, and the interpolation polynomial between two states.
 
 use nalgebra::DVector;
 
-/// Freedoms, their rates, penetrations and forces at one time.
+/// Degrees of freedom, their rates, penetrations and forces at one time.
 #[derive(Clone, Debug)]
 pub(crate) struct State {
     pub t: f64,
     pub q: DVector<f64>,
     pub v: DVector<f64>,
     pub a: DVector<f64>,
-    /// Penetration of each vertical contact, negative where it is open; then the displacements of massless rails
-    /// along x (see `contact::tangential`).
+    /// Penetration of each vertical contact, negative where it is open, followed by the displacements of massless
+    /// rails along x (see `contact::tangential`).
     pub p: Vec<f64>,
-    /// Rate of penetration, where a damper between wheel and rail makes it a state; then those of the rails.
+    /// Rate of penetration, where a damper between wheel and rail makes the penetration a state, followed by the
+    /// rates of the massless rails.
     pub p_rate: Vec<f64>,
-    /// Force of each component.
+    /// Force of each contact component.
     pub force: Vec<f64>,
-    /// Whether it is an interpolant: rates of penetration are as near as the places, penetrations are not, for stiff
-    /// wheels.
+    /// Whether the state is an interpolant. Its penetration rates are then as accurate as its positions, but for
+    /// stiff wheels its penetrations are not.
     pub is_between: bool,
 }
 
 impl State {
-    /// The state zero.
+    /// A state in which all values are zero.
     pub fn zeros(freedoms: usize, penetrations: usize, components: usize) -> Self {
         State {
             t: 0.0,
@@ -47,9 +48,10 @@ impl State {
         self.is_between = other.is_between;
     }
 
-    /// Sets this state to the interpolant between `from` and `to` at the fraction `s` of the step: quintic in q
-    /// (Hermite, from q, v and a at both ends), cubic in the penetrations. Forces keep those of `from` as a first
-    /// guess.
+    /// Sets this state to the interpolant between `from` and `to` at the fraction `s` of the step. q and v follow the
+    /// quintic Hermite polynomial through q, v and a at both ends, and the penetrations follow the cubic Hermite
+    /// polynomial through their values and rates. Accelerations and forces are interpolated linearly; the forces
+    /// serve as a first guess.
     pub fn interpolate(&mut self, from: &State, to: &State, s: f64) {
         let h = to.t - from.t;
         self.is_between = true;
@@ -86,7 +88,8 @@ impl State {
     }
 }
 
-/// Known parts of a stage: Q = `q` + (h gamma) V, V = `v` + (h gamma) A, and the like for the penetrations.
+/// Constant terms of a stage: Q = `q` + (h gamma) V and V = `v` + (h gamma) A; the penetrations are treated in the
+/// same way.
 pub(crate) struct Known {
     pub q: DVector<f64>,
     pub v: DVector<f64>,

@@ -1,4 +1,4 @@
-//! The wheels of all contacts, and the groups of them that share one vertical force.
+//! The wheels of all contacts, and the groups of wheels that share one vertical force.
 
 use std::ops::Range;
 
@@ -9,20 +9,21 @@ pub(crate) struct WheelPoint<'a> {
     pub body: usize,
     pub contact: usize,
     pub kind: usize,
-    /// Hub from the body's origin.
+    /// Position of the hub relative to the origin of the body.
     pub hub: [f64; 3],
-    /// Number of its spin among the degrees of freedom.
+    /// Index of the spin among the degrees of freedom; `None` where the wheel has no spin of its own.
     pub spin: Option<usize>,
-    /// Its spin over time, where it is prescribed.
+    /// Prescribed spin; `None` where the spin is not prescribed.
     pub turn: Option<&'a Profile>,
 }
 
-/// The wheels that share one vertical force: those of a contact, once for each rigid part that they press on.
+/// Wheels that share one vertical force: the wheels of a contact, with one group for each rigid part that they may
+/// load.
 pub(crate) struct WheelGroup {
     pub wheels: Range<usize>,
     pub kind: usize,
     pub contact: usize,
-    /// Which rigid part it presses on, where every part has its own force.
+    /// Rigid part that the group loads, where every part has a force of its own.
     pub part: Option<usize>,
 }
 
@@ -37,12 +38,12 @@ impl WheelGroup {
 pub(crate) struct Wheels<'a> {
     pub points: Vec<WheelPoint<'a>>,
     pub groups: Vec<WheelGroup>,
-    /// Groups of each contact.
+    /// Range of wheel groups of each contact.
     pub of_contact: Vec<Range<usize>>,
 }
 
 impl<'a> Wheels<'a> {
-    /// Lists them; `next` numbers the spins.
+    /// Lists the wheels and groups; `next` returns the index of the next degree of freedom for a spin.
     pub fn new(
         scene: &'a Scene,
         foundations: &[Foundation],

@@ -1,17 +1,20 @@
 //! The linear complementarity problem of one-sided contact: F >= 0, s = A F - b >= 0, F . s = 0.
 //!
-//! With A = G + diag(1/k) symmetric positive definite the solution exists and is unique for every b.
+//! A = G + diag(1/k) is symmetric positive definite, so the solution exists and is unique for every b.
 
 use super::dense::{solve_general, solve_spd};
 
-/// Sweeps of the active set before Lemke's method takes over.
+/// Maximum number of active-set sweeps before Lemke's method is used.
 const SWEEPS: usize = 30;
 
-/// Solves the problem for A (n x n, row-major, symmetric positive definite) and b; `force` holds a first
-/// guess (entries > 0 are taken as active) and receives F. Returns how many active sets were tried.
+/// Solves the problem for A (n x n, row-major, symmetric positive definite) and b. On entry `force` contains a first
+/// guess, whose entries > 0 define the initial active set; on return it contains F. Returns the number of active sets
+/// tried; `None` where no solution was found.
 ///
-/// The primal-dual active set (a semi-smooth Newton method) ends in a few sweeps; where it cycles, Lemke's
-/// pivots end for every such A.
+/// Each sweep of the primal-dual active set method (a semi-smooth Newton method) solves A F = b on the active
+/// contacts, with F = 0 on the others. It then keeps the active contacts with F > 0 and activates the inactive
+/// contacts with A F - b < 0. The iteration stops when the active set no longer changes. Where the sets cycle,
+/// Lemke's pivoting is used, which terminates for every positive definite A.
 ///
 /// # Source
 /// Hintermueller, Ito, Kunisch, SIAM J. Optim. 13 (2003) 865-888; Cottle, Pang, Stone, The Linear
@@ -38,7 +41,7 @@ pub(crate) fn complementarity(a: &[f64], b: &[f64], force: &mut [f64]) -> Option
     lemke(a, b, force).then_some(SWEEPS + 1)
 }
 
-/// Forces of the active contacts alone, the others zero.
+/// Solves for the forces of the active contacts; the forces of the inactive contacts are zero.
 fn solve_active(a: &[f64], b: &[f64], active: &[bool], force: &mut [f64]) -> Option<()> {
     let n = b.len();
     let index: Vec<usize> = (0..n).filter(|&i| active[i]).collect();
@@ -59,14 +62,15 @@ fn solve_active(a: &[f64], b: &[f64], active: &[bool], force: &mut [f64]) -> Opt
     Some(())
 }
 
-/// Lemke's complementary pivoting with the covering vector of ones. Returns false on a secondary ray.
+/// Lemke's complementary pivoting with a covering vector of ones. Returns false on a secondary ray or when the limit
+/// on pivots is reached.
 fn lemke(a: &[f64], b: &[f64], force: &mut [f64]) -> bool {
     let n = b.len();
     force.fill(0.0);
     if b.iter().all(|&entry| entry <= 0.0) {
         return true;
     }
-    // Tableau of w - A z - 1 z0 = -b; columns w (n), z (n), z0, right-hand side.
+    // Tableau of w - A z - 1 z0 = -b. The columns are w (n), z (n), z0 and the right-hand side.
     let width = 2 * n + 2;
     let mut tableau = vec![0.0; n * width];
     for i in 0..n {
@@ -126,7 +130,7 @@ fn pivot(tableau: &mut [f64], width: usize, n: usize, row: usize, column: usize)
 mod tests {
     use super::{complementarity, lemke};
 
-    /// A = B B^T/n + 0.05 I and b from a planted pair of F >= 0, s >= 0 with F . s = 0.
+    /// A = B B^T/n + 0.05 I, and b such that a known pair F >= 0, s >= 0 with F . s = 0 is the solution.
     fn planted(n: usize, seed: u64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
         let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
         let mut random = move || {
@@ -180,7 +184,7 @@ mod tests {
         assert_eq!(complementarity(&a, &b, &mut guess), Some(1));
     }
 
-    /// Forces by trying every active set: the one with F >= 0 and s >= 0.
+    /// Forces found by testing every active set for F >= 0 and s >= 0.
     fn brute(n: usize, a: &[f64], b: &[f64]) -> Option<Vec<f64>> {
         (0..1_u32 << n).find_map(|set| {
             let active: Vec<bool> = (0..n).map(|i| set >> i & 1 == 1).collect();
@@ -196,7 +200,7 @@ mod tests {
         for n in 1..=6 {
             for seed in 50..90 {
                 let (a, mut b, _) = planted(n, seed);
-                // A right-hand side without a planted answer.
+                // This right-hand side has no known solution.
                 b.reverse();
                 let wanted = brute(n, &a, &b).expect("one set solves it");
                 let (mut found, mut pivoted) = (vec![0.0; n], vec![0.0; n]);

@@ -1,6 +1,7 @@
-//! Small dense products and systems, without allocation: the innermost loop of the contact solver.
+//! Small dense products and linear systems without allocation, used in the innermost loop of the contact solver.
 
-/// Scalar product of two vectors of one length, in four partial sums: the same on every machine.
+/// Scalar product of two vectors of equal length. It uses four partial sums in a fixed order, so the result is the
+/// same on every machine.
 #[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
@@ -12,21 +13,21 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     (sums[0] + sums[2]) + (sums[1] + sums[3]) + rest
 }
 
-/// Row `i` of a row-major matrix times `vector`, whose length is the row's.
+/// Product of row `i` of a row-major matrix and `vector`, whose length is that of the row.
 #[inline]
 pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
     let n = vector.len();
     dot(&rows[i * n..(i + 1) * n], vector)
 }
 
-/// Order from which sums run in lanes: below, the plain loop is quicker.
+/// Order of a matrix from which scalar products use `LANES` partial sums; below it the plain loop is faster.
 const WIDE: usize = 16;
-/// Rows that stay in the cache together.
+/// Number of rows in one block of the factorization, chosen so that a block stays in the cache.
 const BLOCK: usize = 32;
-/// Partial sums of a scalar product, enough to hide the latency of an addition.
+/// Number of partial sums of a scalar product, large enough to hide the latency of an addition.
 const LANES: usize = 16;
 
-/// Scalar product in [`LANES`] partial sums: the same sums on every machine.
+/// Scalar product in [`LANES`] partial sums of a fixed order, so that the result is the same on every machine.
 fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; LANES];
     let (first, second) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
@@ -39,10 +40,12 @@ fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Solves A x = b for a symmetric positive definite A (n x n, row-major, lower triangle used), by Cholesky.
+/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n, row-major, lower triangle
+/// used).
 ///
-/// `a` is overwritten by its factor and `b` by x. Rows are finished from the top, each from the rows above it, which
-/// lie in one piece. Returns false, with both spoilt, where A is not positive definite to working precision.
+/// `a` is overwritten by its factor and `b` by x. The factor is computed row by row from the top, so that every
+/// scalar product uses contiguous memory. Returns false where A is not positive definite to working precision; the
+/// contents of `a` and `b` are then undefined.
 #[must_use]
 pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
     if b.len() < WIDE { factor_and_solve(a, b, dot) } else { factor_and_solve(a, b, dot_wide) }
@@ -51,7 +54,7 @@ pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
 #[inline]
 fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
     let n = b.len();
-    // Rows above `i` in blocks that stay in the cache while the rows of a block below pass over them.
+    // The rows above `i` are processed in blocks that stay in the cache while the rows of a lower block are updated.
     for first in (0..n).step_by(BLOCK) {
         let last = (first + BLOCK).min(n);
         for upper in (0..=first).step_by(BLOCK) {
@@ -76,7 +79,7 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -
         let row = &a[i * n..=i * n + i];
         b[i] = (b[i] - dot(&row[..i], &b[..i])) / row[i];
     }
-    // Columns of the factor's transpose are rows of the factor.
+    // The columns of the transposed factor are the rows of the factor.
     for i in (0..n).rev() {
         let (before, rest) = b.split_at_mut(i);
         let row = &a[i * n..=i * n + i];
@@ -86,7 +89,8 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -
     true
 }
 
-/// Solves A x = b (n x n, row-major) by elimination with partial pivoting; `a` and `b` are overwritten, `b` by x.
+/// Solves A x = b (n x n, row-major) by Gaussian elimination with partial pivoting. `a` is overwritten, and `b` is
+/// overwritten by x.
 ///
 /// Returns false where A is singular.
 #[must_use]
@@ -116,8 +120,8 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
-/// Puts the factors of A (n x n, row-major) in its place, P A = L U with partial pivoting: L below the diagonal, its
-/// own diagonal left out; `pivots` are the rows exchanged.
+/// Replaces A (n x n, row-major) by its factors P A = L U with partial pivoting. L is stored below the diagonal
+/// without its unit diagonal, and `pivots` receives the row exchanges.
 ///
 /// Returns false where A is singular.
 #[must_use]
@@ -131,7 +135,7 @@ pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
     true
 }
 
-/// Solves A x = b by the factors and the rows exchanged of [`factor_general`]; `b` is overwritten by x.
+/// Solves A x = b with the factors and row exchanges of [`factor_general`]; `b` is overwritten by x.
 pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     let n = b.len();
     for (j, &pivot) in pivots.iter().enumerate() {
@@ -143,7 +147,8 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     substitute(a, b);
 }
 
-/// Brings the row with the largest entry of column `j` below the diagonal to row `j`, whole; `None` where it has none.
+/// Exchanges row `j` with the row that has the largest entry of column `j` on or below the diagonal, and returns the
+/// index of that row; `None` where all these entries are zero or the largest is not finite.
 fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
     let size = |row: usize| a[row * n + j].abs();
     let pivot = (j..n).max_by(|&p, &q| size(p).total_cmp(&size(q))).unwrap_or(j);
@@ -157,7 +162,7 @@ fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
     Some(pivot)
 }
 
-/// Takes row `j` from those below and leaves its shares in column `j`.
+/// Eliminates column `j` from the rows below row `j` and stores the multipliers in column `j`.
 fn eliminate(a: &mut [f64], j: usize, n: usize) {
     let (above, below) = a.split_at_mut((j + 1) * n);
     let row = &above[j * n..];
@@ -171,7 +176,7 @@ fn eliminate(a: &mut [f64], j: usize, n: usize) {
     }
 }
 
-/// Solves U x = b, U on and above the diagonal of `a`.
+/// Solves U x = b by back substitution, where U is stored on and above the diagonal of `a`.
 fn substitute(a: &[f64], b: &mut [f64]) {
     let n = b.len();
     for i in (0..n).rev() {
@@ -180,10 +185,11 @@ fn substitute(a: &[f64], b: &mut [f64]) {
     }
 }
 
-/// Puts the inverse of a symmetric positive definite matrix (n x n, lower triangle used) in its place: L^-T L^-1, with
-/// `scratch` as large.
+/// Replaces a symmetric positive definite matrix (n x n, lower triangle used) by its inverse L^-T L^-1. `scratch`
+/// must be at least as large as the matrix.
 ///
-/// Returns false, with it spoilt, where it is not positive definite to working precision.
+/// Returns false where the matrix is not positive definite to working precision; the contents of `a` are then
+/// undefined.
 #[must_use]
 pub(crate) fn invert_spd(a: &mut [f64], scratch: &mut [f64], n: usize) -> bool {
     for i in 0..n {
@@ -198,7 +204,7 @@ pub(crate) fn invert_spd(a: &mut [f64], scratch: &mut [f64], n: usize) -> bool {
         }
         row[i] = pivot.sqrt();
     }
-    // Rows of L^-1 from the top, each from those above it.
+    // The rows of L^-1 are computed from the top, each from the rows above it.
     let inverse = &mut scratch[..n * n];
     inverse.fill(0.0);
     for i in 0..n {
@@ -240,7 +246,7 @@ mod tests {
     #[test]
     fn large_definite_systems_recover_a_planted_solution() {
         for n in [15, 16, 17, 31, 32, 33, 64, 100, 257] {
-            // Green's function of a string, min(x, y) (1 - max(x, y)), and springs.
+            // Green's function of a string, min(x, y) (1 - max(x, y)), plus springs on the diagonal.
             let at = |i: usize| (i + 1) as f64 / (n + 1) as f64;
             let entry =
                 |i: usize, j: usize| at(i.min(j)) * (1.0 - at(i.max(j))) + if i == j { 0.1 } else { 0.0 };
@@ -250,7 +256,7 @@ mod tests {
             assert!(solve_spd(&mut a, &mut b));
             let error = b.iter().zip(&x).fold(0.0_f64, |max, (b, x)| max.max((b - x).abs()));
             assert!(error < 1e-11, "n {n}: {error}");
-            // Minus one in the last place of the diagonal is refused at the end.
+            // A value of -1 in the last diagonal entry makes the matrix indefinite and must be rejected.
             let mut a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
             a[n * n - 1] = -1.0;
             assert!(!solve_spd(&mut a, &mut b));

@@ -1,5 +1,5 @@
-//! Small numerical methods that know nothing of mechanics: dense products and systems, the linear complementarity
-//! problem, roots of functions of one variable, and the STEP function with its integral.
+//! General numerical methods that do not depend on mechanics: dense products and linear systems, the linear
+//! complementarity problem, root finding in one variable, and the STEP function with its integral.
 
 pub(crate) mod complementarity;
 pub(crate) mod dense;

@@ -1,23 +1,28 @@
-//! Roots of functions of one variable that change their sign between two places.
+//! Root finding for a function of one variable that changes sign in a given interval.
 
-/// Narrows [0, 1], at whose ends `f` has the values `ends` of different sign, to `width` or to rounding; returns the
-/// last place with the sign of the value at 0 and the first with that of the value at 1. `f` may end the search by
-/// `None`.
+/// Reduces the bracket [0, 1] of a sign change of `f` to `width` or to rounding. `ends` are the values of `f` at 0
+/// and 1, which have different signs. Returns the last point with the sign of the value at 0 and the first point with
+/// the sign of the value at 1. The search ends early where `f` returns `None`.
 ///
-/// At most one evaluation more than bisection needs; on smooth functions a few in all.
+/// Each iteration of the ITP method takes the regula falsi estimate, shifts it towards the midpoint (truncation), and
+/// limits its distance from the midpoint (projection) such that the method needs at most one evaluation more than
+/// bisection. On smooth functions it needs a few evaluations in all. The sign of `f` at the new point determines
+/// which end of the bracket moves.
 ///
 /// # Source
 /// The ITP method: Oliveira, Takahashi, ACM Trans. Math. Softw. 47 (2020) 5.
 pub(crate) fn narrow(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Option<f64>) -> [f64; 2] {
     let sign = ends[1].signum();
     let ([mut low, mut high], [mut below, mut above]) = ([0.0_f64, 1.0_f64], ends.map(|end| sign * end));
-    // Bisection from the middle would end within this reach of the root.
+    // Radius of the projection interval plus half the bracket. It is halved in each iteration, which gives the worst
+    // case of bisection plus one evaluation.
     let mut reach = width * (-width.log2()).ceil().exp2();
     while high - low > width {
         let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
         let secant = (above * low - below * high) / (above - below);
         let aside = (middle - secant).clamp(-half, half);
-        // A little beyond the secant's root, so that both ends draw near.
+        // The truncation shifts the regula falsi estimate towards the midpoint, so that both ends of the bracket
+        // converge.
         let beyond = (0.8 * half * half).min(aside.abs());
         let apart = (aside.abs() - beyond).min((reach - half).max(0.0));
         let near = 0.5 * width.min(high - low);

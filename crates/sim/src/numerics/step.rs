@@ -1,10 +1,10 @@
-//! The cubic STEP of ADAMS, the smooth switch of the contact, friction and hand-over laws, and its integral.
+//! The cubic STEP function of ADAMS, which smooths the contact, friction and hand-over laws, and its integral.
 
 /// Value and slope of STEP(x, x0, h0, x1, h1): h0 below x0, h1 above x1, and
 /// h0 + (h1 - h0) D^2 (3 - 2 D), D = (x - x0)/(x1 - x0), between; `x0 < x1`.
 ///
 /// # Source
-/// ADAMS/Solver function STEP: continuous first derivative, jumps in the second.
+/// ADAMS/Solver function STEP. Its first derivative is continuous; its second derivative jumps at x0 and x1.
 #[must_use]
 pub fn step(x: f64, x0: f64, h0: f64, x1: f64, h1: f64) -> (f64, f64) {
     if x <= x0 {

@@ -1,7 +1,8 @@
-//! The energy audit: what is stored, what was dissipated, what was supplied.
+//! The energy audit: energy stored, dissipated and supplied.
 //!
-//! Stored energy and powers are sums over bodies, structures and force elements at one state; each element adds its own
-//! ([`Element`](crate::contact::element::Element)). Steppers integrate the powers; nothing here knows of steps.
+//! Stored energy and powers are sums over bodies, structures and force elements at one state; each element adds its
+//! own ([`Element`](crate::contact::element::Element)). The steppers integrate the powers; this module does not
+//! depend on them.
 
 use crate::contact::element::Frame;
 use crate::contact::geometry::Geometry;
@@ -15,16 +16,16 @@ use crate::{Exchanged, Stored};
 /// Result of the audit of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Audit {
-    /// Largest |stored + lost - put in - stored at the start| over the run, an energy.
+    /// Largest |stored + lost - supplied - stored at the start| over the run, an energy.
     pub imbalance: f64,
-    /// Peak elastic energy over the run, or, where there are ropes or stops, the kinetic one if that is larger: the
-    /// scale of `residual`.
+    /// Peak elastic energy over the run or, if there are ropes or stops, the peak kinetic energy if that is larger.
+    /// It is the reference of `residual`.
     pub peak_stored: f64,
-    /// Everything exchanged until the end.
+    /// Energy exchanged over the whole run.
     pub exchanged: Exchanged,
-    /// Stored at the start.
+    /// Energy stored at the start.
     pub start: Stored,
-    /// Stored at the end.
+    /// Energy stored at the end.
     pub end: Stored,
 }
 
@@ -36,7 +37,7 @@ impl Audit {
     }
 }
 
-/// Energy stored at `state`; `geometry` must belong to it.
+/// Energy stored at `state`; `geometry` must be current for it.
 pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Stored {
     let mechanics = &system.mechanics;
     let kinetic = kinetic(&mechanics.blocks, &mechanics.couplings, &state.v);
@@ -69,7 +70,7 @@ pub(crate) fn stored(system: &System, geometry: &Geometry, state: &State) -> Sto
     energy
 }
 
-/// Rates of everything exchanged at `state`, less the rate of [`boundary`].
+/// Powers of all exchanges at `state`, without the rate of [`boundary`].
 pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exchanged {
     let structure = system.mechanics.blocks.iter().map(|block| block.loss(state.v.as_slice())).sum();
     let mut power = Exchanged { structure, ..Exchanged::default() };
@@ -91,14 +92,14 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
     power
 }
 
-/// Boundary terms of the losses in dampers, which [`power`] leaves out.
+/// Boundary terms of the losses in dampers, which are not included in [`power`].
 pub(crate) fn boundary(system: &System, geometry: &Geometry, state: &State) -> f64 {
     let (frame, elements) = (geometry.frame(system, state), system.elements.iter().enumerate());
     elements.fold(0.0, |sum, (i, element)| sum + element.boundary(&frame.at(i)))
 }
 
-/// Force along +x that the prescribed motion of body `b` needs: its inertia and that of all that is pinned to it, less
-/// what their elements take.
+/// Force along +x required by the prescribed motion of body `b`: its inertia and that of everything pinned to it,
+/// plus the resistance of the elements.
 pub(crate) fn motion_force(system: &System, frame: &Frame, b: usize) -> f64 {
     let Frame { mechanics, state, .. } = frame;
     let kinematics = &mechanics.kinematics;
@@ -113,15 +114,15 @@ pub(crate) fn motion_force(system: &System, frame: &Frame, b: usize) -> f64 {
     force
 }
 
-/// Power of the moments that prescribe spins.
+/// Power of the moments that drive prescribed spins.
 fn power_of_turns(system: &System, geometry: &Geometry, state: &State) -> f64 {
     let mechanics = &system.mechanics;
     let all = (0..mechanics.wheels.len()).filter_map(|w| Some((w, mechanics.turn(w, state.t)?)));
     all.map(|(w, at)| spin_moment(system, geometry, state, w) * at.v).sum()
 }
 
-/// Moment about z that prescribes the spin of wheel `w`: I times its acceleration and the friction below it; zero where
-/// the spin is free.
+/// Moment about z required by the prescribed spin of wheel `w`: its spin inertia times the acceleration, plus the
+/// moment of the friction below it; zero if the spin is free.
 pub(crate) fn spin_moment(system: &System, geometry: &Geometry, state: &State, w: usize) -> f64 {
     let Some(at) = system.mechanics.turn(w, state.t) else { return 0.0 };
     system.mechanics.spin_inertia(w) * at.a + geometry.places().height[w] * system.friction_of(w, state)

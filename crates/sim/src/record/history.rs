@@ -1,11 +1,11 @@
-//! What a run leaves: samples over time.
+//! Results of a run: samples over time.
 
 use crate::scene::channel::Channel;
 
 /// Samples of every channel at increasing times.
 ///
-/// Values are stored sample by sample. [`History::samples`] and [`History::sample`] lend slices over all channels,
-/// [`History::values`] goes along one channel; neither copies.
+/// Values are stored sample by sample. [`History::samples`] and [`History::sample`] return slices over all channels,
+/// and [`History::values`] iterates over one channel; none of them copies.
 /// ```
 /// # use std::ops::ControlFlow;
 /// # use sim::{Body, Channel, Contact, Damper, Foundation, BodyDof, NormalLaw, Scene, Wheel};
@@ -26,27 +26,27 @@ use crate::scene::channel::Channel;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct History {
     channels: Vec<Channel>,
-    /// Sample by sample.
+    /// Values of all channels, sample by sample.
     values: Vec<f64>,
 }
 
 impl History {
-    /// No samples yet of `channels`.
+    /// Creates an empty history of `channels`.
     pub(crate) fn new(channels: Vec<Channel>) -> Self {
         History { channels, values: Vec::new() }
     }
 
-    /// Makes room for `samples` more.
+    /// Reserves memory for `samples` more samples.
     pub(crate) fn reserve(&mut self, samples: usize) {
         self.values.reserve(samples * self.channels.len());
     }
 
-    /// Takes the values, to be put back with a sample more.
+    /// Takes the values out of the history; `put_values` must put them back.
     pub(crate) fn take_values(&mut self) -> Vec<f64> {
         std::mem::take(&mut self.values)
     }
 
-    /// Puts the values back.
+    /// Puts the values back into the history.
     pub(crate) fn put_values(&mut self, values: Vec<f64>) {
         self.values = values;
     }
@@ -63,31 +63,31 @@ impl History {
         if self.channels.is_empty() { 0 } else { self.values.len() / self.channels.len() }
     }
 
-    /// Whether nothing was sampled.
+    /// Whether there are no samples.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.values.is_empty()
     }
 
-    /// Sample `i`, one value a channel.
+    /// Sample `i`, with one value for each channel.
     #[must_use]
     pub fn sample(&self, i: usize) -> &[f64] {
         let width = self.channels.len();
         &self.values[i * width..(i + 1) * width]
     }
 
-    /// All samples in their order, each with one value a channel, without a copy.
+    /// All samples in their order, each with one value for each channel, without a copy.
     pub fn samples(&self) -> std::slice::ChunksExact<'_, f64> {
         self.values.chunks_exact(self.channels.len().max(1))
     }
 
-    /// Place of a channel in every sample; `None` where the scene does not have it.
+    /// Position of a channel in every sample; `None` if the scene does not have it.
     #[must_use]
     pub fn position(&self, channel: Channel) -> Option<usize> {
         self.channels.iter().position(|&known| known == channel)
     }
 
-    /// One channel over time, without a copy; empty where the scene does not have it.
+    /// One channel over time, without a copy; empty if the scene does not have it.
     pub fn values(&self, channel: Channel) -> impl ExactSizeIterator<Item = f64> + Clone + '_ {
         let (samples, at) = match self.position(channel) {
             Some(at) => (self.values.as_slice(), at),
@@ -96,7 +96,7 @@ impl History {
         samples.chunks_exact(self.channels.len().max(1)).map(move |sample| sample[at])
     }
 
-    /// One channel over time; empty where the scene does not have it.
+    /// One channel over time; empty if the scene does not have it.
     #[must_use]
     pub fn column(&self, channel: Channel) -> Vec<f64> {
         self.values(channel).collect()

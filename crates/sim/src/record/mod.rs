@@ -1,6 +1,6 @@
-//! What a run leaves: the samples of every channel, and the energy audit.
+//! Results of a run: the samples of every channel, and the energy audit.
 //!
-//! Evaluated at a state that is given, so that it knows no stepper. It stands on `contact`.
+//! The results are evaluated at a given state and do not depend on the stepper. This module depends on `contact`.
 
 pub(crate) mod energy;
 pub(crate) mod history;

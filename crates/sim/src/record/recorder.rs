@@ -13,27 +13,27 @@ use crate::record::history::History;
 use crate::scene::dof::arm_rows;
 use crate::{Analysis, BodyDof, Channel, Error, Gauge};
 
-/// Structures whose degrees of freedom are recorded, with the numbers of these.
+/// Structures whose degrees of freedom are recorded, with the numbers of these degrees of freedom.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
     let all = system.mechanics.structures.iter().zip(system.foundations).enumerate();
     all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
 }
 
-/// Writes samples.
+/// Recorder of samples.
 pub(crate) struct Recorder {
     history: History,
-    /// Columns to which the elements add their forces.
+    /// Columns to which the elements add their forces, with the divisors.
     forces: Vec<ForceColumn>,
-    /// Columns of the lengths of elements.
+    /// Elements whose length is recorded, with the columns of the lengths.
     lengths: Vec<(usize, usize)>,
-    /// Number of columns that are the elements' own.
+    /// Number of columns for channels of the elements' own.
     own_columns: usize,
-    /// Scratch of the gauges.
+    /// Working memory for the gauges.
     probes: Vec<Probe>,
     shape: Vec<f64>,
 }
 
-/// A column to which an element adds its force by a divisor.
+/// A column to which the force of an element, divided by `divisor`, is added.
 struct ForceColumn {
     element: usize,
     column: usize,
@@ -57,25 +57,25 @@ impl Recorder {
         Recorder { history: History::new(channels), forces, lengths, own_columns, probes, shape }
     }
 
-    /// What was recorded.
+    /// The samples recorded so far.
     pub fn history(&self) -> &History {
         &self.history
     }
 
-    /// All that was recorded.
+    /// Returns the recorded samples.
     pub fn into_history(self) -> History {
         self.history
     }
 
-    /// Makes room for `samples` more.
+    /// Reserves memory for `samples` more samples.
     pub fn reserve(&mut self, samples: usize) {
         self.history.reserve(samples);
     }
 
-    /// Adds a sample; `geometry` belongs to `at`.
+    /// Adds a sample; `geometry` must be current for `at`.
     ///
     /// # Errors
-    /// What the rails refuse at the gauges.
+    /// Any error from evaluating the rails at the gauges.
     pub fn record(&mut self, system: &System, geometry: &Geometry, at: &State) -> Result<(), Error> {
         let mut values = self.history.take_values();
         let done = self.row(system, geometry, at, &mut values);
@@ -83,10 +83,10 @@ impl Recorder {
         done
     }
 
-    /// Appends a sample to `values`; `geometry` belongs to `at`.
+    /// Appends a sample to `values`; `geometry` must be current for `at`.
     ///
     /// # Errors
-    /// What the rails refuse at the gauges.
+    /// Any error from evaluating the rails at the gauges.
     pub fn row(
         &mut self,
         system: &System,
@@ -101,7 +101,7 @@ impl Recorder {
             let (displacement, speed) = mechanics.body(b, at.t, &at.q, &at.v);
             values.extend(displacement);
             values.extend(speed);
-            // The sum of no forces is -0.0, as that of an empty iterator.
+            // The sum of no forces is -0.0, the sum of an empty iterator.
             let drive = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
             values.extend([drive, -0.0]);
         }
@@ -128,7 +128,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// G F + Phi q at a gauge.
+    /// Displacement G F + Phi q at a gauge.
     fn displacement(
         &mut self,
         system: &System,
@@ -195,7 +195,7 @@ fn channels_of(system: &System) -> Vec<Channel> {
     channels
 }
 
-/// The nine values of wheel `w`; its forces are zero here, elements add them.
+/// The nine values of wheel `w`. The forces are zero here and are added by the elements.
 fn wheel_values(system: &System, geometry: &Geometry, at: &State, w: usize) -> [f64; 9] {
     let (mechanics, places) = (&system.mechanics, geometry.places());
     let wheel = &mechanics.wheels[w];

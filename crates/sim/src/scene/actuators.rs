@@ -1,4 +1,4 @@
-//! What acts on bodies besides weight and rails: loads, drives, brakes and prescribed spins.
+//! Actions on bodies other than weight and rail forces: loads, drives, brakes and prescribed spins.
 
 use super::dof::BodyDof;
 use super::profile::Profile;
@@ -6,69 +6,71 @@ use super::rope::{Rope, Stop};
 use super::rule::Rule;
 use super::schedule::Schedule;
 
-/// A force or a moment on one free degree of freedom of a body, over time.
+/// A force or a moment on one free degree of freedom of a body, as a function of time.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Load {
     /// Which body.
     pub body: usize,
-    /// On which freedom: a force at the origin along x, y or z, or a moment about them; positive as the degree of
-    /// freedom is.
+    /// Degree of freedom that is loaded: a force at the origin along x, y or z, or a moment about these axes, with
+    /// the sign of the degree of freedom.
     pub dof: BodyDof,
-    /// Its size.
+    /// Value of the force or moment over time.
     pub value: Schedule,
 }
 
-/// A drive that follows a speed: D = clip(gain (v_ref(t) - v), -limit, limit) along x.
+/// A speed-controlled drive: D = clip(gain (v_ref(t) - v), -limit, limit) along x.
 ///
-/// v is the mean speed along x of the driven wheels at their treads, and D acts there, evenly: it tips the body. The
-/// limit is the lesser of `max_force` and the traction sum of mu N of the driven wheels, N the vertical force of
-/// now. Without driven contacts D acts at the body's origin, v is the origin's speed, and traction is no limit; nor
-/// is it where a driven wheel has no [`friction`](crate::Wheel::friction).
+/// v is the mean velocity along x of the driven wheels at their contact points. D acts at these points in equal
+/// parts, so it also causes a pitching moment on the body. The limit is the smaller of `max_force` and the available
+/// traction, which is the sum of mu N over the driven wheels with the present vertical forces N. Without driven
+/// contacts, D acts at the origin of the body, v is the velocity of the origin, and traction is not limited. Traction
+/// is not limited either where a driven wheel has no [`friction`](crate::Wheel::friction).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drive {
-    /// Which body; its x is free.
+    /// Driven body, whose x must be free.
     pub body: usize,
-    /// v_ref(t).
+    /// Reference speed v_ref(t).
     pub speed: Schedule,
-    /// Force per speed, > 0.
+    /// Gain, force per unit of speed error, > 0.
     pub gain: f64,
-    /// Largest force, >= 0; infinite for none.
+    /// Largest force, >= 0; infinite for no limit.
     pub max_force: f64,
-    /// Driven contacts of the body; their wheels have no spin of their own.
+    /// Driven contacts of the body. Their wheels must not have a spin degree of freedom.
     pub contacts: Vec<usize>,
-    /// Time from which it is off; infinite for never.
+    /// Time at which the drive is switched off; infinite for never.
     pub until: f64,
 }
 
-/// Brakes of a body, on from a time: each braked contact rubs with B = -mu N tanh(s / speed), s the speed along x of
-/// the body at its treads, mu of the wheel's friction.
+/// Brakes of a body that are applied at a given time. Each braked contact exerts the friction force B = -mu N tanh(s
+/// / speed), where s is the velocity along x of the body at the contact points and mu is the friction coefficient of
+/// the wheel.
 ///
-/// Regularised: a braked body creeps where something pushes it, at s = speed artanh(H / mu N).
+/// The law is regularised: a braked body under a horizontal force H creeps at s = speed artanh(H / mu N).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Brake {
-    /// Which body; its x is free.
+    /// Driven body, whose x must be free.
     pub body: usize,
-    /// Time from which the brakes are on.
+    /// Time at which the brakes are applied.
     pub from: f64,
-    /// Speed at which the brake has 76 % of its friction, > 0.
+    /// Speed at which the brake force is 76 % of mu N, > 0.
     pub speed: f64,
-    /// Braked contacts of the body; their wheels have friction and no spin of their own.
+    /// Braked contacts of the body. Their wheels must have friction and no spin degree of freedom.
     pub contacts: Vec<usize>,
 }
 
-/// A wheel's spin over time: its angle about z is prescribed and its moment follows. Rolling towards +x turns it
-/// negative.
+/// Prescribed spin of a wheel: its angle about z is a given function of time, and the moment is a result. Rolling
+/// towards +x is a negative rotation.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PrescribedSpin {
-    /// Which contact; its wheels have friction.
+    /// Contact, whose wheels must have friction.
     pub contact: usize,
-    /// Which of the contact's wheels.
+    /// Index of the wheel in the contact.
     pub wheel: usize,
-    /// Angle, angular speed and acceleration over time.
+    /// Angle, angular velocity and angular acceleration over time.
     pub motion: Profile,
 }
 
-/// All loads, drives and brakes, ropes and stops of a scene.
+/// All loads, drives, brakes, ropes, stops, prescribed spins and rules of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Actuators {
     /// Loads.
@@ -83,14 +85,14 @@ pub struct Actuators {
     pub stops: Vec<Stop>,
     /// Wheels whose spin is prescribed.
     pub spins: Vec<PrescribedSpin>,
-    /// Bodies without wheels that start at rest below their ropes or on their floors.
+    /// Bodies without wheels that start in static equilibrium on their ropes or floors.
     pub hanging: Vec<usize>,
-    /// What switches drives, brakes and ropes during the run.
+    /// Rules that switch drives, brakes and ropes during the run.
     pub rules: Vec<Rule>,
 }
 
 impl Actuators {
-    /// Times at which the forces may jump or turn.
+    /// Times at which the forces or their slopes may jump.
     pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         let loads = self.loads.iter().flat_map(|load| load.value.breaks());
         let drives = self.drives.iter().flat_map(|drive| drive.speed.breaks().chain([drive.until]));

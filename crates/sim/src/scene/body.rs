@@ -9,14 +9,14 @@ use super::profile::Profile;
 pub struct Pin {
     /// Index of the body that carries the pin.
     pub body: usize,
-    /// Place of the pin from the origin of that body.
+    /// Position of the pin relative to the origin of that body.
     pub at: [f64; 3],
 }
 
 /// A rigid body on a track.
 ///
-/// Its y and z are measured from the position in which its wheels just touch the unloaded, straight rail,
-/// centred; its x is the rail coordinate of its origin.
+/// Its y and z are measured from the position in which its wheels just touch the unloaded straight rail and are
+/// centred on it. Its x is the rail coordinate of its origin.
 /// ```
 /// use sim::{Body, BodyDof, MotionKind, Profile};
 ///
@@ -33,19 +33,19 @@ pub struct Body {
     pub mass: f64,
     /// Moments of inertia about the centre of mass for roll, yaw and pitch.
     pub inertia: [f64; 3],
-    /// Centre of mass from the origin, in the track's frame.
+    /// Position of the centre of mass relative to the origin, in the frame of the track.
     pub cg: [f64; 3],
-    /// Which degrees of freedom are free; the others keep their starting value.
+    /// Whether each degree of freedom is free; a fixed one keeps its starting value.
     pub free: [bool; 6],
-    /// Starting displacements; the static equilibrium is found for y, roll and pitch where they are free.
+    /// Starting displacements. For free y, roll and pitch the static equilibrium is computed.
     pub start: [f64; 6],
-    /// Starting speeds.
+    /// Starting velocities.
     pub start_speed: [f64; 6],
-    /// The prescribed x(t); `None`: x is free or fixed, as `free` says.
+    /// Prescribed x(t). `None`: x is free or fixed as given by `free`.
     pub motion: Option<Profile>,
-    /// The pin that carries this body: its origin moves with the pin, rotations that are not free are those of the
-    /// carrying body, free ones are about the track's axes. The starting x, y and z are not used. `None`: the track
-    /// carries the body.
+    /// Pin that carries this body. The origin of the body moves with the pin. Fixed rotations are those of the
+    /// carrying body; free rotations are about the axes of the track. The starting x, y and z are not used. `None`:
+    /// the track carries the body.
     pub pinned: Option<Pin>,
 }
 
@@ -66,7 +66,8 @@ impl Body {
         }
     }
 
-    /// 6 x 6 mass matrix about the origin, m J^T J + diag(0, 0, 0, inertia), J the velocity of the centre of mass.
+    /// 6 x 6 mass matrix about the origin, m J^T J + diag(0, 0, 0, inertia), where J maps the velocities of the
+    /// origin to the velocity of the centre of mass.
     #[must_use]
     pub(crate) fn mass_matrix(&self) -> [[f64; 6]; 6] {
         let rows = arm_rows(self.cg);
@@ -83,10 +84,10 @@ impl Body {
     }
 }
 
-/// Bodies in an order in which each stands after the one it is pinned to.
+/// Indices of the bodies in an order in which every body follows the one it is pinned to.
 ///
 /// # Errors
-/// [`Error::Pinned`] where the pins form a circle.
+/// [`Error::Pinned`] where the pins form a cycle.
 pub(crate) fn parents_first(bodies: &[Body]) -> Result<Vec<usize>, Error> {
     let mut depths = Vec::with_capacity(bodies.len());
     for b in 0..bodies.len() {
@@ -103,8 +104,8 @@ pub(crate) fn parents_first(bodies: &[Body]) -> Result<Vec<usize>, Error> {
     Ok(depths.into_iter().map(|(_, b)| b).collect())
 }
 
-/// One contact between a body and a rail: a wheel, or the wheels of massless equalisers, which share its
-/// force evenly.
+/// One contact between a body and a rail: a single wheel, or several wheels on massless equalisers, which share the
+/// contact force equally.
 /// ```
 /// use sim::Contact;
 ///
@@ -121,16 +122,16 @@ pub struct Contact {
     pub structure: usize,
     /// Which rail of the structure.
     pub rail: usize,
-    /// Hub of the truck from the body's origin.
+    /// Position of the hub of the truck relative to the origin of the body.
     pub at: [f64; 3],
-    /// Wheels by their offsets along the rail from `at`; their mean is where the body is loaded.
+    /// Offsets of the wheels along the rail from `at`. The body is loaded at the mean of the offsets.
     pub offsets: Vec<f64>,
-    /// Which kind of wheel.
+    /// Index of the kind of wheel.
     pub wheel: usize,
 }
 
 impl Contact {
-    /// One wheel of kind 0 with its hub `at` a place from the origin of `body`, on the first rail of structure 0.
+    /// One wheel of kind 0 on the first rail of structure 0, with its hub at `at` relative to the origin of `body`.
     #[must_use]
     pub fn new(body: usize, at: [f64; 3]) -> Self {
         Contact { body, structure: 0, rail: 0, at, offsets: vec![0.0], wheel: 0 }

@@ -1,4 +1,4 @@
-//! The body that carries a structure: where the rails are on it, and what the structure weighs.
+//! The body that carries a structure: the positions of the rails on it and the mass of the structure.
 
 use super::dof::arm_rows;
 
@@ -7,28 +7,29 @@ use super::dof::arm_rows;
 pub struct Carrier {
     /// Which body.
     pub body: usize,
-    /// Its rails, in their order.
+    /// Rails of the structure, in their order.
     pub rails: Vec<CarriedRail>,
-    /// Mass of the structure moving as one with the body, 6 x 6 over x, y, z, roll, yaw, pitch of the body's origin,
-    /// in the order of [`crate::BodyDof`]; zeros where it is part of the body's.
+    /// Mass matrix of the structure for rigid motion with the body, 6 x 6 over x, y, z, roll, yaw and pitch of the
+    /// origin of the body, in the order of [`crate::BodyDof`]. It is zero where the mass of the body includes the
+    /// structure.
     pub mass: [[f64; 6]; 6],
-    /// Momentum of each of the structure's degrees of freedom by the six motions of the body's origin, phi^T M r;
-    /// empty where the structure has none.
+    /// Momentum phi^T M r of each degree of freedom of the structure per unit velocity of the six motions of the
+    /// origin of the body; empty where the structure has no degrees of freedom.
     pub coupling: Vec<[f64; 6]>,
 }
 
 /// A straight, level rail on a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedRail {
-    /// Where the rail's coordinate is 0, from the body's origin.
+    /// Point at which the rail coordinate is 0, relative to the origin of the body.
     pub origin: [f64; 3],
-    /// Direction of increasing coordinate, of length 1, without a part along y.
+    /// Unit vector in the direction of increasing coordinate; its y component is zero.
     pub along: [f64; 3],
 }
 
 impl Carrier {
-    /// A mass matrix 6 x 6 about `at` of a body, as its origin sees it: A^T `mass` A, A the motion at `at` by that of
-    /// the origin.
+    /// Transforms a 6 x 6 mass matrix about the point `at` of a body to the origin of the body: A^T `mass` A, where A
+    /// maps the motion of the origin to that of `at`.
     #[must_use]
     pub fn mass_about_origin(mass: &[[f64; 6]; 6], at: [f64; 3]) -> [[f64; 6]; 6] {
         let arm = arm(at);
@@ -37,7 +38,7 @@ impl Carrier {
         std::array::from_fn(|i| std::array::from_fn(|j| (0..6).map(|k| arm[k][i] * half[k][j]).sum()))
     }
 
-    /// What loads of the six motions about `at` of a body are about its origin: A^T `load`.
+    /// Transforms the six loads about the point `at` of a body to its origin: A^T `load`.
     #[must_use]
     pub fn load_about_origin(load: &[f64; 6], at: [f64; 3]) -> [f64; 6] {
         let arm = arm(at);
@@ -45,7 +46,7 @@ impl Carrier {
     }
 }
 
-/// Motion at `at` by the six of the origin.
+/// Matrix that maps the six motions of the origin to those of the point `at`.
 fn arm(at: [f64; 3]) -> [[f64; 6]; 6] {
     let mut rows = [[0.0; 6]; 6];
     rows[..3].copy_from_slice(&arm_rows(at));

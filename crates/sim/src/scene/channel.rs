@@ -1,4 +1,4 @@
-//! The quantities that a history holds and that rules compare.
+//! Quantities that a history records and that rules compare.
 
 use super::dof::BodyDof;
 
@@ -11,7 +11,7 @@ pub enum Channel {
     Displacement(usize, BodyDof),
     /// Speed of a body in one degree of freedom.
     Speed(usize, BodyDof),
-    /// Force along +x of a body's drive, or that its prescribed motion needs.
+    /// Force along +x of the drive of a body, or the force required by its prescribed motion.
     Drive(usize),
     /// Force along +x of a body's brakes.
     Brake(usize),
@@ -21,29 +21,29 @@ pub enum Channel {
     Vertical(usize),
     /// Lateral force of a wheel on the rail, +z.
     Lateral(usize),
-    /// Force of a wheel on the rail along +x: its friction, and its shares of its body's drive and brake.
+    /// Force of a wheel on the rail along +x: its friction and its parts of the drive and brake forces of the body.
     Traction(usize),
-    /// Penetration of a wheel into the rail, negative where it is off the rail.
+    /// Penetration of a wheel into the rail, negative where there is a gap.
     Penetration(usize),
     /// Downward deflection of the rail under a wheel.
     Deflection(usize),
-    /// Angle of a wheel about z; rolling towards +x turns it negative.
+    /// Angle of a wheel about z; rolling towards +x is a negative rotation.
     SpinAngle(usize),
-    /// Angular speed of a wheel about z.
+    /// Angular velocity of a wheel about z.
     SpinSpeed(usize),
-    /// Moment about z that prescribes the spin of wheel i; zero where it is free.
+    /// Moment about z that is required for the prescribed spin of a wheel; zero where the spin is free.
     SpinMoment(usize),
     /// Tension of a rope.
     Tension(usize),
-    /// Distance of the ends of a rope.
+    /// Distance between the ends of a rope.
     Length(usize),
     /// Force of a stop.
     Stop(usize),
     /// Displacement of a gauge along its axis.
     Gauge(usize),
-    /// One degree of freedom of a structure that is [recorded](crate::Foundation::recorded): structure, degree of
-    /// freedom.
+    /// One degree of freedom of a [recorded](crate::Foundation::recorded) structure: index of the structure, index of
+    /// the degree of freedom.
     Coordinate(usize, usize),
-    /// Its second derivative by time; zero in a quasi-static run.
+    /// Second time derivative of such a degree of freedom; zero in a quasi-static run.
     Acceleration(usize, usize),
 }

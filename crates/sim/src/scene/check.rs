@@ -1,6 +1,7 @@
-//! Checks of a scene: indices against each other, numbers against their ranges.
+//! Checks of a scene: validity of indices and ranges of numbers.
 //!
-//! All checks of what a scene says stand here, above the types that they look at: a rope or a rule knows no scene.
+//! This module contains all checks of a scene, because the types that it checks, such as a rope or a rule, do not
+//! have access to the scene.
 
 use super::actuators::{Actuators, Brake, Drive, PrescribedSpin};
 use super::body::{Body, parents_first};
@@ -13,10 +14,10 @@ use super::rule::{Action, Rule};
 use super::wheel::Wheel;
 
 impl Scene {
-    /// Checks indices and numbers against each other and against `structures` structures.
+    /// Checks the indices and numbers of the scene for a run with `structures` structures.
     ///
     /// # Errors
-    /// The first index that does not exist, or number that is out of range.
+    /// The first index that does not exist, or the first number that is out of range.
     pub fn check(&self, structures: usize) -> Result<(), Error> {
         positive("end time", self.end)?;
         positive("output interval", self.output_dt)?;
@@ -47,10 +48,10 @@ impl Scene {
     }
 }
 
-/// Checks the bodies that carry structures, and the masses of these.
+/// Checks the bodies that carry structures, and the masses of these structures.
 ///
 /// # Errors
-/// A body that does not exist; a mass that is not finite, or below zero.
+/// A body that does not exist, or a mass that is not finite or has a negative diagonal entry.
 pub(crate) fn check_carriers(scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
     for foundation in foundations {
         let Some(mount) = &foundation.carrier else { continue };
@@ -70,7 +71,8 @@ pub(crate) fn check_carriers(scene: &Scene, foundations: &[Foundation]) -> Resul
     Ok(())
 }
 
-/// Checks that every pin is on a body, that pins form no circle, and that a pinned body does not translate by itself.
+/// Checks that every pin is on an existing body, that the pins form no cycle, and that a pinned body has no
+/// translation of its own.
 fn check_pins(bodies: &[Body]) -> Result<(), Error> {
     for (b, body) in bodies.iter().enumerate() {
         let Some(pin) = &body.pinned else { continue };
@@ -176,7 +178,7 @@ fn check_stop(stop: &Stop, scene: &Scene) -> Result<(), Error> {
     finite("axis of a stop", "0, 1 or 2", stop.axis as f64, stop.axis < 3)
 }
 
-/// Checks the numbers of the condition, and that what the actions switch is there.
+/// Checks the numbers of the condition and the existence of the actuators that the actions switch.
 fn check_rule(rule: &Rule, scene: &Scene) -> Result<(), Error> {
     let actuators = &scene.actuators;
     let speeds = rule.actions.iter().filter_map(|action| match *action {
@@ -228,7 +230,7 @@ fn is_free(scene: &Scene, body: usize, freedom: BodyDof) -> Result<(), Error> {
     if is_free { Ok(()) } else { Err(Error::NotFree { body, dof: freedom }) }
 }
 
-/// Checks that contact `index` is of `body` and that its wheels do not spin by themselves.
+/// Checks that contact `index` belongs to `body` and that its wheels have no spin of their own, free or prescribed.
 fn has_contact(scene: &Scene, body: usize, index: usize) -> Result<(), Error> {
     let contact = scene.contacts.get(index).ok_or(Error::NoSuch { what: "contact", index })?;
     if contact.body != body {

@@ -1,19 +1,19 @@
-//! The six degrees of freedom of a rigid body, and the lever arms between them.
+//! The six degrees of freedom of a rigid body, and the lever arms of its points.
 
-/// Degree of freedom of a body on its track; rotations are small and right-handed about x, y and z.
+/// Degree of freedom of a body on its track. Rotations are small and right-handed about x, y and z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum BodyDof {
     /// Along the rail.
     X,
     /// Up.
     Y,
-    /// To the right when looking along the rail.
+    /// To the right, looking along the rail.
     Z,
     /// About x.
     Roll,
     /// About y.
     Yaw,
-    /// About z: positive lifts the front.
+    /// About z; a positive value raises the front.
     Pitch,
 }
 
@@ -23,8 +23,8 @@ impl BodyDof {
         [BodyDof::X, BodyDof::Y, BodyDof::Z, BodyDof::Roll, BodyDof::Yaw, BodyDof::Pitch];
 }
 
-/// Displacement of a point at `r` from a body's origin: row i gives component i per unit of each degree of
-/// degree of freedom, u + theta cross r with theta = (roll, yaw, pitch).
+/// Matrix of the displacement u + theta cross r of a point at `r` relative to the origin of a body, with theta =
+/// (roll, yaw, pitch). Row i contains component i per unit of each degree of freedom.
 #[must_use]
 pub(crate) fn arm_rows(r: [f64; 3]) -> [[f64; 6]; 3] {
     let [rx, ry, rz] = r;

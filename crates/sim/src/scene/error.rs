@@ -1,4 +1,4 @@
-//! What can go wrong in a scene: ids and numbers; the caller knows the names.
+//! Errors in a scene. They contain indices and numbers only; the caller adds names.
 
 use super::dof::BodyDof;
 use super::method::Method;
@@ -6,12 +6,12 @@ use super::method::Method;
 /// Errors of the simulator.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
-    /// A structure refused a probe.
+    /// A compliance could not be evaluated.
     #[error("structure {structure}: {source}")]
     Compliance {
         /// Which structure.
         structure: usize,
-        /// What it said.
+        /// Error of the compliance.
         source: splines::Error,
     },
     /// The mass or inertia of a free degree of freedom that is not positive.
@@ -25,19 +25,19 @@ pub enum Error {
     /// A body, structure or rail index beyond the scene's.
     #[error("{what} {index} does not exist")]
     NoSuch {
-        /// What was looked for.
+        /// Kind of object.
         what: &'static str,
-        /// The index.
+        /// The invalid index.
         index: usize,
     },
     /// A number that must be positive, or finite, is not.
     #[error("{what} must be {wanted}, got {found}")]
     Number {
-        /// What it is.
+        /// Name of the quantity.
         what: &'static str,
-        /// What it must be.
+        /// Requirement that is not met.
         wanted: &'static str,
-        /// What it is instead.
+        /// Actual value.
         found: f64,
     },
     /// The wheels in contact cannot carry the bodies at rest.
@@ -46,20 +46,21 @@ pub enum Error {
         /// Time of the attempt.
         time: f64,
     },
-    /// A quasi-static sweep of a body whose place along the rail is not prescribed.
+    /// A quasi-static sweep with a body whose position along the rail is not prescribed.
     #[error("body {body}: a quasi-static sweep needs its x prescribed")]
     NotPrescribed {
         /// Which body.
         body: usize,
     },
-    /// A body that is pinned to itself by way of others, or moves by translations of its own beside its pin.
+    /// A body that is pinned to itself through other bodies, or that has translations of its own in addition to its
+    /// pin.
     #[error("body {body}: a pinned body has no translation of its own, and pins do not run in a circle")]
     Pinned {
         /// Which body.
         body: usize,
     },
-    /// A body on a structure that rides on a body, in an unknown arrangement: on several carriers or on rails of
-    /// different directions, itself a carrier of its carrier, loaded, held by a rope or stop, or on a structure with
+    /// An unsupported arrangement of a body on a structure that another body carries: on several carriers, on rails
+    /// of different directions, as the carrier of its own carrier, with a load, rope or stop, or on a structure with
     /// mass or parts of its own.
     #[error("body {body}: not a way to ride on another body, or to carry a structure")]
     Carried {
@@ -74,24 +75,24 @@ pub enum Error {
         /// Which degree of freedom.
         dof: BodyDof,
     },
-    /// A driven or braked wheel that spins by itself.
+    /// A driven or braked wheel with a spin of its own.
     #[error("contact {contact}: a driven or braked wheel cannot have a spin of its own")]
     Spins {
         /// Which contact.
         contact: usize,
     },
-    /// Contact forces that do not exist at a given state.
+    /// No contact forces exist at the given state.
     #[error("no contact forces at t = {time}: the penetrations given do not belong to the state")]
     NoForces {
         /// Time of the state.
         time: f64,
     },
-    /// A method of integration that the scene does not allow.
+    /// A method of integration that is not applicable to the scene.
     #[error("method {method:?} needs {wanted}")]
     Method {
         /// Which method.
         method: Method,
-        /// What is missing in the scene.
+        /// Requirement of the method that the scene does not meet.
         wanted: &'static str,
     },
 }

@@ -1,7 +1,8 @@
-//! What carries a rail: a compliance, and where its mass counts a structure with degrees of freedom of its own.
+//! Foundation of a rail: a compliance and, where its mass is modelled, a structure with degrees of freedom of its
+//! own.
 //!
-//! M q'' + C q' + K q = Phi^T F, (G + diag(1/k)) F = d - Phi q: rigid has neither G nor q, influence has G
-//! alone, parts have q alone (or, without mass, G = Phi K^-1 Phi^T).
+//! M q'' + C q' + K q = Phi^T F, (G + diag(1/k)) F = d - Phi q. A rigid foundation has neither G nor q, an influence
+//! foundation has G only, and parts have q only (or, without mass, G = Phi K^-1 Phi^T).
 
 use splines::Compliance;
 
@@ -10,19 +11,19 @@ use super::irregularity::Irregularity;
 use super::parts::PartChain;
 use super::structure::Structure;
 
-/// One rail's extent.
+/// Extent of one rail.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Extent {
-    /// First and last coordinate; `None`: without end.
+    /// First and last coordinate; `None`: infinite rail.
     pub range: Option<[f64; 2]>,
-    /// Coordinates where the deflection of the rail is less smooth: supports, hinges, stations, hand-overs.
+    /// Coordinates at which the deflection of the rail is less smooth: supports, hinges, table stations, hand-overs.
     pub breaks: Vec<f64>,
 }
 
-/// One structure as the wheels feel it.
+/// One structure as it acts on the wheels.
 ///
-/// [`Foundation::default`] is a rigid rail without end; [`Foundation::massless`] is a compliance without mass; with a
-/// [`structure`](Foundation::structure) it has mass.
+/// [`Foundation::default`] is a rigid rail of infinite length, and [`Foundation::massless`] is a compliance without
+/// mass. A foundation with a [`structure`](Foundation::structure) has mass.
 /// ```
 /// use sim::{Extent, Foundation};
 ///
@@ -33,22 +34,24 @@ pub struct Extent {
 /// ```
 #[derive(Default)]
 pub struct Foundation {
-    /// G; `None`: rigid beside the degrees of freedom of `structure`.
+    /// Compliance G; `None`: rigid except for the degrees of freedom of `structure`.
     pub compliance: Option<Box<dyn Compliance>>,
-    /// Freedoms with mass.
+    /// Degrees of freedom with mass.
     pub structure: Option<Structure>,
-    /// One force a part: the wheels of rail r feel each rigid part of chain r on its own, and the rails of
-    /// `compliance` and `structure` are the parts ([`PartChain::rail`]). `None`: one force a wheel.
+    /// Chains of rigid parts, each part with a contact force of its own. The wheels on rail r are in contact with
+    /// each part of chain r separately, and the rails of `compliance` and `structure` are the parts
+    /// ([`PartChain::rail`]). `None`: one force per wheel.
     pub parts: Option<Vec<PartChain>>,
-    /// Extents of the rails; empty: rails without end or break.
+    /// Extents of the rails; empty: infinite rails without breaks.
     pub rails: Vec<Extent>,
-    /// Whether histories hold its degrees of freedom and their accelerations.
+    /// Whether the history records the degrees of freedom of the structure and their accelerations.
     pub recorded: bool,
-    /// Whether friction, drives and brakes load the structure along its rails, and feel their speed.
+    /// Whether friction, drives and brakes load the structure along its rails and depend on the velocity of the
+    /// rails.
     pub is_loaded_along: bool,
-    /// Shapes of the rails when nothing loads them; empty: straight.
+    /// Irregularities of the unloaded rails; empty: straight rails.
     pub irregularities: Vec<Irregularity>,
-    /// The body that carries the structure, all its supports in it; `None`: the ground.
+    /// Body that carries the structure with all its supports; `None`: the ground.
     pub carrier: Option<Carrier>,
 }
 
@@ -70,7 +73,7 @@ impl Foundation {
         }
     }
 
-    /// Coordinates along `rail` at which steps must end, between `a` and `b` in either order.
+    /// Coordinates along `rail` between `a` and `b`, in either order, at which time steps must end.
     pub(crate) fn breaks_between(&self, rail: usize, a: f64, b: f64) -> impl Iterator<Item = f64> + '_ {
         let (low, high) = (a.min(b), a.max(b));
         let own = self.rails.get(rail).map_or(&[][..], |extent| &extent.breaks);

@@ -1,4 +1,4 @@
-//! The shape of a rail that nothing loads: height and lateral place along it, with steps.
+//! Irregularity of an unloaded rail: height and lateral offset along the rail, which may have steps.
 
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -7,10 +7,10 @@ use splines::Axis;
 
 use super::error::Error;
 
-/// Distance to a corner, relative to 1 + |x|, within which a wheel is at it.
+/// Distance from a corner, relative to 1 + |x|, within which a wheel is considered to be at the corner.
 const SLACK: f64 = 2e-9;
 
-/// A sinusoid amplitude sin(2 pi (x - from) / length + phase) from `from` to `to`, zero beyond.
+/// A sinusoid amplitude sin(2 pi (x - from) / length + phase) between `from` and `to`, and zero elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Wave {
     /// Amplitude, a length.
@@ -19,14 +19,15 @@ pub struct Wave {
     pub length: f64,
     /// Phase at `from`, radian.
     pub phase: f64,
-    /// First and last x; not finite: without end, and the phase is that at x = 0.
+    /// First and last x. Where an end is not finite, the sinusoid is unlimited on that side; without a finite start,
+    /// the phase is that at x = 0.
     pub range: [f64; 2],
 }
 
-/// Track irregularity: height y0(x) above and place z0(x) beside the straight rail.
+/// Track irregularity: height y0(x) above, and lateral offset z0(x) from, the straight rail.
 ///
-/// A sum of tables, linear between their rows and constant before the first and after the last (two rows at one x
-/// are a step), and of sinusoids. Steps of a run end at its corners.
+/// The irregularity is the sum of tables and sinusoids. A table is linear between its rows and constant before the
+/// first and after the last row; two rows at the same x define a step. Time steps of a run end at the corners.
 /// ```
 /// use sim::{Irregularity, Wave};
 /// use splines::Axis;
@@ -40,21 +41,21 @@ pub struct Wave {
 /// ```
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Irregularity {
-    /// Where the pieces after the first one start.
+    /// Starting coordinates of all pieces except the first one.
     starts: Vec<f64>,
-    /// One more than `starts`.
+    /// The pieces; there is one more than `starts`.
     pieces: Vec<Piece>,
     waves: Vec<Swell>,
 }
 
-/// One piece: value and slope, vertical and lateral, about x.
+/// One linear piece: value and slope at x, vertical and lateral.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 struct Piece {
     x: f64,
     sides: [[f64; 2]; 2],
 }
 
-/// A sinusoid, on the pieces that it covers.
+/// A sinusoid and the range of pieces that it covers.
 #[derive(Clone, Debug, PartialEq)]
 struct Swell {
     side: usize,
@@ -66,10 +67,10 @@ const VERTICAL: usize = 0;
 const LATERAL: usize = 1;
 
 impl Irregularity {
-    /// From rows (x, y0) and (x, z0); an empty table is zero.
+    /// Builds the irregularity from rows (x, y0) and (x, z0); an empty table is zero.
     ///
     /// # Errors
-    /// Numbers that are not finite, x that falls, or three rows at one x.
+    /// Numbers that are not finite, x that decreases, or three rows at the same x.
     pub fn new(vertical: &[[f64; 2]], lateral: &[[f64; 2]]) -> Result<Self, Error> {
         let what = "x of an irregularity";
         for table in [vertical, lateral] {
@@ -93,10 +94,11 @@ impl Irregularity {
         Ok(Irregularity { pieces: std::iter::once(before).chain(after).collect(), starts, waves: Vec::new() })
     }
 
-    /// A sinusoid alone, vertical or lateral.
+    /// A single sinusoid, vertical or lateral.
     ///
     /// # Errors
-    /// Another axis; numbers that are not finite, a wavelength that is not positive, a range that falls.
+    /// The longitudinal axis, numbers that are not finite, a wavelength that is not positive, or a range that is not
+    /// increasing.
     pub fn wave(axis: Axis, wave: Wave) -> Result<Self, Error> {
         let what = "sinusoid of an irregularity";
         let side = match axis {
@@ -126,7 +128,7 @@ impl Irregularity {
         })
     }
 
-    /// The sum of both.
+    /// The sum of two irregularities.
     #[must_use]
     pub fn plus(&self, other: &Irregularity) -> Self {
         if self.is_straight() || other.is_straight() {
@@ -151,7 +153,7 @@ impl Irregularity {
         let moved = |swell: &Swell| {
             let mut swell = swell.clone();
             let [from, to] = swell.wave.range.map(|x| starts.partition_point(|start| *start <= x));
-            // Where the range has no end there is none to count.
+            // A range without a finite end extends to the last piece.
             swell.pieces = from..if swell.wave.range[1].is_finite() { to } else { starts.len() + 1 };
             swell
         };
@@ -159,20 +161,20 @@ impl Irregularity {
         Irregularity { starts, pieces, waves }
     }
 
-    /// Whether there is nothing uneven.
+    /// Whether the rail has no irregularity.
     #[must_use]
     pub fn is_straight(&self) -> bool {
         self.starts.is_empty() && self.waves.is_empty()
     }
 
-    /// Corners and steps.
+    /// Coordinates of the corners and steps.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
         &self.starts
     }
 
-    /// Number of the piece at `x` for a wheel that moves in `direction` (its sign); at a corner, the piece it moves
-    /// into, and `current` where it rests.
+    /// Index of the piece at `x` for a wheel that moves in `direction` (the sign counts). At a corner it is the piece
+    /// that the wheel moves into, or `current` where the wheel is at rest.
     pub(crate) fn piece(&self, x: f64, direction: f64, current: usize) -> usize {
         let slack = SLACK * (1.0 + x.abs());
         let [low, high] = [x - slack, x + slack].map(|x| self.starts.partition_point(|start| *start <= x));
@@ -185,12 +187,12 @@ impl Irregularity {
         }
     }
 
-    /// y0 and its slope at `x` by `piece`, which goes on beyond its ends.
+    /// y0 and its slope at `x` on `piece`, which is extrapolated beyond its ends.
     pub(crate) fn vertical(&self, piece: usize, x: f64) -> [f64; 2] {
         self.side(VERTICAL, piece, x)
     }
 
-    /// z0 and its slope at `x` by `piece`, which goes on beyond its ends.
+    /// z0 and its slope at `x` on `piece`, which is extrapolated beyond its ends.
     pub(crate) fn lateral(&self, piece: usize, x: f64) -> [f64; 2] {
         self.side(LATERAL, piece, x)
     }
@@ -220,7 +222,7 @@ impl Wave {
     }
 }
 
-/// Value and slope of a table just after `x`.
+/// Value and slope of a table immediately after `x`.
 fn linear(table: &[[f64; 2]], x: f64) -> [f64; 2] {
     let next = table.partition_point(|row| row[0] <= x);
     match (next.checked_sub(1).and_then(|before| table.get(before)), table.get(next)) {

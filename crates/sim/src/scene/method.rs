@@ -1,31 +1,34 @@
-//! The method by which the equations of motion are integrated.
+//! Methods of integration of the equations of motion.
 
 /// A method of integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Method {
-    /// Series or Radau where they suit the scene, SDIRK elsewhere.
+    /// `Series` or `Radau` where they are suited to the scene, and `Sdirk4` otherwise.
     #[default]
     Auto,
-    /// SDIRK of order 4, L-stable: every scene.
+    /// SDIRK method of order 4, L-stable. It is applicable to every scene.
     Sdirk4,
-    /// Radau IIA collocation of order 5 with exact modes.
+    /// Radau IIA collocation of order 5 with exact integration of the modes.
     Radau,
-    /// Gauss collocation of order 4 with exact modes: conserves the energy of undamped linear contacts.
+    /// Gauss collocation of order 4 with exact integration of the modes. It conserves the energy of undamped linear
+    /// contacts.
     Gauss2,
-    /// Gauss collocation of order 6 with exact modes: conserves the energy of undamped linear contacts.
+    /// Gauss collocation of order 6 with exact integration of the modes. It conserves the energy of undamped linear
+    /// contacts.
     Gauss3,
-    /// Power series of time, of an order that grows with the accuracy: wheels without a damper to their rail that
-    /// travel together at uniform speed over structures without mass. Where it meets its limits, as where a contact
-    /// opens, Radau takes the whole run.
+    /// Power series in time, of an order that increases with the accuracy. It requires wheels without a damper to
+    /// their rail that travel together at uniform speed over structures without mass. Where the method is not
+    /// applicable, for example where a contact opens, the whole run is repeated with Radau.
     Series,
 }
 
-/// A method of integration, and the length of its steps.
+/// A method of integration and its step size.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Stepping {
     /// The method.
     pub method: Method,
-    /// Time of a step; all are equal but those that end at a break or an event. `None`: as the accuracy asks.
+    /// Time step; all steps are equal except those that end at a break or an event. `None`: the step follows from the
+    /// accuracy.
     pub step: Option<f64>,
 }
 

@@ -1,8 +1,8 @@
-//! What the caller says: bodies, wheels and their laws, prescribed motions, ropes, stops, drives, brakes, rules,
-//! irregular rails and the foundations that carry them.
+//! Input of a simulation: bodies, wheels and their contact laws, prescribed motions, ropes, stops, drives, brakes,
+//! rules, irregular rails and the foundations that carry them.
 //!
-//! Plain values. Enums and errors stand at the bottom and know no scene; [`model`] puts everything together, and
-//! [`check`] holds all checks of it. The wing stands on `numerics` alone.
+//! The types are plain data. [`model`] combines them to a scene, and [`check`] contains all checks of the scene. Of
+//! the other layers of this crate, this module depends on `numerics` only.
 
 pub(crate) mod actuators;
 pub(crate) mod body;

@@ -1,4 +1,4 @@
-//! A scene: bodies on wheels along the rails of structures, and what acts on them.
+//! A scene: bodies on wheels along the rails of structures, and the actions on them.
 
 use splines::Probe;
 
@@ -6,26 +6,26 @@ use super::actuators::Actuators;
 use super::body::{Body, Contact};
 use super::wheel::Wheel;
 
-/// A place on a rail whose displacement is recorded.
+/// A point on a rail whose displacement is recorded.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Gauge {
     /// Which structure.
     pub structure: usize,
-    /// Where on its rails, and in which direction.
+    /// Position on the rails and direction of the displacement.
     pub probe: Probe,
 }
 
-/// How the scene is solved.
+/// Type of analysis.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Analysis {
-    /// The equations of motion.
+    /// Integration of the equations of motion.
     #[default]
     Dynamic,
-    /// A sequence of static equilibria over the prescribed motion.
+    /// A sequence of static equilibria along the prescribed motion.
     QuasiStatic,
 }
 
-/// Everything that moves, and for how long.
+/// All moving bodies, the actions on them, and the duration of the run.
 ///
 /// [`Scene::default`] is an empty dynamic scene in SI units: gravity of 9.81 m/s^2, one second with an output every
 /// 0.01 s, a relative accuracy of 1e-6.
@@ -45,7 +45,7 @@ pub enum Analysis {
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Acceleration of gravity, downwards.
+    /// Acceleration of gravity, positive downwards.
     pub gravity: f64,
     /// Bodies.
     pub bodies: Vec<Body>,
@@ -53,17 +53,17 @@ pub struct Scene {
     pub wheels: Vec<Wheel>,
     /// Contacts.
     pub contacts: Vec<Contact>,
-    /// Places whose displacement is recorded.
+    /// Points whose displacement is recorded.
     pub gauges: Vec<Gauge>,
-    /// Loads, drives, brakes, ropes, stops and rules.
+    /// Loads, drives, brakes, ropes, stops, prescribed spins and rules.
     pub actuators: Actuators,
-    /// How it is solved.
+    /// Type of analysis.
     pub analysis: Analysis,
-    /// Time at the end, from 0.
+    /// End time; the run starts at 0.
     pub end: f64,
-    /// Interval of the history.
+    /// Output interval of the history.
     pub output_dt: f64,
-    /// Relative accuracy asked of displacements and forces.
+    /// Required relative accuracy of displacements and forces.
     pub accuracy: f64,
 }
 
@@ -85,13 +85,13 @@ impl Default for Scene {
 }
 
 impl Scene {
-    /// Time of output `k`; the end itself where the product differs from it by rounding.
+    /// Time of output `k`. It is exactly the end time where the product differs from it by rounding only.
     pub(crate) fn output_time(&self, k: u64) -> f64 {
         let t = k as f64 * self.output_dt;
         if (t - self.end).abs() <= 1e-12 * self.end { self.end } else { t }
     }
 
-    /// Times at which a step must end, in their order; the end of the scene is the last.
+    /// Times at which a step must end, in ascending order; the last one is the end of the run.
     pub(crate) fn breaks(&self) -> Vec<f64> {
         let mut breaks: Vec<f64> = self
             .bodies

@@ -1,4 +1,4 @@
-//! A structure as a chain of rigid parts joined by beams, and how the parts hand a wheel over.
+//! A structure as a chain of rigid parts joined by beams, and the transfer of a wheel from one part to the next.
 
 use std::sync::Arc;
 
@@ -10,8 +10,9 @@ use crate::numerics::step::step;
 
 /// The rigid parts under one rail.
 ///
-/// Part j carries the rail from its left to its right end. Around the joint of two parts the rail's datum
-/// passes from one to the next by STEP over a window: from centre to centre, or of a given length about the joint.
+/// Part j carries the rail from its left to its right end. Near the joint of two parts the reference line of the rail
+/// changes from one part to the next by a STEP function over a window, which extends from centre to centre or over a
+/// given length about the joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PartChain {
     ends: Vec<f64>,
@@ -20,8 +21,8 @@ pub struct PartChain {
 }
 
 impl PartChain {
-    /// Parts between the increasing coordinates `ends`; part j's rail is rail `first` + j of the parts' line.
-    /// `window`: length of the hand-over about each joint; `None`: from centre to centre.
+    /// Parts between the increasing coordinates `ends`. The rail of part j is rail `first` + j of the line of parts.
+    /// `window` is the length of the hand-over about each joint; `None`: from centre to centre.
     ///
     /// Returns `None` for fewer than one part, ends that do not increase, or windows that overlap.
     #[must_use]
@@ -51,7 +52,7 @@ impl PartChain {
         self.ends.len() - 1
     }
 
-    /// Rail of part `j` in the parts' line.
+    /// Rail index of part `j` in the line of parts.
     #[must_use]
     pub fn rail(&self, j: usize) -> usize {
         self.first + j
@@ -69,7 +70,7 @@ impl PartChain {
         self.windows.iter().flatten().copied().collect()
     }
 
-    /// Share of part `j` in carrying a wheel at `x`, and its slope. The shares of all parts add to one.
+    /// Weight of part `j` in the support of a wheel at `x`, and its slope. The weights of all parts sum to one.
     #[must_use]
     pub fn fraction(&self, j: usize, x: f64) -> [f64; 2] {
         let mut share = [1.0, 0.0];
@@ -87,7 +88,7 @@ impl PartChain {
         share
     }
 
-    /// Parts that carry a wheel at `x`.
+    /// Parts that carry a wheel at `x`, with their weights and slopes.
     fn carriers(&self, x: f64) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         let at = self.windows.partition_point(|window| window[1] <= x);
         (at..self.count().min(at + 2))
@@ -96,19 +97,19 @@ impl PartChain {
     }
 }
 
-/// Blended compliance of massless parts: G(p, q) = sum of s_a(p) s_b(q) G_ab(p, q) over the parts a and b that
-/// carry p and q. Symmetric and positive by construction.
+/// Blended compliance of massless parts: G(p, q) = sum of s_a(p) s_b(q) G_ab(p, q) over the parts a and b that carry
+/// p and q, with their weights s. It is symmetric and positive by construction.
 pub struct BlendedParts {
-    /// Compliance of the parts, each on a rail of its own.
+    /// Compliance of the parts, each of which is a rail of its own.
     pub surface: ExactSurface,
-    /// One chain a rail.
+    /// One chain per rail.
     pub chains: Vec<PartChain>,
 }
 
-/// Which probe a part carries, with the part's share and its slope.
+/// Index of the probe that a part carries, with the weight of the part and its slope.
 type Owner = (usize, [f64; 2]);
 
-/// Probes of the parts that carry `at`, with their shares.
+/// Probes on the parts that carry the points `at`, with their weights.
 fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<Owner>), Error> {
     let (mut probes, mut owners) = (Vec::with_capacity(2 * at.len()), Vec::with_capacity(2 * at.len()));
     for (i, probe) in at.iter().enumerate() {
@@ -155,15 +156,17 @@ impl Compliance for BlendedParts {
     }
 }
 
-/// Shapes of the parts' degrees of freedom: the state of every part is `basis` times the degrees of freedom.
+/// Shape functions of the degrees of freedom of the parts. The node state of every part is `basis` times the degrees
+/// of freedom.
 pub struct PartShapes {
-    /// The parts, each a rigid arm on a rail of its own.
+    /// The parts, each of which is a rigid arm and a rail of its own.
     pub line: Arc<Rails>,
-    /// States (six a part) x degrees of freedom.
+    /// Matrix with one row per node state (six per part) and one column per degree of freedom.
     pub basis: DMatrix<f64>,
-    /// One chain a rail; the rail's datum is blended.
+    /// One chain per rail, whose reference line is blended.
     pub chains: Vec<PartChain>,
-    /// Whether probes name the parts' own rails, each part with a force of its own, instead of the blended rail.
+    /// Whether probes refer to the rails of the individual parts, each with a force of its own, instead of the
+    /// blended rail.
     pub separate: bool,
 }
 

@@ -2,7 +2,7 @@
 
 use super::error::Error;
 
-/// One stretch of time: position is a cubic in the time since its start.
+/// One time interval, in which the position is a cubic polynomial of the time since its start.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Piece {
     start: f64,
@@ -12,7 +12,7 @@ struct Piece {
     jerk: f64,
 }
 
-/// Which of the three a table gives.
+/// Quantity that a table contains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MotionKind {
     /// Position along the rail.
@@ -23,10 +23,10 @@ pub enum MotionKind {
     Acceleration,
 }
 
-/// Where a body is along its rail at every time from 0 on.
+/// Position of a body along its rail as a function of time from 0 on.
 ///
-/// Between the rows of its table the quantity given is linear in time; before the first and after the last row
-/// it keeps the row's value. So x is piecewise linear, quadratic or cubic, and integrated exactly.
+/// Between the rows of its table the given quantity is linear in time; before the first and after the last row it is
+/// constant. The position is therefore piecewise linear, quadratic or cubic, and is integrated exactly.
 /// ```
 /// use sim::{MotionKind, Profile};
 ///
@@ -42,7 +42,7 @@ pub struct Profile {
     breaks: Vec<f64>,
 }
 
-/// State of travel at one time.
+/// Position, speed and acceleration at one time.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Travel {
     /// Position along the rail.
@@ -54,11 +54,11 @@ pub struct Travel {
 }
 
 impl Profile {
-    /// From `table`, rows (time, value); `x0` and `v0` are position and speed at time 0 where the table does
-    /// not give them.
+    /// Builds the motion from the rows (time, value) of `table`. `x0` and `v0` are the position and speed at time 0
+    /// where the table does not define them.
     ///
     /// # Errors
-    /// An empty table, times that do not increase, numbers that are not finite.
+    /// An empty table, times that do not increase, or numbers that are not finite.
     pub fn new(given: MotionKind, table: &[[f64; 2]], x0: f64, v0: f64) -> Result<Profile, Error> {
         check_rows(table)?;
         if let Some(found) = [x0, v0].into_iter().find(|number| !number.is_finite()) {
@@ -81,7 +81,7 @@ impl Profile {
         Ok(Profile { pieces, breaks })
     }
 
-    /// Position, speed and acceleration at `t` >= 0; at a jump, those just after it.
+    /// Position, speed and acceleration at `t` >= 0; at a jump, the values immediately after it.
     #[must_use]
     pub fn at(&self, t: f64) -> Travel {
         let next = self.pieces.partition_point(|piece| piece.start <= t);
@@ -91,7 +91,7 @@ impl Profile {
         }
     }
 
-    /// The speed, where it is the same until `end` and x does not jump.
+    /// The speed, where it is constant until `end` and x does not jump; `None` otherwise.
     #[must_use]
     pub(crate) fn uniform(&self, end: f64) -> Option<f64> {
         let first = self.pieces.first()?;
@@ -103,15 +103,17 @@ impl Profile {
         self.pieces.iter().filter(|piece| piece.start < end).all(goes_on).then_some(first.v)
     }
 
-    /// Times at which position, speed, acceleration or jerk may jump, 0 left out.
+    /// Times at which position, speed, acceleration or jerk may jump, except 0.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {
         &self.breaks
     }
 
-    /// The first time in [0, `end`] at which x is outside `range`, with x there; `None` where it never is.
+    /// The first time in [0, `end`] at which x is outside `range`, with the position at that time; `None` where x is
+    /// always inside.
     ///
-    /// Where x leaves inside a stretch, the time is that of the crossing and x a rounding outside.
+    /// Where x leaves the range within an interval, the time is that of the crossing and x is outside by rounding
+    /// only.
     #[must_use]
     pub fn leaves(&self, range: [f64; 2], end: f64) -> Option<(f64, f64)> {
         let outside = |x: f64| x < range[0] || x > range[1];
@@ -123,7 +125,7 @@ impl Profile {
                 if outside(self.at(inside).x) {
                     return Some((inside, self.at(inside).x));
                 }
-                // x is monotone in between
+                // x is monotone in between.
                 for _ in 0..200 {
                     let middle = inside + (beyond - inside) / 2.0;
                     if middle <= inside || middle >= beyond {
@@ -138,7 +140,7 @@ impl Profile {
         None
     }
 
-    /// Times in [0, `end`] between which x is monotone: ends of stretches and zeros of the speed.
+    /// Times in [0, `end`] between which x is monotone: the ends of the intervals and the zeros of the speed.
     fn turning_times(&self, end: f64) -> Vec<f64> {
         let mut times = vec![0.0, end];
         for (index, piece) in self.pieces.iter().enumerate() {
@@ -165,14 +167,14 @@ impl Piece {
     }
 }
 
-/// Starts of the stretches: 0 and the rows after it.
+/// Starts of the intervals: 0 and the times of the rows after it.
 fn starts(table: &[[f64; 2]]) -> Vec<f64> {
     let mut starts = vec![0.0];
     starts.extend(table.iter().map(|row| row[0]).filter(|t| *t > 0.0));
     starts
 }
 
-/// Rows of finite numbers at increasing times, at least one.
+/// Checks that there is at least one row, that all numbers are finite and that the times increase.
 pub(crate) fn check_rows(table: &[[f64; 2]]) -> Result<(), Error> {
     if table.is_empty() {
         return Err(Error::Number { what: "rows of a table over time", wanted: "at least one", found: 0.0 });
@@ -188,7 +190,7 @@ pub(crate) fn check_rows(table: &[[f64; 2]]) -> Result<(), Error> {
     }
 }
 
-/// Value and rate of change of the table just after `t`.
+/// Value and rate of change of the table immediately after `t`.
 pub(crate) fn linear(table: &[[f64; 2]], t: f64) -> (f64, f64) {
     let next = table.partition_point(|row| row[0] <= t);
     match (next.checked_sub(1).and_then(|before| table.get(before)), table.get(next)) {
@@ -201,7 +203,7 @@ pub(crate) fn linear(table: &[[f64; 2]], t: f64) -> (f64, f64) {
     }
 }
 
-/// Positive zeros of a s^2 + b s + c, without cancellation.
+/// Positive zeros of a s^2 + b s + c, computed without cancellation.
 fn zeros(a: f64, b: f64, c: f64) -> impl Iterator<Item = f64> {
     let q = {
         let root = (b * b - 4.0 * a * c).sqrt();

@@ -2,19 +2,19 @@
 
 use super::schedule::Schedule;
 
-/// An end of a rope: a point of a body, or of space.
+/// An end of a rope: a point of a body or a fixed point in space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RopeEnd {
     /// Which body; `None`: a fixed point in space.
     pub body: Option<usize>,
-    /// Point from the body's origin; in space, [X, Y, Z].
+    /// Position relative to the origin of the body; for a point in space, [X, Y, Z].
     pub at: [f64; 3],
 }
 
-/// An elastic rope that may fall slack.
+/// An elastic rope that can become slack.
 ///
-/// With the distance l of its ends and its unstretched length l0(t) = `length` - integral of `speed`, it pulls with
-/// T = max(0, EA (l - l0)/l0 + c (l' - l0')) where l > l0, and not at all where l <= l0.
+/// Let l be the distance between its ends and l0(t) = `length` - integral of `speed` its unstretched length. The
+/// tension is T = max(0, EA (l - l0)/l0 + c (l' - l0')) for l > l0, and zero for l <= l0.
 /// ```
 /// use std::ops::ControlFlow;
 /// use sim::{Body, Channel, Rope, RopeEnd, Scene, Schedule};
@@ -42,42 +42,42 @@ pub struct Rope {
     pub from: RopeEnd,
     /// The other.
     pub to: RopeEnd,
-    /// EA, a force, > 0.
+    /// Axial stiffness EA, a force, > 0.
     pub stiffness: f64,
-    /// c, force per speed, >= 0.
+    /// Damping constant c, force per speed, >= 0.
     pub damping: f64,
     /// Unstretched length at time 0, > 0.
     pub length: f64,
-    /// Hoisting speed, positive where it shortens the rope.
+    /// Hoisting speed, positive where the rope is shortened.
     pub speed: Schedule,
 }
 
-/// A one-sided contact of a point of a body with a plane: an end stop of a rail, a floor, or another body. The plane
-/// of a body that is carried by another is fixed to the rail it runs on.
+/// A one-sided contact of a point of a body with a plane: an end stop of a rail, a floor, or another body. For a body
+/// that is carried by another body, the plane is fixed to the rail on which the body runs.
 ///
-/// With p = side (coordinate - place) > 0 it pushes back with max(0, k p + c p').
+/// For the penetration p = side (coordinate - place) > 0 the stop exerts the force max(0, k p + c p').
 #[derive(Clone, Debug, PartialEq)]
 pub struct Stop {
-    /// The body that meets it.
+    /// Body that touches the plane.
     pub body: usize,
-    /// Point of the body that meets it, from its origin.
+    /// Contact point relative to the origin of that body.
     pub at: [f64; 3],
-    /// Which coordinate of space, or of the track of a carried body: 0 X, 1 Y, 2 Z.
+    /// Normal axis of the plane in space, or in the track of a carried body: 0 X, 1 Y, 2 Z.
     pub axis: usize,
-    /// Body that bears the plane, met at the height of `at`; `None`: it stands in space.
+    /// Body to which the plane is fixed, touched at the height of `at`; `None`: the plane is fixed in space.
     pub against: Option<usize>,
-    /// Coordinate of the plane, from the origin of the body that bears it.
+    /// Coordinate of the plane relative to the origin of the body to which it is fixed.
     pub place: f64,
-    /// 1 where the body comes from below `place`, -1 where from above.
+    /// 1 where the body approaches from below `place`, -1 where it approaches from above.
     pub side: f64,
-    /// k, > 0.
+    /// Stiffness k, > 0.
     pub stiffness: f64,
-    /// c, >= 0.
+    /// Damping constant c, >= 0.
     pub damping: f64,
 }
 
 impl Rope {
-    /// Times at which the speed may turn.
+    /// Times at which the slope of the hoisting speed may jump.
     pub(crate) fn breaks(&self) -> impl Iterator<Item = f64> + '_ {
         self.speed.breaks()
     }

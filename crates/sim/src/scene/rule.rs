@@ -1,28 +1,28 @@
-//! Rules: what is switched when a quantity of the history passes a number.
+//! Rules: actions that are triggered when a quantity of the history passes a threshold.
 
 use super::channel::Channel;
 
-/// Something that happens once, as soon as its condition is met.
+/// Actions that are executed once, as soon as a condition is met.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rule {
-    /// When.
+    /// Condition that triggers the actions.
     pub when: Condition,
-    /// What, in this order.
+    /// Actions, executed in this order.
     pub actions: Vec<Action>,
 }
 
-/// A comparison of a sum of channels with a number.
+/// Comparison of a weighted sum of channels with a threshold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Condition {
     /// Channels with their factors.
     pub terms: Vec<(Channel, f64)>,
-    /// How the sum is compared.
+    /// Comparison operator.
     pub compare: Compare,
-    /// The number it is compared with.
+    /// Threshold.
     pub level: f64,
 }
 
-/// A comparison.
+/// Comparison operator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Compare {
     /// >=
@@ -36,7 +36,7 @@ pub enum Compare {
 }
 
 impl Condition {
-    /// Time from which it is met, where it compares time alone from below.
+    /// Time at which the condition becomes met, where it only requires that time exceeds a value; `None` otherwise.
     pub(crate) fn time(&self) -> Option<f64> {
         let rises = matches!(self.compare, Compare::AtLeast | Compare::Above);
         match self.terms[..] {
@@ -45,7 +45,7 @@ impl Condition {
         }
     }
 
-    /// Whether it is met at the sum `value`.
+    /// Whether the condition is met for the sum `value`.
     pub(crate) fn is_met(&self, value: f64) -> bool {
         match self.compare {
             Compare::AtLeast => value >= self.level,
@@ -56,31 +56,32 @@ impl Condition {
     }
 }
 
-/// What a rule does. A command holds until the next one, in place of times and tables of the actuator itself.
+/// Action of a rule. A command remains in effect until the next one and overrides the times and tables of the
+/// actuator.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Action {
-    /// Puts all brakes of a body on, or off.
+    /// Applies or releases all brakes of a body.
     Brake {
         /// Which body.
         body: usize,
-        /// On or off.
+        /// Whether the brakes are applied.
         on: bool,
     },
-    /// Lets the drive of a body follow a speed, or turns it off.
+    /// Sets the reference speed of the drive of a body, or switches the drive off.
     Drive {
         /// Which body.
         body: usize,
-        /// The speed; `None`: off.
+        /// Reference speed; `None`: the drive is switched off.
         speed: Option<f64>,
     },
-    /// Hoists with a rope.
+    /// Sets the hoisting speed of a rope.
     Hoist {
         /// Which rope.
         rope: usize,
-        /// Speed, positive where it shortens the rope; 0 holds its unstretched length.
+        /// Speed, positive where the rope is shortened; at 0 the unstretched length is constant.
         speed: f64,
     },
-    /// Lets a rope go: it pulls no more.
+    /// Releases a rope, which then has no tension.
     Release {
         /// Which rope.
         rope: usize,
@@ -89,11 +90,11 @@ pub enum Action {
     End,
 }
 
-/// A rule that acted.
+/// Record of a rule that was executed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fired {
-    /// When.
+    /// Time at which the rule was executed.
     pub time: f64,
-    /// Its index among the rules of the scene.
+    /// Index of the rule in the scene.
     pub rule: usize,
 }

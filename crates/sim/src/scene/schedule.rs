@@ -1,19 +1,19 @@
-//! A quantity that follows a table over time.
+//! A quantity defined by a table over time.
 
 use super::error::Error;
 use super::profile::{check_rows, linear};
 
-/// A piecewise linear function of time; before the first and after the last row of its table it keeps the row's value.
+/// A piecewise linear function of time. Before the first and after the last row of its table it is constant.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
     rows: Vec<[f64; 2]>,
 }
 
 impl Schedule {
-    /// From `table`, rows (time, value).
+    /// Builds the function from the rows (time, value) of `table`.
     ///
     /// # Errors
-    /// An empty table, times that do not increase, numbers that are not finite.
+    /// An empty table, times that do not increase, or numbers that are not finite.
     pub fn new(table: &[[f64; 2]]) -> Result<Schedule, Error> {
         check_rows(table)?;
         Ok(Schedule { rows: table.to_vec() })
@@ -25,7 +25,7 @@ impl Schedule {
         linear(&self.rows, t).0
     }
 
-    /// Its slope at `t`, behind a break.
+    /// Slope at `t`; at a break, the slope immediately after it.
     #[must_use]
     pub fn slope(&self, t: f64) -> f64 {
         linear(&self.rows, t).1
@@ -37,7 +37,7 @@ impl Schedule {
         self.area(t) - self.area(0.0)
     }
 
-    /// Times at which the value passes zero between its rows.
+    /// Times between the rows at which the value changes sign.
     pub fn turns(&self) -> impl Iterator<Item = f64> + '_ {
         self.rows.windows(2).filter(|pair| pair[0][1] * pair[1][1] < 0.0).map(|pair| {
             let [[t0, v0], [t1, v1]] = [pair[0], pair[1]];

@@ -1,12 +1,13 @@
-//! A structure with mass: its degrees of freedom, their equations of motion, and their shapes along the rails.
+//! A structure with mass: its degrees of freedom, their equations of motion, and their shape functions along the
+//! rails.
 
 use nalgebra::DMatrix;
 use splines::Probe;
 
-/// Shapes Phi of a structure's degrees of freedom along its rails.
+/// Shape functions Phi of the degrees of freedom of a structure along its rails.
 pub trait Shapes: Send + Sync {
-    /// Displacement at `at` along its axis per unit of each degree of freedom, and its derivative along the rail,
-    /// into `value` and `slope`, of one entry a degree of freedom.
+    /// Computes the displacement at `at` along its axis per unit of each degree of freedom, and its derivative along
+    /// the rail. The results are written to `value` and `slope`, which have one entry per degree of freedom.
     ///
     /// # Errors
     /// A probe beyond its rail.
@@ -21,10 +22,10 @@ pub struct Structure {
     pub shapes: Box<dyn Shapes>,
 }
 
-/// How the degrees of freedom of a structure move.
+/// Equations of motion of the degrees of freedom of a structure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Dynamics {
-    /// Degrees of freedom of any kind, n x n matrices.
+    /// General degrees of freedom with n x n matrices.
     Matrices {
         /// M, symmetric and positive definite.
         mass: DMatrix<f64>,
@@ -33,17 +34,17 @@ pub enum Dynamics {
         /// K, symmetric and positive definite.
         stiffness: DMatrix<f64>,
     },
-    /// Natural modes of modal mass 1: q'' + 2 zeta omega q' + omega^2 q = load.
+    /// Natural modes of unit modal mass: q'' + 2 zeta omega q' + omega^2 q = load.
     Modes {
-        /// omega, > 0, radian/time.
+        /// Angular frequencies omega, > 0, radian/time.
         omega: Vec<f64>,
-        /// zeta, >= 0, one a mode.
+        /// Damping ratios zeta, >= 0, one per mode.
         ratio: Vec<f64>,
     },
 }
 
 impl Dynamics {
-    /// Frequencies of natural modes; empty for degrees of freedom of any kind.
+    /// Angular frequencies of the natural modes; empty for general degrees of freedom.
     #[must_use]
     pub fn frequencies(&self) -> &[f64] {
         match self {

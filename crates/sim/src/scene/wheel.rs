@@ -1,34 +1,34 @@
-//! Wheel and rail: the vertical contact law, the flange and friction.
+//! Contact of wheel and rail: the vertical contact law, the flange and friction.
 
 use crate::numerics::step::step;
 
-/// Whose velocity a contact's damper feels.
+/// Velocity on which the damper of a contact acts.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Damper {
-    /// The rate of penetration: the damper acts between wheel and rail.
+    /// Rate of penetration: the damper acts between wheel and rail.
     #[default]
     Rail,
-    /// The wheel's own downward velocity: the damper acts between wheel and ground, as in McConville's decks.
+    /// Downward velocity of the wheel: the damper acts between wheel and ground, as in McConville's decks.
     Ground,
 }
 
 /// Vertical force of one wheel: F = k p^e + S(p) c r, never negative unless `bilateral`.
 ///
-/// p is the penetration, r the damper's rate ([`Damper`]), S(p) = STEP(p, 0, 0, depth, 1), or 1 where
-/// `depth` is zero. Exponent 1 and depth 0 are the linear law, others the IMPACT function of ADAMS.
+/// p is the penetration, r is the rate of the damper ([`Damper`]), and S(p) = STEP(p, 0, 0, depth, 1), or 1 where
+/// `depth` is zero. Exponent 1 with depth 0 is the linear law; other values are the IMPACT function of ADAMS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NormalLaw {
-    /// k, force per length^e, > 0.
+    /// Stiffness k, force per length^e, > 0.
     pub stiffness: f64,
-    /// e, >= 1.
+    /// Exponent e, >= 1.
     pub exponent: f64,
-    /// c, force time per length, >= 0.
+    /// Damping constant c, force time per length, >= 0.
     pub damping: f64,
-    /// Penetration at which the damping is full, >= 0.
+    /// Penetration from which the full damping acts, >= 0.
     pub depth: f64,
-    /// Whose velocity the damper feels.
+    /// Velocity on which the damper acts.
     pub damper: Damper,
-    /// Whether the wheel may pull.
+    /// Whether the contact can transmit tension.
     pub bilateral: bool,
 }
 
@@ -50,13 +50,13 @@ impl NormalLaw {
         NormalLaw { stiffness, exponent: 1.0, damping, depth: 0.0, damper, bilateral: false }
     }
 
-    /// Whether force is linear in penetration and rate.
+    /// Whether the force is linear in penetration and rate.
     #[must_use]
     pub fn is_linear(&self) -> bool {
         self.exponent == 1.0 && (self.depth == 0.0 || self.damping == 0.0)
     }
 
-    /// Whether the penetration is a state of its own: a damper between wheel and rail.
+    /// Whether the penetration is a state variable, because a damper acts between wheel and rail.
     #[must_use]
     pub fn has_memory(&self) -> bool {
         self.damping > 0.0 && self.damper == Damper::Rail
@@ -67,8 +67,9 @@ impl NormalLaw {
         self.damping > 0.0 && self.damper == Damper::Ground
     }
 
-    /// Force of the law at penetration `p` and rate `r`, not clipped: negative penetration continues the
-    /// spring oddly, so that a step that ends a contact stays smooth until its end is located.
+    /// Force of the law at penetration `p` and rate `r`, not clipped. The spring force is continued as an odd
+    /// function to negative penetration, so that the equations remain smooth in a step in which the contact ends,
+    /// until the time of separation is located.
     #[must_use]
     pub fn at(&self, p: f64, r: f64) -> LawValue {
         let (spring, by_spring) = if self.exponent == 1.0 {
@@ -111,60 +112,62 @@ impl NormalLaw {
     }
 }
 
-/// Flange: beyond a clearance the rail head pushes back, until the wheel has climbed off it.
+/// Flange: beyond a clearance the rail head exerts a lateral force, until the wheel has climbed off the rail.
 ///
-/// L = k S(h) (|e| - clearance) sign(e), e the wheel's lateral displacement from the rail, h the height of
-/// the wheel's centre above the rail, S(h) = `STEP(h, release[0], 1, release[1], 0)`.
+/// L = k S(h) (|e| - clearance) sign(e), where e is the lateral displacement of the wheel relative to the rail, h is
+/// the height of the wheel centre above the rail, and S(h) = `STEP(h, release[0], 1, release[1], 0)`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Flange {
-    /// k, force per length, > 0.
+    /// Stiffness k, force per length, > 0.
     pub stiffness: f64,
-    /// Free play to either side, >= 0.
+    /// Clearance on either side, >= 0.
     pub clearance: f64,
-    /// Heights of the wheel's centre above the rail between which the flange lets go; `None`: never.
+    /// Heights of the wheel centre above the rail between which the flange force decreases to zero; `None`: it never
+    /// decreases.
     pub release: Option<[f64; 2]>,
 }
 
 impl Flange {
-    /// Share S(h) of the flange force that is left at height `h`, and its slope.
+    /// Fraction S(h) of the flange force that acts at height `h`, and its slope.
     #[must_use]
     pub fn fraction(&self, h: f64) -> (f64, f64) {
         self.release.map_or((1.0, 0.0), |[from, to]| step(h, from, 1.0, to, 0.0))
     }
 
-    /// Overlap beyond the clearance, signed.
+    /// Signed lateral penetration beyond the clearance.
     #[must_use]
     pub fn overlap(&self, e: f64) -> f64 {
         e.signum() * (e.abs() - self.clearance).max(0.0)
     }
 }
 
-/// How friction grows with the sliding velocity s, as a share of mu N.
+/// Dependence of friction on the sliding velocity s, as a fraction of mu N.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FrictionLaw {
-    /// STEP(s, -slip, -1, slip, 1), full from |s| = slip on: the cubic of the paper's decks.
+    /// STEP(s, -slip, -1, slip, 1), which is +-1 for |s| >= slip: the cubic law of the decks of the paper.
     #[default]
     Step,
-    /// tanh(s / slip), 76 % at |s| = slip: Coulomb's law made smooth in every derivative, within 4e-9 of it from
-    /// |s| = 10 slip on, and the law of [`Brake`](crate::Brake).
+    /// tanh(s / slip), which is 76 % at |s| = slip: a smooth approximation of Coulomb's law, with an error below 5e-9
+    /// for |s| >= 10 slip. [`Brake`](crate::Brake) uses the same law.
     Coulomb,
 }
 
-/// Friction along the rail: T = mu N S(s) against the sliding velocity s, S by its [`FrictionLaw`].
+/// Friction along the rail: T = mu N S(s) against the sliding velocity s, where S is the [`FrictionLaw`].
 ///
-/// Regularised: it is zero at rest, so a wheel creeps at a small slip instead of sticking.
+/// The law is regularised: friction is zero at s = 0, so a wheel under a small force creeps slowly instead of
+/// sticking.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Friction {
-    /// How the share S grows with s.
+    /// Law S(s).
     pub law: FrictionLaw,
-    /// mu, >= 0.
+    /// Friction coefficient mu, >= 0.
     pub coefficient: f64,
-    /// Sliding velocity that scales the law, > 0.
+    /// Sliding velocity that is the scale of the law, > 0.
     pub slip: f64,
 }
 
 impl Friction {
-    /// Share of mu N at sliding velocity `s`, -1 to 1, and its slope.
+    /// Fraction of mu N at sliding velocity `s`, from -1 to 1, and its slope.
     #[must_use]
     pub fn fraction(&self, s: f64) -> (f64, f64) {
         match self.law {
@@ -192,16 +195,16 @@ pub struct Wheel {
     pub radius: f64,
     /// Vertical contact.
     pub normal: NormalLaw,
-    /// Flange, where the wheel has one.
+    /// Flange; `None` where the wheel has none.
     pub flange: Option<Flange>,
-    /// Friction along the rail.
+    /// Friction along the rail; `None` where the wheel has none.
     pub friction: Option<Friction>,
-    /// Rotational inertia; `None`: the wheel rolls without inertia and takes no traction.
+    /// Moment of inertia about the axle. `None`: the wheel rolls without inertia and transmits no traction.
     pub spin_inertia: Option<f64>,
 }
 
 impl Wheel {
-    /// A wheel of `radius` with the vertical law `normal`, without flange and friction: it rolls without inertia.
+    /// A wheel of `radius` with the vertical law `normal`, without flange and friction; it rolls without inertia.
     #[must_use]
     pub fn new(radius: f64, normal: NormalLaw) -> Self {
         Wheel { radius, normal, flange: None, friction: None, spin_inertia: None }

@@ -1,5 +1,5 @@
-//! Which foundation a scene needs: the lowest fidelity whose error, predicted or measured against a higher one, is
-//! allowed.
+//! Choice of the foundations of a scene: the lowest fidelity whose error, predicted or measured against a higher
+//! fidelity, is within the tolerance.
 
 use std::ops::ControlFlow;
 
@@ -9,22 +9,25 @@ use super::rung::Fidelity;
 use super::search::{Candidate, Outcome, Search};
 use crate::{Analysis, Scene};
 
-/// Modes that are looked at where no more are needed to tell rigid, influence and two modes.
+/// Number of modes that are computed first; they suffice to decide between rigid, influence and two modes.
 const FEW: usize = 3;
-/// Chooses a fidelity for every structure with a tolerance (`None`: its foundation is given), those that are carried
-/// by bodies first, the others held at theirs (influence before their turn), and runs the scene. `watch` sees the
-/// time that every run reaches, and may stop the choice.
+/// Chooses a fidelity for every structure with a tolerance (`None`: the foundation of the structure is fixed) and
+/// runs the scene. Structures that are carried by bodies are chosen first. While one structure is chosen, the others
+/// keep the fidelity chosen for them, or influence before their turn. `watch` receives the time that every run has
+/// reached, and may stop the choice.
 ///
-/// First the errors of the fidelities are predicted, see [`PredictedErrors`](crate::PredictedErrors): fidelities expected to err
-/// by much more than the tolerance are skipped; one expected to err by much less is taken without a higher one to
-/// check it. What is left is compared: rigid and influence with the first [`Fidelity::Modal`] whose highest frequency
-/// exceeds three times that of the bodies on their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16
-/// and full, full with half its mesh. The run of the fidelity chosen is kept. Where several structures were refined,
-/// all are checked together and raised together until the sum of their tolerances holds. Not controlled: pitch, roll,
-/// lateral motion and forces, gauges and what lies between output times.
+/// First the errors of the fidelities are predicted, see [`PredictedErrors`](crate::PredictedErrors). A fidelity
+/// whose predicted error is much larger than the tolerance is skipped; one whose predicted error is much smaller is
+/// accepted without a check against a higher fidelity. The remaining fidelities are compared by runs: rigid and
+/// influence with the first [`Fidelity::Modal`] whose highest frequency exceeds three times that of the bodies on
+/// their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16 and full, and full with a mesh of half as
+/// many elements. The run of the chosen fidelity is the result. Where several structures were refined, all are
+/// checked together and refined together until the sum of their tolerances is met. Errors of pitch, roll, lateral
+/// motion and forces, of gauges, and of values between output times are not controlled.
 ///
 /// # Errors
-/// A foundation that is given or influence that cannot be built; a scene that starts on no foundation.
+/// A fixed foundation or an influence foundation that cannot be built, or a scene that cannot be started on any
+/// foundation.
 pub fn choose<L: FoundationProvider>(
     scene: &Scene,
     tolerances: &[Option<f64>],
@@ -36,7 +39,7 @@ pub fn choose<L: FoundationProvider>(
         .collect::<Result<Vec<_>, _>>()?;
     let mut choices: Vec<Choice> = Vec::new();
     let (mut last, mut runs) = (None, 0);
-    // what a body carries is small: it is tried on all that is still cheap
+    // A structure on a body is small, so it is chosen while the other foundations are still cheap.
     let (riding, standing): (Vec<usize>, Vec<usize>) =
         (0..tolerances.len()).partition(|&structure| foundations[structure].carrier.is_some());
     for structure in riding.into_iter().chain(standing) {
@@ -50,7 +53,7 @@ pub fn choose<L: FoundationProvider>(
                 choices.push(Choice::new(structure, Fidelity::Influence, Reason::NoMass));
                 continue;
             }
-            // where they cannot be found, the fidelities say why
+            // Where the modes cannot be computed, building the fidelities returns the error.
             few => few.ok().flatten(),
         };
         let search = Search::new(scene, tolerance, structure, &mut foundations, provider, watch);

@@ -1,10 +1,10 @@
-//! How far one run is from another.
+//! Relative difference between two runs.
 
 use crate::{BodyDof, Channel, Run, Scene, Status};
 
-/// How far `a` is from `b`, two runs of `scene`: the larger of max |y_a - y_b| / max |y_b| over each body's height
-/// and max |F_a - F_b| / max |F_b| over the vertical wheel forces, at the output times. Infinite where one did not
-/// reach its end.
+/// Relative difference of `a` from `b`, two runs of `scene`: the larger of max |y_a - y_b| / max |y_b| over the
+/// height of each body and max |F_a - F_b| / max |F_b| over the vertical wheel forces, at the output times. It is
+/// infinite where one run did not reach its end.
 #[must_use]
 pub fn distance(a: &Run, b: &Run, scene: &Scene) -> f64 {
     let by_rule = matches!((&a.status, &b.status), (Status::Ended(_), Status::Ended(_)));

@@ -1,4 +1,4 @@
-//! Fidelities of a structure, what builds and runs them, and what was chosen.
+//! Provider of foundations at each fidelity, and the result of the selection.
 
 use std::ops::ControlFlow;
 
@@ -7,34 +7,37 @@ use super::rung::Fidelity;
 use crate::run::run;
 use crate::{Error, Foundation, Run, Scene, Structure};
 
-/// Accuracy asked of the compared runs, by the tolerance: where a load strikes hard wheels, runs err by up to
-/// thirty times what they are asked.
+/// Accuracy of the compared runs, relative to the tolerance. Where a load acts abruptly on stiff wheels, the error of
+/// a run may be up to thirty times the accuracy requested.
 pub const RUN_ACCURACY: f64 = 0.03;
-/// Share of the tolerance that an estimate may reach: the higher fidelity errs too.
+/// Fraction of the tolerance that an estimated error may reach; the margin allows for the error of the higher
+/// fidelity.
 pub(super) const SAFE: f64 = 0.8;
 
-/// What builds foundations on demand.
+/// Builds the foundations of the structures on demand.
 pub trait FoundationProvider {
-    /// What can go wrong.
+    /// Error type of the provider.
     type Error: From<Error>;
 
-    /// About the lowest `count` modes that vertical forces on the rails of `structure` excite, from the lowest, where
-    /// it has so many: frequencies to a few parts in a hundred will do. `None`: its mass is not known.
+    /// The lowest modes, about `count` of them where the structure has as many, that vertical forces on the rails of
+    /// `structure` excite, in ascending order. Frequencies accurate to a few per cent are sufficient. `None`: the
+    /// mass of the structure is not known.
     ///
     /// # Errors
-    /// A structure whose modes cannot be found.
+    /// The modes of the structure cannot be computed.
     fn modes(&mut self, structure: usize, count: usize) -> Result<Option<Structure>, Self::Error>;
 
-    /// `structure` at `rung`; a structure whose foundation is given ignores `rung`.
+    /// Builds the foundation of `structure` at fidelity `rung`, which is ignored for a structure with a fixed
+    /// foundation.
     ///
     /// # Errors
-    /// A fidelity that cannot be built.
+    /// The fidelity cannot be built.
     fn foundation(&mut self, structure: usize, rung: Fidelity) -> Result<Foundation, Self::Error>;
 
-    /// Runs the scene: [`run()`], unless it is to be integrated in another way.
+    /// Runs the scene with [`run()`], unless the provider uses another integration.
     ///
     /// # Errors
-    /// A scene that cannot be set up.
+    /// The scene cannot be set up.
     fn run(
         &mut self,
         scene: &Scene,
@@ -45,66 +48,67 @@ pub trait FoundationProvider {
     }
 }
 
-/// Why a fidelity was chosen.
+/// Reason for the choice of a fidelity.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reason {
-    /// No mass is known: the error of leaving it out is not known either.
+    /// The mass of the structure is not known, so the error of neglecting it is not known either.
     NoMass,
-    /// A sequence of equilibria has no inertia.
+    /// The analysis is a sequence of equilibria, in which inertia has no effect.
     QuasiStatic,
-    /// What it leaves out is predicted to be far below the tolerance: no higher fidelity was run.
+    /// The predicted error is far below the tolerance, so no higher fidelity was run.
     Predicted,
-    /// The estimate is within 0.8 of the tolerance.
+    /// The estimated error is at most 0.8 of the tolerance, or for the full mesh at most the tolerance.
     Sufficient,
-    /// Nothing lower was sufficient. The estimate is that of the mesh with half as many elements: above the tolerance,
-    /// or, where that mesh could not be run, none.
+    /// No lower fidelity was sufficient. The estimate is derived from the mesh with half as many elements. It exceeds
+    /// the tolerance, or it is missing because that mesh could not be run.
     Highest,
-    /// No higher fidelity could be built or run to check it: its error is not known, or exceeds the tolerance.
+    /// No higher fidelity could be built or run for a check. The error is unknown or exceeds the tolerance.
     Unchecked,
 }
 
-/// A fidelity that was tried.
+/// A fidelity that was run and compared with another one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FidelityTrial {
     /// Which.
     pub fidelity: Fidelity,
-    /// Its error against `against`, see [`distance`](crate::distance()); infinite where the two runs cannot be
-    /// compared.
+    /// Error relative to the run at fidelity `against`, see [`distance`](crate::distance()); infinite where the two
+    /// runs cannot be compared.
     pub estimate: f64,
-    /// What it was checked against.
+    /// Fidelity of the run that it was compared with.
     pub against: Fidelity,
-    /// Stages that its run took.
+    /// Number of integration stages of its run.
     pub stages: u64,
 }
 
-/// The foundation of one structure.
+/// The fidelity chosen for one structure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Choice {
     /// Which structure.
     pub structure: usize,
-    /// Its fidelity.
+    /// Chosen fidelity.
     pub fidelity: Fidelity,
-    /// Why.
+    /// Reason for the choice.
     pub reason: Reason,
-    /// Its error, where that is known.
+    /// Estimated error of the choice; `None` where it is not known.
     pub estimate: Option<f64>,
-    /// What was expected of the fidelities; `None` where nothing was.
+    /// Predicted errors of the fidelities; `None` where no prediction was possible.
     pub predicted: Option<PredictedErrors>,
-    /// Rungs left out, as they were expected to err by far more than is allowed.
+    /// Fidelities that were skipped because their predicted error is much larger than the tolerance.
     pub skipped: Vec<Fidelity>,
-    /// All that were compared, in order.
+    /// Fidelities that were compared with others, in order.
     pub tried: Vec<FidelityTrial>,
-    /// Rungs that could not be built, started or run to the end, in order.
+    /// Fidelities that could not be built, started or run to the end, in order.
     pub failed: Vec<Fidelity>,
 }
 
-/// Foundations chosen, and the run on them.
+/// The chosen foundations and the run with them.
 pub struct Selection {
-    /// One a structure whose foundation was to be chosen, in their order.
+    /// One choice for each structure with a tolerance, in the order of the structures.
     pub choices: Vec<Choice>,
-    /// The run on the foundations chosen: of the scene's accuracy, or of 0.03 of the tolerance where that is finer.
+    /// The run with the chosen foundations. Its accuracy is that of the scene, or 0.03 of the tolerance where that is
+    /// finer.
     pub run: Run,
-    /// Number of runs that were made, this one among them.
+    /// Number of runs made, including this one.
     pub runs: usize,
 }
 

@@ -1,4 +1,4 @@
-//! Structures chosen one after another, checked together.
+//! Joint check of structures that were chosen one after another.
 
 use std::ops::ControlFlow;
 
@@ -7,9 +7,12 @@ use super::fidelity::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, R
 use super::rung::{Fidelity, MODES};
 use crate::{Foundation, Scene};
 
-/// Raises all structures that were refined until the next fidelities of all change the run by at most 0.8 of the sum
-/// of their tolerances. What was estimated of the first holds where all later ones stayed at influence, at which they
-/// were held.
+/// Checks all chosen structures together and refines them until their joint error is within the tolerance. Each
+/// iteration builds the next fidelity of every structure, runs the scene, and compares the result with the present
+/// run. The iteration stops when the difference is at most 0.8 of the sum of the tolerances; otherwise the refined
+/// structures and their run replace the present ones. It also stops when no higher fidelity exists or a foundation
+/// cannot be built or run. The check is omitted where all structures after the first one stayed at influence, because
+/// the error of the first one was then estimated with the final foundations of the others.
 pub(super) fn settle<L: FoundationProvider>(
     scene: &Scene,
     tolerances: &[Option<f64>],
@@ -69,7 +72,7 @@ pub(super) fn settle<L: FoundationProvider>(
     }
 }
 
-/// What checks a choice: what it was checked against, or else the next fidelity.
+/// Fidelity that is used to check a choice: the one that it was compared with, or else the next higher one.
 fn above(choice: &Choice) -> Fidelity {
     let checked = choice.tried.iter().rev().find(|tried| tried.fidelity == choice.fidelity);
     match (checked, choice.fidelity) {
@@ -83,7 +86,8 @@ fn above(choice: &Choice) -> Fidelity {
     }
 }
 
-/// The error of what was chosen is not known.
+/// Returns the selection; where `is_lost`, the error of the choices is marked as unknown, with `reason` as their
+/// reason.
 fn doubted(mut selection: Selection, searched: &[usize], is_lost: bool, reason: Reason) -> Selection {
     if is_lost {
         for &c in searched {

@@ -1,7 +1,7 @@
-//! The lowest fidelity of each structure that suffices: predicted from the scene, compared with higher ones where the
-//! prediction is not sure, and checked for all structures together.
+//! Selection of the lowest sufficient fidelity of each structure. The error is predicted from the scene, measured
+//! against higher fidelities where the prediction is not conclusive, and checked for all structures together.
 //!
-//! The top wing: it stands on `run` and sees results alone.
+//! This module is the top layer of the crate. It depends on `run` and uses only the results of runs.
 
 pub(crate) mod choose;
 pub(crate) mod distance;

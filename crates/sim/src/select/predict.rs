@@ -1,4 +1,4 @@
-//! What a fidelity leaves out, from the scene alone, before anything is integrated.
+//! Prediction of the errors of the fidelities from the scene alone, before any dynamic run.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -11,54 +11,58 @@ use crate::run::run;
 use crate::scene::wheel::LawValue;
 use crate::{Analysis, BodyDof, Channel, Error, Extent, Foundation, Run, Scene, Structure};
 
-/// Positions of the sweep, and places at which modes are looked at.
+/// Number of intervals of the quasi-static sweep, and of intervals per rail at which the mode shapes are sampled.
 const SAMPLES: usize = 32;
 const PLACES: usize = 64;
-/// Largest error that is told apart from a larger one.
+/// Upper limit of predicted errors; larger errors are not distinguished.
 const MOST: f64 = 10.0;
 
-/// Errors expected of the fidelities of one structure, relative, as [`distance`] measures them.
+/// Predicted relative errors of the fidelities of one structure, in the measure of [`distance`].
 ///
-/// With alpha = v k / omega of a mode (k = max |phi'| / max |phi| along the rail; v / (2 L f_1) for a simply
-/// supported girder), r = (omega_b / omega)^2 (omega_b: a body on its contacts and the deflection of the rail), p the
-/// share of the give in the height of a wheel, s the share of the modes left out in the deflection, T the time of the
-/// run:
+/// Here alpha = v k / omega of a mode (k = max |phi'| / max |phi| along the rail; v / (2 L f_1) for a simply
+/// supported girder), r = (omega_b / omega)^2 (omega_b: frequency of a body on its contacts and the compliance of the
+/// rail), p is the fraction of the vertical displacement of a wheel that is deflection of the rail, s is the fraction
+/// of the deflection due to the modes left out, and T is the duration of the run:
 #[derive(Clone, Debug, PartialEq)]
 pub struct PredictedErrors {
-    /// What rigid leaves out: the distance of quasi-static sweeps without and with the deflection.
+    /// Error of a rigid structure: the difference between quasi-static sweeps without and with the deflection.
     pub deflection: f64,
-    /// alpha / (1 - alpha) of the first mode, what influence leaves out of a crossing.
+    /// alpha / (1 - alpha) of the first mode: the error of the influence fidelity during a crossing.
     pub speed: f64,
-    /// (r / (1 - r) + r p omega_b T / 2) of the first mode, times the share of the force that oscillates.
+    /// p (r / (1 - r) + r omega_b T / 2) of the first mode, times the fraction of the force that oscillates.
     pub ripple: f64,
-    /// Steps of the loads by the weight, times T_1 / (pi ramp), at most 1, times r at most 1.
+    /// Changes of the loads relative to the weight, times p of the first mode, times T_1 / (pi ramp) limited to 1,
+    /// times r limited to 1.
     pub step: f64,
-    /// 1 - sqrt(1 - theta^2), theta the largest alpha of a mode: the static deflection against that of a load that
-    /// moves along a track.
+    /// 1 - sqrt(1 - theta^2), where theta is the largest alpha of a mode: the error of the static deflection compared
+    /// with the deflection under a load that moves along a track.
     pub track: f64,
-    /// Errors of rigid, influence and numbers of modes, from the cheapest.
+    /// Predicted errors of rigid, influence and numbers of modes, in ascending order of cost.
     pub errors: Vec<(Fidelity, f64)>,
-    /// Whether nothing in the scene can excite the structure beside its wheels, their loads and their motion.
+    /// Whether the structure is excited by nothing other than its wheels, their loads and their motion.
     pub is_complete: bool,
 }
 
 impl PredictedErrors {
-    /// Expected of `rung`.
+    /// Predicted error of the fidelity `rung`; `None` where it was not predicted.
     #[must_use]
     pub fn of(&self, rung: Fidelity) -> Option<f64> {
         self.errors.iter().find(|(own, _)| *own == rung).map(|(_, error)| *error)
     }
 }
 
-/// A mode along the rails.
+/// Frequency and largest relative slope of a mode along the rails.
 struct Mode {
     omega: f64,
     /// max |phi'| / max |phi|.
     k: f64,
 }
 
-/// Errors expected of the fidelities of `structure`; `foundations` has it at influence, `motion` has its lowest
-/// modes. `None` where the sweep cannot be made, or wheels of the structure carry nothing in it.
+/// Predicts the errors of the fidelities of `structure`. Two quasi-static sweeps of the scene, with the structure at
+/// influence and rigid, yield the static deflections, forces and wheel positions. From these and the frequencies and
+/// shapes of the lowest modes, the function estimates the error of neglecting the inertia of all modes from a given
+/// one on. `foundations` contains the structure at influence, and `motion` its lowest modes. Returns `None` where a
+/// sweep fails, or where the wheels on the structure carry no load.
 pub(super) fn predict(
     scene: &Scene,
     foundations: &mut [Foundation],
@@ -81,11 +85,13 @@ pub(super) fn predict(
 
     let turn = crossing.speed * modes[0].k;
     let beta = (turn / crossing.omega).min(1.0);
-    // the deflection under a wheel that crosses a girder grows with the square of the time: it excites with beta^2
+    // The deflection under a wheel that crosses a girder grows with the square of time, so the excitation is
+    // proportional to beta^2.
     let oscillating =
         crossing.share * beta * beta + load.share * (2.0 / (crossing.omega * load.ramp)).min(1.0);
     let rigid = give * (1.0 + turn * crossing.damping);
-    // What is left once `kept` modes are modelled: speed, ripple, step, track, and all by the heights and forces.
+    // Errors after the first `kept` modes are modelled: speed, ripple, step, track, and the resulting error of
+    // heights and forces.
     let left = |kept: usize| -> Option<[f64; 5]> {
         let (mode, s) = (modes.get(kept)?, *shares.get(kept)?);
         let alpha = |mode: &Mode| crossing.speed * mode.k / mode.omega;
@@ -114,7 +120,7 @@ pub(super) fn predict(
     are_known.then_some(PredictedErrors { deflection: give, speed, ripple, step, track, errors, is_complete })
 }
 
-/// Whether the predictors know all that excites the structure.
+/// Whether the predictors cover everything that excites the structure.
 fn is_complete(scene: &Scene, foundations: &[Foundation]) -> bool {
     let Scene { actuators, bodies, .. } = scene;
     let steady = |profile: &crate::Profile| profile.breaks().iter().all(|&t| t >= scene.end);
@@ -136,26 +142,27 @@ fn is_complete(scene: &Scene, foundations: &[Foundation]) -> bool {
         })
 }
 
-/// Equilibria over the run.
+/// Quasi-static sweep over the duration of the run.
 fn sweep(scene: &Scene, foundations: &[Foundation]) -> Result<Run, Error> {
     let (analysis, output_dt) = (Analysis::QuasiStatic, scene.end / SAMPLES as f64);
     let still = Scene { analysis, output_dt, ..scene.clone() };
     run(&still, foundations, &mut |_| ControlFlow::Continue(()))
 }
 
-/// Wheels on one structure over the run, at rest at each place.
+/// Quantities of the wheels on one structure, taken from the quasi-static sweep.
 struct Crossing {
     /// Largest speed of a wheel.
     speed: f64,
-    /// Largest share of the deflection in the height of a wheel, and largest deflection by penetration.
+    /// Largest fraction of the rail deflection in the vertical displacement of a wheel, and largest ratio of
+    /// deflection to penetration.
     share: f64,
     softness: f64,
-    /// Frequency of the fastest body on its contacts and the deflection of the rail, and on its contacts alone.
+    /// Highest frequency of a body on its contacts and the compliance of the rail, and on its contacts alone.
     omega: f64,
     contact: f64,
     /// Largest c / k of a damper between wheel and rail.
     damping: f64,
-    /// Where wheels are.
+    /// Positions of the wheels.
     places: Vec<Probe>,
 }
 
@@ -223,8 +230,8 @@ fn modes(motion: &Structure, rails: &[Extent]) -> Option<Vec<Mode>> {
     (n > 0).then(|| (0..n).map(|j| Mode { omega: omega[j], k: k(j) }).collect())
 }
 
-/// Largest deflection at `places` by the largest of all when so many modes are taken out, one entry a number. What
-/// lies beyond the modes is left out.
+/// Largest deflection at `places` due to the modes from the i-th on, relative to that of all modes, one entry per
+/// number of modes removed. Modes beyond those of `motion` are not included.
 fn shares(motion: &Structure, places: &[Probe]) -> Option<Vec<f64>> {
     let omega = motion.dynamics.frequencies();
     let n = omega.len();
@@ -241,11 +248,11 @@ fn shares(motion: &Structure, places: &[Probe]) -> Option<Vec<f64>> {
     (most > 0.0).then(|| out.into_iter().map(|rest| rest / most).collect())
 }
 
-/// Steps of the loads.
+/// Changes of the loads over time.
 struct Steps {
-    /// Largest sum of changes of the loads on one body by its weight.
+    /// Largest sum of load changes on one body, relative to its weight.
     share: f64,
-    /// Time of the fastest of them, > 0.
+    /// Duration of the shortest load change, > 0.
     ramp: f64,
 }
 

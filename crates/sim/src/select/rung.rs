@@ -1,25 +1,25 @@
-//! How much of a structure is modelled.
+//! Fidelities at which a structure can be modelled.
 
 use crate::Scene;
 
-/// Numbers of modes that are tried, and check what lies below them.
+/// Numbers of modes that are tried; each one also checks the lower fidelities.
 pub(super) const MODES: [usize; 6] = [2, 4, 6, 8, 12, 16];
-/// How much of a structure is modelled, from the cheapest to the dearest.
+/// Fidelities at which a structure can be modelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Fidelity {
-    /// It is rigid.
+    /// The structure is rigid.
     Rigid,
-    /// It complies without mass.
+    /// The structure has compliance but no mass.
     Influence,
-    /// This many modes, and the static deflection of the others.
+    /// The structure has this number of modes, and the static deflection of the others.
     Modal(usize),
-    /// All modes of a mesh with half as many elements a member as the one at the top, which it checks.
+    /// All modes of a mesh with half as many elements per member as the full mesh, which it checks.
     Half,
-    /// All modes of a mesh.
+    /// All modes of the full mesh.
     Full,
 }
 
-/// Frequency of the stiffest body on its contacts at rest, the rail rigid: sqrt(sum k' / m).
+/// Highest frequency of a body on its contacts at rest on rigid rails: sqrt(sum k' / m).
 pub(super) fn contact_frequency(scene: &Scene, structure: usize) -> f64 {
     let of = |b: usize| {
         let contacts = || scene.contacts.iter().filter(|contact| contact.body == b);

@@ -1,4 +1,4 @@
-//! One structure, from the lowest fidelity that may suffice to the first that does.
+//! Search for the lowest sufficient fidelity of one structure.
 
 use std::ops::ControlFlow;
 
@@ -8,34 +8,36 @@ use super::predict::predict;
 use super::rung::{Fidelity, MODES, contact_frequency};
 use crate::{Foundation, Run, Scene, Status, Structure};
 
-/// The highest mode kept must be this many times as fast as a body on its contacts to check anything.
+/// Ratio of the highest modelled frequency to that of a body on its contacts, above which a modal fidelity can check
+/// lower fidelities.
 const ABOVE_CONTACT: f64 = 3.0;
-/// Error of a mesh by its difference from one of half the elements, at most: order 4 in the elements' length makes it
-/// 1/15.
+/// Upper bound of the ratio of the error of a mesh to its difference from a mesh with half as many elements. For
+/// convergence of order 4 in the element length the ratio is 1/15.
 const HALVED: f64 = 0.25;
-/// Errors predicted, by the tolerance, above which a fidelity is skipped: rigid, influence, modes.
+/// Predicted error, relative to the tolerance, above which a fidelity is skipped: rigid, influence, modes.
 const SKIP: [f64; 3] = [1.5, 6.0, 10.0];
-/// Errors predicted, by the tolerance, below which a fidelity is taken unchecked: rigid, influence, modes.
+/// Predicted error, relative to the tolerance, below which a fidelity is accepted without a check: rigid, influence,
+/// modes.
 const TAKE: [f64; 3] = [0.25, 0.2, 0.15];
-/// So many times as fast again where modes are taken unchecked.
+/// Further factor on the highest modelled frequency where a modal fidelity is accepted without a check.
 const FAR: f64 = 3.0;
 
-/// A fidelity, run.
+/// A fidelity with its foundation and its run.
 pub(super) struct Candidate {
     pub rung: Fidelity,
     pub foundation: Foundation,
     pub run: Run,
 }
 
-/// What the search found.
+/// Result of the search.
 pub(super) struct Outcome {
     pub choice: Choice,
     pub found: Candidate,
-    /// Runs made.
+    /// Number of runs made.
     pub runs: usize,
 }
 
-/// The search for one structure.
+/// State of the search for one structure.
 pub(super) struct Search<'a, L: FoundationProvider> {
     scene: &'a Scene,
     finer: Scene,
@@ -49,15 +51,15 @@ pub(super) struct Search<'a, L: FoundationProvider> {
     runs: usize,
 }
 
-/// Rungs to try.
+/// Fidelities to be tried.
 struct Plan {
-    /// To be compared with the first of the others.
+    /// Fidelities that are run first and compared with the first fidelity of `higher`.
     lower: Vec<Fidelity>,
-    /// Each checks what was found below it.
+    /// Fidelities that are run in order; each one checks the fidelities below it.
     higher: Vec<Fidelity>,
-    /// The last of `higher` needs no check.
+    /// Whether the last fidelity of `higher` is accepted without a check.
     taken: bool,
-    /// Whether more modes would not change what is tried first.
+    /// Whether computing more modes would not change what is tried first.
     is_enough: bool,
 }
 
@@ -95,12 +97,17 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
     }
 
+    /// Runs the search. The fidelities `lower` of the plan are run first. Then the fidelities `higher` are run in
+    /// ascending order, and each is compared with the candidates below it. The search stops at the first candidate
+    /// whose estimated error is at most 0.8 of the tolerance, at the last planned fidelity where its prediction makes
+    /// a check unnecessary, or at the full mesh. Where a comparison fails, the higher fidelity becomes the new
+    /// candidate.
     pub fn run(mut self, few: Option<Structure>) -> Result<Outcome, L::Error> {
         let Plan { lower, higher, taken, .. } = self.plan(few);
         let mut below: Vec<Candidate> = Vec::new();
         for rung in lower {
             match self.attempt(rung) {
-                // elsewhere the wheels would leave their rails as well
+                // At other fidelities the wheels would leave their rails as well.
                 Some(found) if found.is_final() => return Ok(self.end(found, Reason::Unchecked, None)),
                 Some(found) => below.push(found),
                 None => {}
@@ -114,7 +121,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 return Ok(self.end(found, Reason::Unchecked, None));
             }
             if !found.run.status.is_complete() {
-                // a higher one may still follow the motion
+                // A run at a higher fidelity may still complete the motion.
                 if below.is_empty() {
                     below.push(found);
                 }
@@ -141,7 +148,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             below.push(found);
         }
-        // what was skipped is better than nothing
+        // No candidate is available, so the skipped fidelities are tried.
         let last = match below.pop() {
             Some(found) => Some(found),
             None => {
@@ -154,12 +161,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         match (last, self.error.take()) {
             (Some(found), _) => Ok(self.end(found, Reason::Unchecked, None)),
             (None, Some(error)) => Err(error),
-            // nothing fails without an error
+            // This case does not occur, because every failure records an error.
             (None, None) => Err(L::Error::from(crate::Error::NoSuch { what: "rung", index: self.structure })),
         }
     }
 
-    /// What must be tried, by what is predicted: by few modes, where these tell enough.
+    /// Plans the fidelities to be tried from the predicted errors. A few modes are used where they suffice; otherwise
+    /// more modes are computed.
     fn plan(&mut self, few: Option<Structure>) -> Plan {
         let needed = ABOVE_CONTACT * contact_frequency(self.scene, self.structure);
         let plan = self.plan_by(few.as_ref(), needed);
@@ -207,7 +215,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         Plan { lower, higher, taken: sure.is_some(), is_enough }
     }
 
-    /// Builds and runs a fidelity. One that cannot be built or started is noted.
+    /// Builds and runs a fidelity. A fidelity that cannot be built, started or completed is recorded as failed.
     fn attempt(&mut self, rung: Fidelity) -> Option<Candidate> {
         let built = self.provider.foundation(self.structure, rung);
         let ran = built.and_then(|foundation| {
@@ -231,7 +239,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
     }
 
-    /// The mesh whole, checked by half of it.
+    /// Accepts the full mesh; its error is estimated from a run with half as many elements.
     fn top(mut self, full: Candidate) -> Outcome {
         let half = self.attempt(Fidelity::Half).filter(|half| half.run.status.is_complete());
         let Some(half) = half else { return self.end(full, Reason::Highest, None) };
@@ -254,7 +262,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
 }
 
 impl Candidate {
-    /// Whether the run ended where no other fidelity would go on.
+    /// Whether the run ended for a reason that would end the run at every other fidelity as well.
     fn is_final(&self) -> bool {
         matches!(self.run.status, Status::Stopped | Status::Failed(..))
     }

@@ -1,4 +1,4 @@
-//! Book-keeping of a run: energy exchanged step by step, and how far the balance is off.
+//! Energy accounting of a run: the energy exchanged in each step and the error of the balance.
 
 use crate::contact::solver::Solver;
 use crate::mechanics::state::State;
@@ -8,14 +8,14 @@ use crate::{Audit, Exchanged, Stored};
 /// The audit of a run in progress.
 pub(crate) struct Books {
     audit: Audit,
-    /// Energy stored at the start.
+    /// Total energy stored at the start.
     begun: f64,
-    /// Boundary term of the dampers to ground where the next step starts.
+    /// Boundary term of the dampers to ground at the start of the next step.
     boundary: f64,
 }
 
 impl Books {
-    /// Opens the books at `start`, to which the solver's geometry belongs.
+    /// Starts the audit at `start`, for which the geometry of the solver must be current.
     pub fn new(solver: &Solver, start: &State) -> Self {
         let energy = stored(solver.system(), solver.geometry(), start);
         Books {
@@ -30,29 +30,30 @@ impl Books {
         self.audit
     }
 
-    /// Books what a step has `exchanged` until it reached `to`, before a break or an event changes the forces there.
+    /// Adds the energy `exchanged` in a step that reached `to`, before a break or an event changes the forces there.
     pub fn book_step(&mut self, solver: &Solver, exchanged: &Exchanged, to: &State) {
         self.audit.exchanged.add(exchanged, 1.0);
         let end = boundary(solver.system(), solver.geometry(), to);
         self.audit.exchanged.dampers += end - self.boundary;
     }
 
-    /// Books work of prescribed motions where their speed jumps.
+    /// Adds the work of prescribed motions at a jump of their speed.
     pub fn book_jump(&mut self, work: f64) {
         self.audit.exchanged.drives += work;
     }
 
-    /// Books energy that steps of rails put in.
+    /// Adds the energy that steps in the rail profile supply.
     pub fn book_rail(&mut self, energy: f64) {
         self.audit.exchanged.rail_steps += energy;
     }
 
-    /// Books energy that is lost where elements begin or cease to act.
+    /// Adds the energy that is lost where elements become active or inactive.
     pub fn book_switch(&mut self, loss: f64) {
         self.audit.exchanged.switches += loss;
     }
 
-    /// Closes a step at `to` with the energy `after`: the peak, the imbalance, and the boundary of the next step.
+    /// Completes a step at `to` with the stored energy `after`: updates the peak, the imbalance and the boundary term
+    /// for the next step.
     pub fn close_step(&mut self, solver: &Solver, to: &State, after: Stored) {
         self.turn_page(solver, to, after);
         let mut elastic = after.contact + after.structure + after.ropes;
@@ -64,7 +65,7 @@ impl Books {
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
     }
 
-    /// Takes the energy `after` at `to` for that of the start of the next step.
+    /// Uses the energy `after` at `to` as that of the start of the next step.
     pub fn turn_page(&mut self, solver: &Solver, to: &State, after: Stored) {
         self.audit.end = after;
         self.boundary = boundary(solver.system(), solver.geometry(), to);

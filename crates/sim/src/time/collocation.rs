@@ -1,7 +1,11 @@
-//! A step of force-form collocation: the contact forces at all nodes at once, from one linear system.
+//! A step of collocation in force form: the contact forces at all nodes are found from one linear system.
 //!
-//! Bodies respond to the forces by the collocation's double integrals, modes by their exact propagators, so that a
-//! step resolves the forces and not the modes: q(c_i h) = free motion - sum_j W_ij R_j^T F_j.
+//! The unknowns are the forces F of the active contacts at the s nodes. The response of bodies to the forces is given
+//! by the double integrals of the collocation polynomials, and that of natural modes by their exact propagators, so
+//! that a step has to resolve the forces but not the modes: q(c_i h) = free motion - sum_j W_ij M^-1 R_j^T F_j. The
+//! displacements and the compliance of the rails give the penetrations p as a linear function of F, and the linear
+//! contact laws F = k p + c r close the system, where r is the rate of the penetration or of the wheel. It is solved
+//! by elimination without an iteration.
 
 use nalgebra::DVector;
 
@@ -15,14 +19,14 @@ use crate::time::nodes::Nodes;
 use crate::time::propagator::Propagator;
 use crate::{Dynamics, Error, Exchanged};
 
-/// Everything a step needs; n degrees of freedom, m elements, s nodes.
+/// Data of a collocation step; n degrees of freedom, m elements, s nodes.
 pub(crate) struct Collocation {
     nodes: Nodes,
-    /// omega and zeta of each degree of freedom; omega 0: a body's.
+    /// omega and zeta of each degree of freedom; omega is 0 for a degree of freedom of a body.
     modes: Vec<[f64; 2]>,
-    /// Responses for the lengths of step met last; the first is that of the step.
+    /// Responses for the most recent step lengths; the first entry is that of the current step.
     responses: Vec<Responses>,
-    /// The contacts at the nodes.
+    /// The contact geometry at the nodes.
     geometries: Vec<Geometry>,
     projection: NodeProjection,
     loads: NodeLoads,
@@ -31,49 +35,50 @@ pub(crate) struct Collocation {
     powers: Vec<Exchanged>,
 }
 
-/// What a force at a node does.
+/// Accelerations by unit contact forces.
 struct NodeProjection {
     /// M^-1 R^T, s x m x n.
     spread: Vec<f64>,
-    /// R M^-1 R^T where rows are the same everywhere, m x m.
+    /// R M^-1 R^T if the rows are constant, m x m.
     mobile: Vec<f64>,
     is_filled: bool,
 }
 
-/// Loads by M^-1, n each.
+/// Accelerations M^-1 f by the loads, n values each.
 struct NodeLoads {
-    /// At the nodes without forces of contacts, and with them.
+    /// At the nodes, without the contact forces and with them.
     free: Vec<DVector<f64>>,
     whole: Vec<DVector<f64>>,
-    /// At the start of the step, with the forces of contacts.
+    /// At the start of the step, with the contact forces.
     start: DVector<f64>,
-    /// Whether loads without contacts never change.
+    /// Whether the loads without contact forces are constant.
     is_steady: bool,
 }
 
 /// The linear system of the forces at all nodes.
 struct NodeProblem {
-    /// Free approach and its rate as the damper feels it at (node, element), and the effect of a force at another.
+    /// Approach in the free motion and its rate as the damper feels it, for each (node, element), and the influence
+    /// of the force at another (node, element) on both.
     approach: Vec<f64>,
     rate: Vec<f64>,
     effect: Vec<f64>,
     rate_effect: Vec<f64>,
     matrix: Vec<f64>,
     force: Vec<f64>,
-    /// Places of the unknown forces among all.
+    /// Positions of the unknown forces among all (node, element) pairs.
     index: Vec<usize>,
 }
 
-/// Responses of every degree of freedom over a step of length `h`.
+/// Responses of all degrees of freedom over a step of length `h`.
 struct Responses {
     h: f64,
-    /// Responses to the start: q by q0, q by v0, v by q0, v by v0; (s + 1) x n.
+    /// Responses to the initial state: q per q0, q per v0, v per q0, v per v0; (s + 1) x n.
     free: Vec<[f64; 4]>,
-    /// Responses q and v to the load at every node; (s + 1) x s x n.
+    /// Responses of q and v to the load at every node; (s + 1) x s x n.
     forced: Vec<[f64; 2]>,
 }
 
-/// Lengths of step whose responses are kept where there are modes.
+/// Number of step lengths whose responses are stored if there are modes.
 const STORED: usize = 12;
 
 impl Responses {
@@ -147,7 +152,7 @@ impl Collocation {
         }
     }
 
-    /// Whether some degree of freedom is a mode.
+    /// Whether any degree of freedom is a natural mode.
     pub fn is_modal(&self) -> bool {
         self.modes.iter().any(|mode| mode[0] > 0.0)
     }
@@ -157,7 +162,7 @@ impl Collocation {
         self.nodes.count()
     }
 
-    /// Energy exchanged in the step, by the quadrature of the nodes.
+    /// Energy exchanged in the step, by the quadrature of the collocation method.
     pub fn exchanged(&self) -> Exchanged {
         let s = self.count();
         let mut sum = Exchanged::default();
@@ -167,7 +172,8 @@ impl Collocation {
         sum
     }
 
-    /// Takes a step of length `h` from `from` with the contacts that are active; false where it has no solution.
+    /// Takes a step of length `h` from `from` with the active contacts; returns false if the linear system has no
+    /// solution.
     pub fn attempt(
         &mut self,
         solver: &mut Solver,
@@ -208,7 +214,7 @@ impl Collocation {
         self.finish(solver, from, to, limit)
     }
 
-    /// Brings the responses over a step of length `h` to the front.
+    /// Moves the responses for a step of length `h` to the front; computes them if they are not stored.
     fn set_step(&mut self, h: f64) {
         if let Some(known) = self.responses.iter().position(|responses| responses.h == h) {
             self.responses[..=known].rotate_right(1);
@@ -221,7 +227,7 @@ impl Collocation {
         self.responses[0].fill(&self.nodes, &self.modes, h);
     }
 
-    /// State of degree of freedom `r` at target `i` under the loads at the nodes.
+    /// Displacement and speed of degree of freedom `r` at node `i` (the end for i = s) under the loads at the nodes.
     fn response(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
         let responses = &self.responses[0];
@@ -235,7 +241,7 @@ impl Collocation {
         out
     }
 
-    /// Free approach and the effect of forces, by the responses of every degree of freedom.
+    /// Fills the free approach and the influence of the forces from the responses of every degree of freedom.
     fn fill_responses(&mut self, solver: &Solver, from: &State) {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let size = s * m;
@@ -269,7 +275,7 @@ impl Collocation {
         }
     }
 
-    /// [`Self::fill_responses`] where rows are the same everywhere and all degrees of freedom are bodies'.
+    /// Same as [`Self::fill_responses`], for constant rows and degrees of freedom of bodies only.
     fn fill_body_responses(&mut self, solver: &Solver, from: &State) {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
         let (size, h) = (s * m, self.responses[0].h);
@@ -316,7 +322,9 @@ impl Collocation {
         }
     }
 
-    /// F/k + p + (c/k) r = 0 at every node, p = approach - effect F and r the rate of p or of the wheel.
+    /// Solves F/k = p + (c/k) r at every node for the active contacts, where p = approach - effect F, and r is the
+    /// rate of p for a damper between wheel and rail and the rate of the wheel otherwise. Returns false if the matrix
+    /// is singular.
     fn solve(&mut self, solver: &Solver, from: &State) -> bool {
         let system = solver.system();
         let (s, m, size) = (self.count(), system.elements.len(), self.problem.force.len());
@@ -356,7 +364,8 @@ impl Collocation {
         if !solve_general(&mut self.problem.matrix[..count * count], &mut self.problem.force[..count]) {
             return false;
         }
-        // Spread over all elements, from the last on: an index never lies before its line.
+        // The forces are moved to their positions among all elements, from the last to the first, because an index is
+        // never smaller than its line.
         for line in (0..count).rev() {
             let value = std::mem::take(&mut self.problem.force[line]);
             self.problem.force[self.problem.index[line]] = value;
@@ -364,7 +373,7 @@ impl Collocation {
         true
     }
 
-    /// States at the nodes and at the end, and the powers exchanged.
+    /// Computes the states at the nodes and at the end, and the powers exchanged.
     fn finish(
         &mut self,
         solver: &mut Solver,
@@ -425,8 +434,9 @@ impl Collocation {
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
 
-    /// Modes of `at`, the share `share` of the step just taken from `from`: exact for the polynomials of time that the
-    /// loads are taken to be, since no polynomial follows a mode of many periods a step.
+    /// Sets the modes of `at` to their values at the fraction `share` of the step just taken from `from`. They are
+    /// exact for the load polynomials of the step, because no interpolating polynomial can follow a mode with many
+    /// periods in a step.
     pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
         let h = self.responses[0].h;
         for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
@@ -445,7 +455,8 @@ impl Collocation {
         }
     }
 
-    /// Error of q and v of degree of freedom `r`: what the loads of the last node add to those of a degree less.
+    /// Error of q and v of degree of freedom `r`: the response to the difference between the load of the last node
+    /// and its extrapolation from the start and the other nodes.
     pub fn error(&self, r: usize) -> [f64; 2] {
         let (s, n) = (self.count(), self.modes.len());
         let mut jump = self.loads.whole[s - 1][r] - self.nodes.ahead[0] * self.loads.start[r];

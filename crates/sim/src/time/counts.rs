@@ -1,4 +1,4 @@
-//! How much work a run took.
+//! Counts of the work done by a run.
 
 /// Work done by a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -7,7 +7,7 @@ pub struct Counts {
     pub steps: usize,
     /// Rejected steps.
     pub rejected: usize,
-    /// Contact solutions in stages.
+    /// Solutions of the contact forces in the stages of all steps.
     pub stages: usize,
     /// Instants at which a wheel left or met the rail.
     pub events: usize,

@@ -1,5 +1,4 @@
-//! Where within a step something happens at which it must end: breaks of rails, changes of sign of the elements'
-//! guards.
+//! Location of the events at which a step must end: breaks of rails and sign changes of the guards of elements.
 
 use super::step::Step;
 use crate::Error;
@@ -9,33 +8,34 @@ use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::numerics::root::narrow;
 
-/// Force by which a step may end beyond an event, relative to the largest contact force.
+/// Force by which a step may overshoot an event, relative to the largest contact force.
 pub(crate) const OVERSHOOT: f64 = 1e-9;
 
-/// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is at it; the least, and for each
-/// unit of the error that a step may make.
+/// Distance to a break of a rail, relative to 1 + |x|, within which a rolling wheel is regarded as being at the
+/// break. The first constant is the minimum, the second the value per unit of step tolerance.
 const SLACK: f64 = 1e-11;
 const SLACK_BY_ERROR: f64 = 1e-4;
 
-/// A step may start as many times as far before a break and cross it: what ends there has passed all breaks that
-/// near, and every stage is beyond them.
+/// Multiple of the slack before a break within which a step may start and cross the break without being cut there. A
+/// step that ends beyond the break has passed all breaks within this distance, and all its stages are beyond them.
 const PASSED: f64 = 8.0;
 
-/// Fraction of a step to which the place of a touch is found.
+/// Tolerance of the position of a touch, as a fraction of the step.
 const TOUCH_WIDTH: f64 = 1e-4;
 
-/// Slack of breaks for steps of the error `tolerance`, or of a fixed length.
+/// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
     if is_fixed { SLACK } else { SLACK.max(SLACK_BY_ERROR * tolerance) }
 }
 
-/// Whether guesses of where a step meets a break are good enough to begin with: the slack is more than rounding.
+/// Whether the extrapolated position of a break is accurate enough for the first trial of a step: this is so if the
+/// slack exceeds rounding.
 pub(crate) fn can_predict(slack: f64) -> bool {
     slack > SLACK
 }
 
 /// Length of the step from time `start` that ends where a wheel with prescribed motion meets a break of its rail, if
-/// the step of length `h` would pass it.
+/// a step of length `h` would pass the break.
 pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f64> {
     let mechanics = &system.mechanics;
     let mut best: Option<f64> = None;
@@ -53,7 +53,8 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
                 if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
                     continue;
                 }
-                // A little before the break: there the rail's slope is still that of the rail element the wheel is on.
+                // The step ends slightly before the break, where the slope of the rail is still that of the current
+                // rail element.
                 let length = root(|s| profile.at(start + s * h).x - target) * h
                     - 4.0 * f64::EPSILON * (start + h).abs();
                 if length > 0.0 && length < h * (1.0 - 1e-9) && best.is_none_or(|known| length < known) {
@@ -65,9 +66,10 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
     best
 }
 
-/// Fraction of the step just taken at which a freely rolling wheel meets a break of its rail, and the wheel, if the
-/// step passes one: the root of the wheel's place on the interpolant, less half of the `slack`. Repeated, the step
-/// ends before the break, where the rail's slope is still that of the rail element the wheel comes from.
+/// Finds the first break of a rail that a freely rolling wheel passes in the step just taken. Returns the fraction of
+/// the step and the wheel. The fraction is the root of the position of the wheel on the interpolant, at half of the
+/// `slack` before the break. When the step is repeated until no break is passed, it ends before the break, where the
+/// slope of the rail is still that of the rail element that the wheel is leaving.
 pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)> {
     let system = step.system();
     let mechanics = &system.mechanics;
@@ -84,7 +86,7 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
         let [x0, x1] = [&step.from, &step.to].map(|at| places.of_wheel(mechanics, w, &at.q));
         for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
             let slack = slack * (1.0 + place.abs());
-            // Within the slack a step may start before the break and cross it, or end beyond it.
+            // A step that starts or ends within the slack of the break is not cut.
             let is_there = (x0 - place).abs() < PASSED * slack || (x1 - place).abs() < slack;
             if (x0 - place) * (x1 - place) >= 0.0 || is_there {
                 continue;
@@ -103,7 +105,8 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
     first
 }
 
-/// Whether wheel `w` stands at a break of its rail at `at`, with its distance ahead to the break at most.
+/// The distance within which wheel `w` is at a break of its rail in the state `at`; `None` if there is no break
+/// within this distance.
 pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Option<f64> {
     let system = solver.system();
     let x = solver.geometry().places().of_wheel(&system.mechanics, w, &at.q);
@@ -113,7 +116,7 @@ pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Opt
     foundation.breaks_between(contact.rail, x - near, x + near).next().map(|_| near)
 }
 
-/// The guards of one kind of all elements at `at`, to which the geometry belongs.
+/// Values of the guards of one kind of all elements in the state `at`, for which the geometry must be current.
 pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard> {
     let (system, mut all) = (solver.system(), Vec::new());
     let guarded = system.guarded(kind);
@@ -127,17 +130,19 @@ pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard>
     all
 }
 
-/// Fraction of the step just taken at which an element first touches or lets go, if one does by more than a force of
-/// [`OVERSHOOT`] of `largest`: the first root on the interpolant of the touch guards, which were `before` at its start.
+/// Fraction of the step just taken at which an element first touches or separates, if a guard changes its sign by
+/// more than the force [`OVERSHOOT`] times `largest`. The result is the first root of the touch guards on the
+/// interpolant; `before` are their values at the start of the step.
 ///
 /// # Errors
-/// What the rails refuse.
+/// Any error from evaluating the rails.
 pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Result<Option<f64>, Error> {
     if before.is_empty() {
         return Ok(None);
     }
     let slack = OVERSHOOT * largest;
-    // Guards that change their sign, and where they have: there their distance to it is positive.
+    // Guards that change their sign, with the target value of each. The signed distance to the target is positive
+    // where the guard has passed it.
     let mut passes: Vec<(usize, f64)> = Vec::new();
     let mut ends = [f64::NEG_INFINITY; 2];
     let after = guards(step.solver, GuardKind::Touch, &step.to);
@@ -173,15 +178,15 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
     Ok(Some(first))
 }
 
-/// The first element that must begin or cease to act within the step, if one must: the fraction of the step at which it
-/// does, and the force by which the step has gone too far; `largest` is the largest force.
+/// Finds the first element that must become active or inactive within the step. Returns the fraction of the step at
+/// which it does and the force by which the step has overshot it; `largest` is the largest force.
 ///
-/// Forces of contacts that remember their penetration relax faster than the interpolant follows: for them the
-/// fraction is the secant of the forces at both ends, for all others the root on the interpolant. Repeated, both end
-/// within [`OVERSHOOT`] beyond the event.
+/// The forces of contacts whose penetration is a state relax faster than the interpolant can follow. For these the
+/// fraction is found from the secant of the forces at both ends of the step; for all others it is the root on the
+/// interpolant. When repeated, both end within [`OVERSHOOT`] beyond the event.
 ///
 /// # Errors
-/// What the rails refuse.
+/// Any error from evaluating the rails.
 pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64, f64)>, Error> {
     let aim = 0.5 * OVERSHOOT * largest;
     let mut first: Option<(f64, f64)> = None;
@@ -206,11 +211,11 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
     Ok(first)
 }
 
-/// Fraction of the step at which the switch guard of element `i` reaches `aim` on the interpolant.
+/// Fraction of the step at which the switch guard of element `i` reaches the value `aim` on the interpolant.
 fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error> {
     let beyond =
         |solver: &Solver, at: &State| solver.switch_guard(i, &solver.frame(at)).unwrap_or(-1.0) - aim;
-    // The geometry is that of the end: the value at the start is a guess.
+    // The geometry is that of the end of the step, so the value at the start is approximate.
     let [start, end] = [&step.from, &step.to].map(|at| beyond(step.solver, at));
     if end <= 0.0 {
         return Ok(1.0);
@@ -226,8 +231,8 @@ fn root_on_interpolant(step: &mut Step, i: usize, aim: f64) -> Result<f64, Error
     failure.map_or(Ok(fraction), Err)
 }
 
-/// Fraction of the step at which a law reaches or leaves a corner, if one does by more than [`OVERSHOOT`] of the force
-/// `largest`: the secant of its guard at both ends.
+/// Fraction of the step at which a contact law reaches or leaves a corner, if its guard passes zero by more than
+/// [`OVERSHOOT`] of the force `largest`. The fraction is found from the secant of the guard at both ends.
 pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
     if step.system().guarded(GuardKind::Corner).is_empty() {
         return None;
@@ -242,7 +247,7 @@ pub(crate) fn first_corner(step: &Step, largest: f64) -> Option<f64> {
     fractions.min_by(f64::total_cmp)
 }
 
-/// Root in (0, 1) of a function with opposite signs at the ends, from the side of 0.
+/// Root in (0, 1) of a function with opposite signs at the ends; the returned value lies on the side of 0.
 fn root(mut f: impl FnMut(f64) -> f64) -> f64 {
     let ends = [f(0.0), f(1.0)];
     narrow(ends, 1e-15, |at| Some(f(at)))[0]

@@ -1,6 +1,6 @@
-//! From instant to instant: steppers, collocation, power series, and the events at which steps end.
+//! Time integration: steppers, collocation, power series, and the events at which steps end.
 //!
-//! It stands on `instant` and on `record`, whose channels the rules read and whose audit the steps book.
+//! This module depends on `instant` and on `record`: rules read the recorded channels, and steps add to the audit.
 
 pub(crate) mod books;
 pub(crate) mod collocation;

@@ -1,25 +1,26 @@
-//! Nodes of collocation on [0, 1]: abscissae, and the integrals of the Lagrange polynomials through them.
+//! Nodes of collocation on [0, 1]: the abscissae and the integrals of the Lagrange polynomials.
 
 use crate::Method;
 
-/// A collocation method of s nodes.
+/// Coefficients of a collocation method with s nodes.
 pub(crate) struct Nodes {
-    /// Abscissae of the nodes, then 1 for the end of the step.
+    /// Abscissae of the nodes, followed by 1 for the end of the step.
     pub c: Vec<f64>,
     /// Coefficients of the Lagrange polynomials by powers, s x s, row-major.
     pub lagrange: Vec<f64>,
-    /// A, and below it the weights b: integrals to every node and to the end, (s + 1) x s, row-major.
+    /// Matrix A and, as the last row, the weights b: integrals of the Lagrange polynomials to every node and to the
+    /// end, (s + 1) x s, row-major.
     pub a: Vec<f64>,
-    /// A times A, below it b times A.
+    /// Product A A and, as the last row, b A; row-major.
     pub a2: Vec<f64>,
-    /// A^-1, s x s.
+    /// A^-1, s x s: derivatives at the nodes from the differences of the values at the nodes and the value at 0.
     pub rate: Vec<f64>,
-    /// Extrapolation from 0 and all nodes but the last to the last.
+    /// Weights of the extrapolation to the last node from 0 and all other nodes.
     pub ahead: Vec<f64>,
 }
 
 impl Nodes {
-    /// The nodes of `method`; `None` where it is no collocation.
+    /// The nodes of `method`; `None` if it is not a collocation method.
     ///
     /// # Source
     /// Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.5.
@@ -47,7 +48,7 @@ impl Nodes {
                 a2[i * s + j] = (0..s).map(|k| a[i * s + k] * a[k * s + j]).sum();
             }
         }
-        // Rates at the nodes of the polynomial of degree s through the values at 0 and at the nodes.
+        // Derivatives at the nodes of the polynomial of degree s through the values at 0 and at the nodes.
         let with_start: Vec<f64> = [0.0].into_iter().chain(c.iter().copied()).collect();
         let mut rate = vec![0.0; s * s];
         for j in 0..s {
@@ -65,13 +66,14 @@ impl Nodes {
         Some(Nodes { c: ends, lagrange, a, a2, rate, ahead })
     }
 
-    /// Answer to the Lagrange polynomial of node `b` from the answers `powers` to the powers of time.
+    /// Response to the Lagrange polynomial of node `b`, from the responses `powers` to the powers of time; `part` is
+    /// 0 for displacement and 1 for speed.
     pub fn load(&self, b: usize, powers: &[[f64; 2]; 3], part: usize) -> f64 {
         let s = self.count();
         (0..s).map(|k| self.lagrange[b * s + k] * powers[k][part]).sum()
     }
 
-    /// Lagrange polynomial of node `b` at `share`.
+    /// Value of the Lagrange polynomial of node `b` at the fraction `share` of the step.
     pub fn value(&self, b: usize, share: f64) -> f64 {
         let s = self.count();
         self.lagrange[b * s..(b + 1) * s].iter().rev().fold(0.0, |sum, factor| sum * share + factor)

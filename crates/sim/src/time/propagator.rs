@@ -1,4 +1,4 @@
-//! Exact responses of a natural mode to its start and to a load that is a polynomial of time.
+//! Exact response of a natural mode to its initial state and to a load that is a polynomial of time.
 
 use nalgebra::Complex;
 
@@ -24,20 +24,20 @@ fn phi(z: Complex<f64>) -> [Complex<f64>; 3] {
     out
 }
 
-/// A mode q'' + 2 zeta omega q' + omega^2 q = f over a step h, for a load of powers (t/h)^k, k = 0, 1, 2.
+/// A mode q'' + 2 zeta omega q' + omega^2 q = f over a step h, with loads (t/h)^k for k = 0, 1, 2.
 pub(crate) struct Propagator {
     rate: Complex<f64>,
     h: f64,
 }
 
 impl Propagator {
-    /// `omega` > 0 and 0 <= `zeta` < 1.
+    /// Requires `omega` > 0 and 0 <= `zeta` < 1.
     pub fn new(omega: f64, zeta: f64, h: f64) -> Self {
         let damped = omega * ((1.0 - zeta) * (1.0 + zeta)).sqrt();
         Propagator { rate: Complex::new(-zeta * omega, damped), h }
     }
 
-    /// [q by q0, q by v0, v by q0, v by v0] at `c` h.
+    /// Response to the initial state at time `c` h: [q per q0, q per v0, v per q0, v per v0].
     pub fn free(&self, c: f64) -> [f64; 4] {
         let (decay, damped) = (self.rate.re, self.rate.im);
         let wave = (self.rate * (c * self.h)).exp();
@@ -45,7 +45,8 @@ impl Propagator {
         [wave.re - decay * impulse, impulse, -self.rate.norm_sqr() * impulse, wave.re + decay * impulse]
     }
 
-    /// q and v at `c` h under the load (t/h)^k, one pair a power: k! c^(k+1) h Im(phi_(k+1)) / omega_d.
+    /// Displacement q and speed v at time `c` h under the load (t/h)^k, one pair for each k: q = k! c^(k+1) h
+    /// Im(phi_(k+1)) / omega_d.
     pub fn forced(&self, c: f64) -> [[f64; 2]; 3] {
         let responses = phi(self.rate * (c * self.h));
         let mut scale = self.h / self.rate.im;
@@ -72,14 +73,14 @@ mod tests {
             let wanted = 2.0 * half * half / (angle * angle);
             assert!((one[0] - wanted).abs() < 1e-13 * (wanted + 1.0 / (angle * angle).max(1.0)), "{angle}");
             assert!((one[1] - angle.sin() / angle).abs() < 1e-13 / angle.max(1.0), "{angle}");
-            // v under the linear load is q under the constant one.
+            // The speed under the linear load equals the displacement under the constant load.
             assert!((linear[1] - one[0]).abs() < 1e-12 / (angle * angle).max(1.0), "{angle}");
             let [qq, qv, vq, vv] = mode.free(1.0);
             assert!((qq * vv - qv * vq - 1.0).abs() < 1e-12, "{angle}");
         }
     }
 
-    /// Two halves of a step, the load's powers expanded about the middle, make the whole: damped modes.
+    /// Two half steps, with the powers of the load expanded about the middle, equal one whole step for damped modes.
     #[test]
     fn two_halves_make_a_whole() {
         for angle in [1e-3, 0.5, 3.0, 50.0, 1e3] {

@@ -1,4 +1,4 @@
-//! Samples of a run at its output times, which fall within steps.
+//! Samples of a run at its output times, which generally lie inside steps.
 
 use super::stepper::Stepper;
 use crate::contact::active::ActiveSet;
@@ -8,18 +8,19 @@ use crate::mechanics::state::State;
 use crate::record::recorder::Recorder;
 use crate::{Error, History};
 
-/// The history at the output times, from inside the steps.
+/// Recorder of the history at the output times.
 pub(crate) struct Samples {
     recorder: Recorder,
-    /// Number of the output time that is next.
+    /// Index of the next output time.
     next: u64,
     sample: State,
-    /// What acts in the step; what acts after it.
+    /// Active elements and rail pieces during the step, and those after it.
     begun: Acting,
     after: Acting,
 }
 
-/// What acts in a step and may change in the next: active elements, and the pieces of uneven rails below the wheels.
+/// Quantities that are constant in a step and may change at its end: the active elements, and the pieces of uneven
+/// rails below the wheels.
 #[derive(Clone)]
 struct Acting {
     active: ActiveSet,
@@ -42,10 +43,10 @@ impl Acting {
 }
 
 impl Samples {
-    /// With the sample of the start.
+    /// Creates the recorder and records the start of the run.
     ///
     /// # Errors
-    /// What the rails refuse at the gauges.
+    /// Any error from evaluating the rails at the gauges.
     pub fn new(solver: &Solver, start: &State) -> Result<Self, Error> {
         let mut recorder = Recorder::new(solver.system());
         recorder.record(solver.system(), solver.geometry(), start)?;
@@ -53,15 +54,15 @@ impl Samples {
         Ok(Samples { recorder, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }
 
-    /// Notes what acts in the step that is to come: a sample within it belongs to where it began.
+    /// Stores the active elements at the start of the next step; samples inside the step are computed with them.
     pub fn begin(&mut self, stepper: &mut Stepper) {
         self.begun.take(stepper.step().solver);
     }
 
-    /// Adds the samples of the step just taken.
+    /// Records the output times of the step just taken.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn take(&mut self, stepper: &mut Stepper) -> Result<(), Error> {
         let step = stepper.step();
         let system = step.system();
@@ -85,10 +86,10 @@ impl Samples {
         Ok(())
     }
 
-    /// Adds the end of the step just taken where it is no output time.
+    /// Records the end of the step just taken if it is not an output time.
     ///
     /// # Errors
-    /// What the rails refuse at the gauges.
+    /// Any error from evaluating the rails at the gauges.
     pub fn close(&mut self, stepper: &mut Stepper) -> Result<(), Error> {
         let step = stepper.step();
         let system = step.system();
@@ -98,7 +99,7 @@ impl Samples {
         Ok(())
     }
 
-    /// All samples.
+    /// Returns the recorded samples.
     pub fn history(self) -> History {
         self.recorder.into_history()
     }

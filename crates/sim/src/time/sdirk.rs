@@ -1,4 +1,4 @@
-//! Steps of a diagonally implicit Runge-Kutta method: every stage is one solution of the forces.
+//! Steps of a diagonally implicit Runge-Kutta method. In every stage the contact forces are solved once.
 
 use nalgebra::DVector;
 
@@ -17,7 +17,7 @@ pub(crate) struct Sdirk {
     done: Vec<Done>,
 }
 
-/// What a stage leaves for those after it, for the error and for the audit.
+/// Results of a stage that later stages, the error and the audit use.
 struct Done {
     accelerations: DVector<f64>,
     rates: DVector<f64>,
@@ -45,11 +45,11 @@ impl Sdirk {
         }
     }
 
-    /// Takes a step of length `h` from `from` with the elements that are active; false where a stage does not converge.
-    /// `stages` counts the stages. The solver's geometry is then at the time of `to`.
+    /// Takes a step of length `h` from `from` with the active elements; returns false if a stage does not converge.
+    /// `stages` counts the stages. Afterwards the geometry of the solver is that of the last stage.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn attempt(
         &mut self,
         solver: &mut Solver,
@@ -64,7 +64,7 @@ impl Sdirk {
         solver.begin_step(from);
         for i in 0..tableau.stages() {
             self.fill_known(solver, from, h, i);
-            // just before the end: a prescribed motion may jump there
+            // The stage is evaluated just before the limit, because a prescribed motion may jump there.
             self.stage.t = (from.t + tableau.c[i] * h).min(limit.next_down());
             self.guess(solver, from, i);
             *stages += 1;
@@ -84,7 +84,7 @@ impl Sdirk {
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
 
-    /// Known parts of stage `i`: the start of the step and the stages before.
+    /// Computes the known parts of stage `i` from the start of the step and the previous stages.
     fn fill_known(&mut self, solver: &Solver, from: &State, h: f64, i: usize) {
         let known = &mut self.known;
         known.q.copy_from(&from.q);
@@ -100,14 +100,14 @@ impl Sdirk {
         }
     }
 
-    /// Guesses accelerations and forces of stage `i` by the polynomial through those of the step's start and of the
-    /// stages before.
+    /// Extrapolates accelerations and forces of stage `i` by the polynomial through those at the start of the step
+    /// and of the previous stages.
     fn guess(&mut self, solver: &Solver, from: &State, i: usize) {
         if i == 0 || !solver.system().mechanics.moves_freely {
             return;
         }
         let c = self.tableau.c;
-        // Lagrange's weights of 0 and the abscissae before.
+        // Lagrange weights of 0 and the previous abscissae.
         let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[j]);
         let weight = |j: usize| {
             let others = (0..=i).filter(|&k| k != j);
@@ -128,7 +128,7 @@ impl Sdirk {
         }
     }
 
-    /// Embedded error of q and v of degree of freedom `k`, per unit of the step.
+    /// Embedded error of q and v of degree of freedom `k`, per unit of step length.
     pub fn error(&self, k: usize) -> [f64; 2] {
         let mut error = [0.0; 2];
         for (weight, done) in self.tableau.error.iter().zip(&self.done) {
@@ -138,7 +138,7 @@ impl Sdirk {
         error
     }
 
-    /// Energy exchanged in the step of length `h`, by the quadrature of the stages.
+    /// Energy exchanged in the step of length `h`, by the quadrature of the Runge-Kutta weights.
     pub fn exchanged(&self, h: f64) -> Exchanged {
         let mut sum = Exchanged::default();
         for (i, done) in self.done.iter().enumerate() {
@@ -147,7 +147,7 @@ impl Sdirk {
         sum
     }
 
-    /// Time at which the last stage stood.
+    /// Time of the last stage.
     pub fn time(&self) -> f64 {
         self.stage.t
     }

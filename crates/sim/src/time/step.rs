@@ -1,4 +1,4 @@
-//! One step in hand: its ends, the method that takes it, and looks inside it.
+//! One step: its ends, the method that takes it, and evaluation inside it.
 
 use super::collocation::Collocation;
 use super::nodes::Nodes;
@@ -8,10 +8,10 @@ use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::{Error, Exchanged, Method};
 
-/// Steps over which the compliance is interpolated along a path.
+/// Number of step lengths covered by the path along which the compliance is interpolated.
 const PATH: f64 = 4.0;
 
-/// A method of integration with its scratch.
+/// A method of integration with its working memory.
 enum Integrator {
     Sdirk(Box<Sdirk>),
     Collocation(Box<Collocation>),
@@ -22,19 +22,19 @@ pub(crate) struct Step<'a, 'b> {
     pub solver: &'b mut Solver<'a>,
     pub from: State,
     pub to: State,
-    /// The end of the step as the step reached it, before a break or an event changed its forces.
+    /// The end of the step before a break or an event changed its forces.
     pub arrived: State,
-    /// The state that was looked at last inside the step.
+    /// The state evaluated last inside the step.
     pub probe: State,
     integrator: Integrator,
-    /// Time at which the step left the solver's geometry.
+    /// Time of the geometry of the solver after the step.
     geometry_time: f64,
-    /// Scratch: the end of a path.
+    /// Working memory for the end of a path.
     beyond: State,
 }
 
 impl<'a, 'b> Step<'a, 'b> {
-    /// Steps from `start` by `method`, which suits the scene.
+    /// Creates steps from `start` by `method`, which must suit the scene.
     pub fn new(solver: &'b mut Solver<'a>, start: State, method: Method) -> Self {
         let system = solver.system();
         let integrator = match Nodes::new(method) {
@@ -53,12 +53,12 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// The numbered scene.
+    /// The numbered system.
     pub fn system(&self) -> &'a System<'a> {
         self.solver.system()
     }
 
-    /// Whether the steps are those of a collocation method.
+    /// Whether the method is a collocation method.
     pub fn is_collocation(&self) -> bool {
         matches!(self.integrator, Integrator::Collocation(_))
     }
@@ -68,16 +68,16 @@ impl<'a, 'b> Step<'a, 'b> {
         self.to.t - self.from.t
     }
 
-    /// Begins the next step where this one ended.
+    /// Starts the next step at the end of this one.
     pub fn begin(&mut self) {
         self.from.copy_from(&self.to);
     }
 
-    /// Takes a step of length `h` with the active elements, at most to `limit`; false where it does not converge.
-    /// `stages` counts the stages.
+    /// Takes a step of length `h` with the active elements, which ends at `limit` at the latest; returns false if it
+    /// does not converge. `stages` counts the stages.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn attempt(&mut self, h: f64, limit: f64, stages: &mut usize) -> Result<bool, Error> {
         let has_converged = match &mut self.integrator {
             Integrator::Collocation(collocation) => {
@@ -101,7 +101,7 @@ impl<'a, 'b> Step<'a, 'b> {
         Ok(has_converged)
     }
 
-    /// `h`, brought down to a power of 2^(1/4) where responses of modes are kept by the length of step.
+    /// Length `h`, reduced to a power of 2^(1/4) if modal responses are stored by step length.
     pub fn rounded(&self, h: f64) -> f64 {
         match &self.integrator {
             Integrator::Collocation(collocation) if collocation.is_modal() => {
@@ -111,8 +111,8 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// Embedded error of the step just taken, the largest that `weigh` makes of the number, and the errors of
-    /// displacement and speed per unit of the step, of each degree of freedom.
+    /// Embedded error of the step just taken: the largest value of `weigh` over the degrees of freedom. Its arguments
+    /// are the number of the degree of freedom and the errors of displacement and speed per unit of step length.
     pub fn error(&self, weigh: impl Fn(usize, [f64; 2]) -> f64) -> f64 {
         let (h, mut largest) = (self.length(), 0.0_f64);
         let of = |k: usize| match &self.integrator {
@@ -131,10 +131,10 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// Sets `at` to the interpolant of the step just taken, at this fraction.
+    /// Sets `at` to the interpolant of the step just taken, at the given fraction.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn sample(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
         self.solver.interpolate([&self.from, &self.arrived], fraction, at)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
@@ -143,10 +143,11 @@ impl<'a, 'b> Step<'a, 'b> {
         Ok(())
     }
 
-    /// Brings `probe` to a fraction of the step just tried, with its forces; returns whether they converged.
+    /// Sets `probe` to the state at a fraction of the step just tried and solves its forces; returns whether they
+    /// converged.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn look_at(&mut self, fraction: f64) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
         self.solver.interpolate([&self.from, &self.to], fraction, &mut self.probe)?;
@@ -156,21 +157,21 @@ impl<'a, 'b> Step<'a, 'b> {
         self.solver.instant(&mut self.probe)
     }
 
-    /// Brings the solver's geometry back to the end of the step, after looks inside.
+    /// Resets the geometry of the solver to the end of the step, after states inside the step were evaluated.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn return_to_end(&mut self) -> Result<(), Error> {
         self.probe.copy_from(&self.to);
         self.solver.instant(&mut self.probe)?;
         Ok(())
     }
 
-    /// Brings the geometry of dampers to ground from where the step left it to the end of the step. It is there already
-    /// where places depend on time alone and the last stage did not stop just before a limit.
+    /// Updates the geometry of dampers to ground to the end of the step. It is already there if the rows are constant
+    /// and the last stage was not moved to just before a limit.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn reach_end(&mut self) -> Result<(), Error> {
         let system = self.system();
         let is_there = system.traits.has_constant_rows && self.geometry_time == self.to.t;
@@ -178,7 +179,8 @@ impl<'a, 'b> Step<'a, 'b> {
         if has_grounded && !is_there { self.solver.update(&self.to) } else { Ok(()) }
     }
 
-    /// Sets the paths of the wheels in a step of length `h` and those after it, by the accelerations where it starts.
+    /// Sets the paths of the wheels in a step of length `h` and the following ones, extrapolated with the
+    /// accelerations at the start of the step.
     pub fn set_paths(&mut self, h: f64) {
         if !self.solver.wants_paths() {
             return;
@@ -191,7 +193,7 @@ impl<'a, 'b> Step<'a, 'b> {
         self.solver.set_paths(ends);
     }
 
-    /// Puts a guess of the end of a step of length `h` into `to`, by the accelerations where it starts.
+    /// Sets `to` to an estimate of the end of a step of length `h`, extrapolated with the accelerations at the start.
     pub fn guess_end(&mut self, h: f64) {
         extrapolate(&self.from, h, &mut self.to);
         self.to.v.copy_from(&self.from.v);
@@ -199,7 +201,7 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 }
 
-/// Sets time and displacements of `at` to those that the accelerations of `from` give after `h`.
+/// Sets time and displacements of `at` to those extrapolated from `from` over the time `h`, with its accelerations.
 fn extrapolate(from: &State, h: f64, at: &mut State) {
     at.t = from.t + h;
     at.q.copy_from(&from.q);

@@ -1,9 +1,11 @@
-//! Lengths of steps from their errors.
+//! Step size control.
 //!
-//! The error of a step is the largest embedded error of a displacement or a speed beside its scale: the largest value
-//! so far, at least the penetration at rest carried to each degree of freedom by its lever, and the bounce that
-//! belongs to it. A step of error e (by the tolerance) is rejected where e > 1 and followed by one of 0.9 e^(-1/4) of
-//! its length; else the next is longer by 0.9 e^(-0.175) e_last^0.1, within a factor of 5.
+//! The error of a step is the largest embedded error of all displacements and speeds, each divided by its scale. The
+//! scale of a displacement is its largest value so far, and at least the penetration at rest divided by the lever arm
+//! of the degree of freedom; the scale of a speed is its largest value so far, and at least the least scale of the
+//! displacement times the bounce frequency. Let e be the error divided by the tolerance. A step with e > 1 is
+//! rejected and repeated with 0.9 e^(-1/4) of its length. Otherwise the next step is 0.9 e^(-0.175) e_last^0.1 times
+//! as long, where the factor is limited to the range from 1/5 to 5.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.2: a PI controller of step sizes.
@@ -13,11 +15,12 @@ use nalgebra::DVector;
 use crate::contact::solver::Solver;
 use crate::mechanics::state::State;
 
-/// Controls the length of steps.
+/// Controller of the step size.
 pub(crate) struct StepSize {
-    /// Relative error that a step may make.
+    /// Relative error allowed in a step.
     pub tolerance: f64,
-    /// Length of every step that no break or event ends; in place of the tolerance.
+    /// Length of every step that does not end at a break or an event, if the step is fixed; the tolerance is then not
+    /// used.
     pub fixed: Option<f64>,
     /// Length of the next step.
     h: f64,
@@ -30,7 +33,7 @@ pub(crate) struct StepSize {
 }
 
 impl StepSize {
-    /// Steps from `start`, the first of length `first`.
+    /// Creates a controller for a run from `start`, whose first step has the length `first`.
     pub fn new(solver: &Solver, start: &State, tolerance: f64, fixed: Option<f64>, first: f64) -> Self {
         let wheels = &solver.system().scene.wheels;
         let (scale, rate_scale) = least_scales(solver, start);
@@ -45,27 +48,29 @@ impl StepSize {
         }
     }
 
-    /// Lets the solutions of stages err as far as the tolerance allows, where steps follow it.
+    /// Passes the tolerance and the scales to the solver, which adapts to them the accuracy of the stage solutions
+    /// and of the compliance. Fixed steps have no tolerance, and nothing is passed.
     pub fn set_accuracy(&self, solver: &mut Solver) {
         if self.fixed.is_none() {
             solver.set_accuracy(self.tolerance, [&self.scale, &self.rate_scale], self.radius);
         }
     }
 
-    /// Length that is planned for the next step, at most `widest`.
+    /// Planned length of the next step, at most `widest`.
     pub fn planned(&self, widest: f64) -> f64 {
         self.fixed.unwrap_or(self.h.min(widest))
     }
 
-    /// `planned`, cut at `left` before a limit; no sliver is left before it.
+    /// Length `planned`, limited to the time `left` before a limit. The step is extended to the limit if otherwise
+    /// less than a tenth of its length would remain (1e-9 of it for fixed steps).
     pub fn within(&self, planned: f64, left: f64) -> f64 {
         let h = planned.min(left);
         let sliver = if self.fixed.is_some() { 1e-9 } else { 0.1 };
         if left - h < sliver * h { left } else { h }
     }
 
-    /// Errors of displacement and speed of degree of freedom `k`, per unit of a step of length `h` that ended at `to`,
-    /// beside their scales.
+    /// Larger of the errors of displacement and speed of degree of freedom `k`, relative to their scales, for a step
+    /// of length `h` that ended at `to`; `dq` and `dv` are errors per unit of step length.
     #[inline]
     pub fn weigh(&self, to: &State, h: f64, k: usize, [dq, dv]: [f64; 2]) -> f64 {
         let scale = self.scale[k].max(to.q[k].abs());
@@ -73,22 +78,23 @@ impl StepSize {
         (h * dq / scale).abs().max((h * dv / rate_scale).abs())
     }
 
-    /// Length to try after a step of length `h` and error `error` was rejected.
+    /// Length of the next trial after a step of length `h` with error `error` was rejected.
     pub fn shorter(h: f64, error: f64) -> f64 {
         h * if error.is_finite() { (0.9 * error.powf(-0.25)).clamp(0.1, 0.9) } else { 0.25 }
     }
 
-    /// Plans the next step after one of length `h` and error `error`; `rounded` makes a length one that is known.
+    /// Plans the next step after a step of length `h` with error `error`; `rounded` reduces a length to one for which
+    /// the modal responses are stored.
     pub fn plan(&mut self, h: f64, error: f64, rounded: impl Fn(f64) -> f64) {
         let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
         self.last_error = error.max(1e-4);
         let proposed = h * growth.clamp(0.2, 5.0);
-        // A step cut short by a limit says nothing against the longer one that was planned.
+        // A step that was shortened by a limit is no reason to shorten the planned step.
         let wanted = if h < self.h && growth > 1.0 { proposed.max(self.h) } else { proposed };
         self.h = rounded(wanted);
     }
 
-    /// Lets the scales grow to the state that a step has reached.
+    /// Increases the scales to the displacements and speeds at the end of a step.
     pub fn grow(&mut self, to: &State) {
         for k in 0..to.q.len() {
             self.scale[k] = self.scale[k].max(to.q[k].abs());
@@ -97,8 +103,8 @@ impl StepSize {
     }
 }
 
-/// Smallest displacements and speeds that the error is measured against: the penetration at rest, carried to each
-/// degree of freedom by its lever, and the bounce that belongs to it.
+/// Lower bounds of the scales: the penetration at rest, divided by the lever arm of each degree of freedom, and the
+/// speed of an oscillation of this amplitude at the bounce frequency.
 fn least_scales(solver: &Solver, start: &State) -> (DVector<f64>, DVector<f64>) {
     let system = solver.system();
     let n = system.mechanics.dofs;

@@ -1,9 +1,9 @@
-//! The adaptive stepper: steps that end where something happens.
+//! The adaptive stepper, which ends steps at events.
 //!
 //! Within a step the set of active elements is fixed, so that the solution is smooth and the method keeps its order.
-//! A step is tried at the length that the error of those before allows. Then the reasons to cut it are asked in their
-//! order ([`Reason`]); the first that cuts gives a shorter length, at which the step is tried again. Where none cuts,
-//! the step is accepted: at its end active elements are found anew.
+//! A step is first tried at the length that the errors of the previous steps allow. Then the reasons to shorten it
+//! are checked in their order ([`Reason`]). The first reason that applies gives a shorter length, at which the step
+//! is tried again. If no reason applies, the step is accepted and the active elements at its end are determined.
 
 use super::books::Books;
 use super::counts::Counts;
@@ -22,31 +22,31 @@ use crate::mechanics::state::State;
 use crate::record::energy::stored;
 use crate::{Audit, Error, Fired, Stepping, Stored};
 
-/// How often a step is tried again to end at a break or at a switch of elements.
+/// Largest number of times a step is shortened to end at a break or at a switch of elements.
 const REFINEMENTS: usize = 40;
 
-/// How many of these end where the switch is guessed to be.
+/// Number of these trials that use the estimated position of the switch; the later trials halve the step.
 const GUESSES: usize = 20;
 
-/// How often a step is tried again to end at a touch or at a corner of a law.
+/// Largest number of times a step is shortened to end at a touch or at a corner of a law.
 const CORNERS: usize = 12;
 
-/// How often a step is tried again to end where a rule acts.
+/// Largest number of times a step is shortened to end where a rule acts.
 const TRIALS: usize = 20;
 
-/// Fraction of the step planned below which what happens is taken to happen where it starts: shorter steps have
-/// rounding for rates.
+/// Fraction of the planned step below which an event is regarded as occurring at the start of the step. In shorter
+/// steps the rates are dominated by rounding.
 const NOW: f64 = 1e-6;
 
-/// Steps in a row that may end at events: beyond, contacts chatter and the run cannot get on.
+/// Largest number of consecutive steps that may end at events. Beyond it the contacts chatter, and the run fails.
 const CHATTER: usize = 1000;
 
-/// Steps in a row that may end at events before the next is at most [`WIDER`] times the last: from far beyond an
-/// event a secant always falls short of it.
+/// Number of consecutive steps that end at events after which the next step is limited to [`WIDER`] times the last.
+/// If a trial ends far beyond an event, the secant always underestimates the time of the event.
 const SHORT: usize = 2;
 const WIDER: f64 = 16.0;
 
-/// Why a step could not be taken.
+/// Reason for which a step could not be taken.
 pub(crate) enum Failure {
     TooSmall,
     Refused(Error),
@@ -58,40 +58,42 @@ impl From<Error> for Failure {
     }
 }
 
-/// Reasons to cut a step.
+/// Reasons to shorten a step.
 #[derive(Clone, Copy)]
 enum Reason {
-    /// A wheel with prescribed motion would pass a break of its rail: known before the step is tried.
+    /// A wheel with prescribed motion would pass a break of its rail. This is known before the step is tried.
     PrescribedBreak,
-    /// A wheel that rolls freely passes a break: beyond it the error says nothing of the step that ends before it.
+    /// A freely rolling wheel passes a break. This is checked before the error, because the error of a step across a
+    /// break is not representative of the step that ends before it.
     RollingBreak,
-    /// A flange touches or lets go, which matters where the step errs by more than it may.
+    /// A flange touches or separates. This matters only if the error of the step exceeds the tolerance or the step is
+    /// fixed.
     Touch,
-    /// The step errs by more than it may.
+    /// The error of the step exceeds the tolerance.
     Error,
-    /// An element begins or ceases to act.
+    /// An element becomes active or inactive.
     Switch,
     /// A rule acts.
     Trigger,
-    /// A law reaches or leaves a corner.
+    /// A contact law reaches or leaves a corner.
     Corner,
 }
 
-/// Reasons that are asked before a step is tried, and those after, in their order.
+/// Reasons that are checked before a step is tried, and those checked after it, in their order.
 const BEFORE: [Reason; 1] = [Reason::PrescribedBreak];
 const AFTER: [Reason; 6] =
     [Reason::RollingBreak, Reason::Touch, Reason::Error, Reason::Switch, Reason::Trigger, Reason::Corner];
 
-/// A step that is tried at shorter and shorter lengths.
+/// A step that is tried with decreasing lengths.
 struct Trial {
     h: f64,
-    /// Length below which there is none, and below which an event is taken to be at the start.
+    /// Length below which the step fails, and length below which an event is regarded as being at the start.
     smallest: f64,
     shortest: f64,
-    /// Error by the tolerance; infinite where the step did not converge.
+    /// Error divided by the tolerance; infinite if the step did not converge.
     error: f64,
     ends_at_event: bool,
-    /// How often each kind of reason has cut.
+    /// Number of times the step was shortened for each kind of reason.
     breaks: usize,
     corners: usize,
     switches: usize,
@@ -106,23 +108,23 @@ pub(crate) struct Stepper<'a, 'b> {
     books: Books,
     counts: Counts,
     limit: f64,
-    /// Largest contact force so far, at least the weight.
+    /// Largest contact force so far, and at least the total weight.
     force_scale: f64,
-    /// Smallest steps in a row; steps in a row that ended at an event.
+    /// Number of consecutive steps near the smallest length, and of consecutive steps that ended at an event.
     stalled: usize,
     chatter: usize,
-    /// Touch guards where the next step starts.
+    /// Touch guards at the start of the next step.
     touches: Vec<Guard>,
-    /// The wheel that meets a break of its rail where the step ends.
+    /// The wheel that is at a break of its rail at the end of the step.
     meets: Option<usize>,
 }
 
 impl<'a, 'b> Stepper<'a, 'b> {
-    /// A run from `start`, in which the solver's active elements are settled, by steps of the relative error
-    /// `tolerance` or of the length that `stepping` fixes; the first is `first` long.
+    /// Creates a run from `start`, in which the active elements of the solver are consistent, with steps of the
+    /// relative error `tolerance` or of the length fixed by `stepping`. The first step has the length `first`.
     ///
     /// # Errors
-    /// A rule of something that is not recorded.
+    /// A rule refers to a quantity that is not recorded.
     pub fn new(
         solver: &'b mut Solver<'a>,
         start: State,
@@ -147,12 +149,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
         })
     }
 
-    /// The step taken last.
+    /// The last step.
     pub fn step(&mut self) -> &mut Step<'a, 'b> {
         &mut self.step
     }
 
-    /// Time at the start of the step taken last, and time reached.
+    /// Times at the start and at the end of the last step.
     pub fn times(&self) -> [f64; 2] {
         [self.step.from.t, self.step.to.t]
     }
@@ -162,15 +164,15 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.books.audit()
     }
 
-    /// Work done so far.
+    /// Counts of the work done so far.
     pub fn counts(&self) -> Counts {
         self.counts
     }
 
-    /// Takes one accepted step, at most to `limit`.
+    /// Tries steps until one is accepted; the step ends at `limit` at the latest.
     ///
     /// # Errors
-    /// No step is small enough, or what the rails refuse.
+    /// The step would become too small, or evaluating the rails failed.
     pub fn advance(&mut self, limit: f64) -> Result<(), Failure> {
         let mut trial = self.begin(limit);
         loop {
@@ -193,7 +195,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 None => break,
             }
         }
-        // A step cut short says nothing of the error of longer ones.
+        // A step that was shortened gives no information about the error of longer steps.
         if !trial.ends_at_event {
             let step = &self.step;
             self.size.plan(trial.h, trial.error, |h| step.rounded(h));
@@ -207,7 +209,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(())
     }
 
-    /// Plans a step from where the last one ended.
+    /// Plans a step from the end of the last one.
     fn begin(&mut self, limit: f64) -> Trial {
         self.limit = limit;
         if !self.step.is_collocation() {
@@ -229,7 +231,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             switches: 0,
             triggers: 0,
         };
-        // A guess of where a wheel meets a break is near enough where the accuracy asked lets steps end beside a break.
+        // The extrapolated position of a break is used only if the tolerance lets steps end within a slack larger
+        // than rounding.
         let slack = self.break_slack();
         if self.step.system().mechanics.moves_freely && can_predict(slack) {
             self.step.guess_end(trial.h);
@@ -244,7 +247,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         trial
     }
 
-    /// Tries a step of length `h`; returns its error by the tolerance.
+    /// Tries a step of length `h`; returns its error divided by the tolerance.
     fn attempt(&mut self, h: f64) -> Result<f64, Error> {
         if !self.step.attempt(h, self.limit, &mut self.counts.stages)? {
             return Ok(f64::INFINITY);
@@ -257,7 +260,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(error / self.size.tolerance)
     }
 
-    /// Whether `reason` cuts the step of the trial, and to which length.
+    /// Checks whether `reason` shortens the step of the trial; returns the shorter length if it does.
     fn cut(&mut self, reason: Reason, trial: &mut Trial) -> Result<Option<f64>, Error> {
         let has_converged = trial.error.is_finite();
         let is_long = trial.h > trial.shortest;
@@ -296,14 +299,14 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 let Some((fraction, excess)) = first_switch(&mut self.step, largest)? else {
                     return Ok(None);
                 };
-                // A step that ends near enough to the switch ends there all the same.
+                // A step that ends close enough to the switch also counts as ending at it.
                 trial.ends_at_event = true;
                 let is_beyond = excess > OVERSHOOT * largest;
                 if !(is_beyond && is_long && trial.switches < REFINEMENTS) {
                     return Ok(None);
                 }
                 trial.switches += 1;
-                // Where guesses do not come nearer, half of the step does.
+                // If the estimates do not converge, the step is halved.
                 let fraction = if trial.switches < GUESSES { fraction } else { 0.5 };
                 Some((trial.h * fraction).max(trial.shortest))
             }
@@ -326,7 +329,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(cut)
     }
 
-    /// Fraction of the step at which a freely rolling wheel meets a break; notes the wheel.
+    /// Fraction of the step at which a freely rolling wheel meets a break; stores the wheel in `meets`.
     fn rolling_break(&mut self, slack: f64) -> Option<f64> {
         let (fraction, wheel) = rolling_break(&mut self.step, slack)?;
         self.meets = Some(wheel);
@@ -337,10 +340,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
         break_slack(self.size.tolerance, self.size.fixed.is_some())
     }
 
-    /// Accepts the step of length `h`. In this order: the energy exchanged is booked at the state that the step
-    /// reached; then its end is brought to where the next step starts: prescribed motions pass their break, wheels
-    /// pass joints and corners of their rails, and the active elements are found anew where one is due; last the
-    /// books of the step are closed.
+    /// Accepts the step of length `h`, in this order. First the energy exchanged is added to the audit at the state
+    /// that the step reached. Then this state is changed to the start of the next step: prescribed motions pass their
+    /// break, wheels pass joints and corners of their rails, and the active elements are determined again if one must
+    /// switch. Finally the audit of the step is completed.
     fn accept(&mut self, h: f64) -> Result<(), Error> {
         self.counts.steps += 1;
         self.step.arrived.copy_from(&self.step.to);
@@ -372,7 +375,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(())
     }
 
-    /// Whether an element must begin or cease to act at the end of the step.
+    /// Whether an element must become active or inactive at the end of the step.
     fn is_switch_due(&self) -> bool {
         let (solver, to) = (&*self.step.solver, &self.step.to);
         let system = solver.system();
@@ -385,8 +388,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
         stored(self.step.system(), self.step.solver.geometry(), &self.step.to)
     }
 
-    /// Passes a break of the prescribed motions: what a jump of speed does to the energy is their work, and
-    /// accelerations are those after the break.
+    /// Passes a break of the prescribed motions. The change of kinetic energy by a jump of speed is the work of these
+    /// motions; the accelerations are recomputed for the time after the break.
     fn pass_break(&mut self) -> Result<(), Error> {
         let after = self.stored().kinetic;
         let t = self.step.to.t;
@@ -398,10 +401,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(())
     }
 
-    /// Where the step has ended at a joint of a rail that complies along x, the wheel there goes over to another
-    /// part, which the same forces have displaced along x by another amount: the displacement jumps, and slides
-    /// nowhere. What pushes along x then pushes that part, so that the rail below all wheels jumps as well, by
-    /// Maxwell's theorem with as much work: penetrations follow. Returns the energy put in.
+    /// Moves a wheel that has reached a joint of a rail with compliance along x to the next part of the rail. The
+    /// same forces have displaced that part along x by a different amount, so the longitudinal displacement jumps,
+    /// without any sliding. The longitudinal force then acts on the new part, so the deflection of the rail below all
+    /// wheels jumps as well, by Maxwell's theorem with the same work, and the penetrations are changed by the jump.
+    /// Returns the energy supplied.
     fn pass_joint(&mut self) -> Result<f64, Error> {
         let slack = self.break_slack();
         let Step { solver, to, probe, .. } = &mut self.step;
@@ -427,24 +431,24 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(stored(system, solver.geometry(), to).total() - before.total())
     }
 
-    /// Largest contact force so far.
+    /// Largest contact force so far, including the end of the current step.
     fn largest_force(&self) -> f64 {
         self.step.to.force.iter().fold(self.force_scale, |max, force| max.max(force.abs()))
     }
 
-    /// Rules whose conditions are met where the last step ended.
+    /// Rules whose conditions are met at the end of the last step.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn due(&mut self) -> Result<Vec<usize>, Error> {
         self.triggers.due(&self.step)
     }
 
-    /// Lets the rules that are `due` act, and those whose conditions are met then; books what switching does to the
-    /// energy. Returns the rules, and whether the run ends.
+    /// Executes the rules that are `due`, and then those whose conditions are met as a result; adds the energy change
+    /// by switching to the audit. Returns the rules, and whether the run ends.
     ///
     /// # Errors
-    /// What the rails refuse, and [`Error::NoEquilibrium`] where no forces follow.
+    /// Any error from evaluating the rails, and [`Error::NoEquilibrium`] if no consistent contact forces are found.
     pub fn act(&mut self, mut due: Vec<usize>) -> Result<(Vec<Fired>, bool), Error> {
         let scene = self.step.system().scene;
         let (mut fired, mut ends) = (Vec::new(), false);

@@ -1,19 +1,20 @@
-//! Which methods of integration suit a scene.
+//! Suitability of the methods of integration for a scene.
 
 use crate::contact::system::System;
 use crate::time::passage::crossing::missing;
 use crate::{Dynamics, Error, Foundation, Method, Scene};
 
 impl Method {
-    /// Whether the method can integrate `scene` on `foundations`.
+    /// Checks whether the method can integrate `scene` on `foundations`.
     ///
     /// # Errors
-    /// [`Error::Method`] where it cannot, with what is missing in the scene; another for a scene that cannot be set up.
+    /// [`Error::Method`] if it cannot, with the property that the scene would need; another error if the scene cannot
+    /// be set up.
     pub fn suits(self, scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
         self.check(&System::new(scene, foundations)?)
     }
 
-    /// The method itself, or the one chosen for the scene.
+    /// The method itself or, for `Auto`, the method chosen for the scene.
     pub(crate) fn chosen(self, system: &System) -> Method {
         match self {
             Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
@@ -23,9 +24,9 @@ impl Method {
         }
     }
 
-    /// Whether the method can integrate the scene: collocation needs prescribed places, linear vertical contacts
-    /// with one force a wheel and structures in natural modes of damping ratio below 1; Gauss, no damper between
-    /// wheel and rail.
+    /// Checks whether the method can integrate the scene. Collocation needs prescribed positions along the rail,
+    /// linear vertical contacts with one force per wheel, and structures in natural modes with damping ratios below
+    /// 1. Gauss collocation also needs contacts without a damper between wheel and rail.
     pub(crate) fn check(self, system: &System) -> Result<(), Error> {
         if matches!(self, Method::Auto | Method::Sdirk4) {
             return Ok(());

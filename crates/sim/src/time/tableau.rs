@@ -1,13 +1,14 @@
 //! Diagonally implicit Runge-Kutta methods.
 
-/// A diagonally implicit, stiffly accurate method with one coefficient `gamma` on the diagonal.
+/// A diagonally implicit, stiffly accurate method with the same coefficient `gamma` in every diagonal entry.
 pub(crate) struct Tableau {
     pub gamma: f64,
     /// Abscissae.
     pub c: &'static [f64],
-    /// Rows below the diagonal; row i has i entries. The last row with `gamma` gives the weights.
+    /// Rows of the coefficient matrix below the diagonal; row i has i entries. The last row and `gamma` are the
+    /// weights.
     pub a: &'static [&'static [f64]],
-    /// Weights less those of the embedded method.
+    /// Weights minus those of the embedded method.
     pub error: &'static [f64],
 }
 

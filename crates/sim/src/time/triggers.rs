@@ -1,4 +1,5 @@
-//! Rules that have not acted yet: whether their conditions are met, and the instant within a step at which one is.
+//! Rules that have not acted yet: evaluation of their conditions, and location of the instant within a step at which
+//! one is met.
 
 use super::step::Step;
 use crate::Error;
@@ -7,32 +8,33 @@ use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::record::recorder::Recorder;
 
-/// Time by which a step may end beyond the instant at which a rule acts, relative to the step and to the time.
+/// Time by which a step may end after the instant at which a rule acts, relative to the step and to the time.
 const SLACK: [f64; 2] = [1e-9, 1e-13];
 
 /// The rules that have not acted yet.
 pub(crate) struct Triggers {
     pending: Vec<Trigger>,
-    /// Where there are rules.
+    /// Evaluates the channels of the conditions; `None` if there are no rules.
     recorder: Option<Recorder>,
     row: Vec<f64>,
     /// Whether the last step was cut to end where a rule acts.
     has_cut: bool,
-    /// Steps in a row that were cut and at whose end rounding hid the condition: each allows ten times the slack.
+    /// Number of consecutive steps that were cut but at whose end the condition was not met because of rounding; each
+    /// of them increases the slack tenfold.
     missed: i32,
 }
 
-/// A rule and the columns of the history that its condition sums, with their factors.
+/// A rule and the columns of the history that its condition adds up, with their factors.
 struct Trigger {
     rule: usize,
     columns: Vec<(usize, f64)>,
 }
 
 impl Triggers {
-    /// All rules of a scene.
+    /// Creates the triggers for all rules of a scene.
     ///
     /// # Errors
-    /// A channel that the history does not have.
+    /// A rule refers to a channel that is not in the history.
     pub fn new(system: &System) -> Result<Self, Error> {
         let rules = &system.scene.actuators.rules;
         let recorder = (!rules.is_empty()).then(|| Recorder::new(system));
@@ -51,7 +53,7 @@ impl Triggers {
         Ok(Triggers { pending, recorder, row: Vec::new(), has_cut: false, missed: 0 })
     }
 
-    /// Rules whose conditions are met at `at`, where the solver's geometry belongs to it.
+    /// Rules whose conditions are met in the state `at`, for which the geometry of the solver must be current.
     fn met(&mut self, solver: &Solver, at: &State) -> Result<Vec<usize>, Error> {
         let Some(recorder) = self.recorder.as_mut().filter(|_| !self.pending.is_empty()) else {
             return Ok(Vec::new());
@@ -66,11 +68,11 @@ impl Triggers {
         Ok(self.pending.iter().filter(is_met).map(|trigger| trigger.rule).collect())
     }
 
-    /// Length of the step that ends where the first rule acts, if one does within the step of length `h` just taken
-    /// and not at its end already.
+    /// Finds by bisection the length of the step that ends where the first rule acts. Returns `None` if no rule acts
+    /// within the step of length `h` just taken, or if one acts only at its end.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn first(&mut self, step: &mut Step, h: f64) -> Result<Option<f64>, Error> {
         if self.pending.is_empty() || self.met(step.solver, &step.to)?.is_empty() {
             return Ok(None);
@@ -92,10 +94,10 @@ impl Triggers {
         Ok(cuts.then_some(length))
     }
 
-    /// Rules whose conditions are met where the last step ended.
+    /// Rules whose conditions are met at the end of the last step.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Any error from evaluating the rails.
     pub fn due(&mut self, step: &Step) -> Result<Vec<usize>, Error> {
         let due = self.met(step.solver, &step.to)?;
         let is_missed = due.is_empty() && self.has_cut;
@@ -104,7 +106,7 @@ impl Triggers {
         Ok(due)
     }
 
-    /// Takes a rule that acts from those that are pending.
+    /// Removes a rule that acts from the pending ones.
     pub fn take(&mut self, rule: usize) {
         self.pending.retain(|trigger| trigger.rule != rule);
     }

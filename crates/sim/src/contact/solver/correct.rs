@@ -1,12 +1,13 @@
-//! Corrections of a stage by matrices that an earlier pass of the step left factored.
+//! Corrections of a stage with matrices that were factored in an earlier pass of the same step.
 //!
-//! Newton's method with a Jacobian that is kept: the residuals are those of the stage itself,
+//! This is Newton's method with a frozen Jacobian. The residuals are those of the stage itself,
 //! r_a = M a + C v + K q + B^T F - f at (q, v) = (q*, v*) + g (v, a), r_F = F - law(p, r),
-//! and with Z, W and J = I + F_p W + F_r Y of the earlier pass
+//! and the matrices Z, W and J = I + F_p W + F_r Y are those of the earlier pass:
 //!
 //! a <- a - Z r_a,   dF = -J^-1 r_F,   F <- F + dF,   a <- a - Z B^T dF.
 //!
-//! A pass leaves as much of an error as the matrices have changed since, and costs a few products of vectors.
+//! A correction reduces the error by a factor of the order of the change of the matrices since they were factored. It
+//! costs a few matrix-vector products.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: simplified Newton iterations.
@@ -17,15 +18,16 @@ use crate::contact::element::passing;
 use crate::mechanics::state::{Known, State};
 
 impl Solver<'_> {
-    /// Whether a stage of the coefficient `g` may be corrected: matrices of such a stage are factored, of bodies alone.
+    /// Whether a stage with coefficient `g` may be corrected: the matrices for `g` are factored, and the scene has
+    /// neither structures with mass nor charts.
     pub(super) fn may_correct(&self, g: f64) -> bool {
         let is_factored = self.factored_for == Some(g) && self.problem.is_factored();
         is_factored && !self.system.mechanics.has_structures() && self.charts.is_empty()
     }
 
-    /// Corrects the stage at `at`. Returns the largest changes beside the degrees of freedom themselves and beside
-    /// their scales; `None` where other laws act than those whose slopes are factored: only the accelerations are
-    /// better then.
+    /// Corrects the stage at `at`. Returns the largest change of the degrees of freedom relative to themselves, and
+    /// the largest change of degrees of freedom and forces relative to their scales. Returns `None` if the set of
+    /// acting laws differs from the factored one; then only the free motion has been improved.
     pub(super) fn correct(
         &mut self,
         g: f64,
@@ -53,8 +55,8 @@ impl Solver<'_> {
         Ok(Some([moved, beside.max(largest / size)]))
     }
 
-    /// Penetrations and rates of all elements at the free motion under the forces of `at`; false where an element
-    /// touches that is taken as idle.
+    /// Computes penetrations and rates of all elements for the free motion under the forces of `at`. Returns false if
+    /// an element that was treated as idle touches.
     fn reach(&mut self, g: f64, known: &[f64], at: &State) -> bool {
         let system = self.system;
         for (i, element) in system.elements.iter().enumerate() {

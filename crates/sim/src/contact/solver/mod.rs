@@ -1,4 +1,4 @@
-//! Everything needed to solve a scene again and again without allocation: at one instant here, in one stage of a step
+//! Solver of a scene, without allocation in repeated solutions: at one instant in this file, in one stage of a step
 //! in [`stage`].
 
 mod correct;
@@ -20,32 +20,32 @@ use crate::mechanics::state::State;
 use crate::numerics::dense::along;
 use crate::{Action, Error};
 
-/// Compliance of a rail, relative to that of the wheel, below which it counts as rigid.
+/// Compliance of a rail, relative to that of the wheel, below which the rail is treated as rigid.
 pub(crate) const RIGID: f64 = 1e-9;
 
-/// Iterations on the places and heights of the wheels inside one solution.
+/// Maximum number of iterations on the positions and heights of the wheels in one solution.
 const PASSES: usize = 30;
 
-/// Whether an instant knows the displacements along x of rails without mass.
+/// Treatment of the longitudinal displacements of massless rails in the solution at one instant.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum RailMemory {
-    /// They are states.
+    /// The displacements are states.
     Known,
-    /// They follow from the forces.
+    /// The displacements follow from the forces.
     Unknown,
 }
 
-/// A numbered scene, the elements where they are, which of them act, and the problem of their forces.
+/// A numbered scene with the current geometry of its elements, the active set, and the problem of the forces.
 pub(crate) struct Solver<'a> {
     system: &'a System<'a>,
     geometry: Geometry,
     active: ActiveSet,
-    /// Coordinates of hanging bodies during a step.
+    /// Local coordinates of hanging bodies during a step.
     charts: Charts,
     free: FreeMotion<'a>,
     projection: Projection,
     problem: Problem,
-    /// Coefficient g of the stage whose matrices the problem of the forces has factored.
+    /// Coefficient g of the stage whose Jacobian is factored in `problem`.
     factored_for: Option<f64>,
     convergence: Convergence,
     rail_memory: RailMemory,
@@ -75,33 +75,33 @@ impl<'a> Solver<'a> {
         self.system
     }
 
-    /// The elements where the last update found them.
+    /// Geometry of the elements at the last update.
     pub fn geometry(&self) -> &Geometry {
         &self.geometry
     }
 
-    /// Which elements act.
+    /// The set of active elements.
     pub fn active(&self) -> &ActiveSet {
         &self.active
     }
 
-    /// Brings the geometry to `at`.
+    /// Updates the geometry to `at`.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Errors of the rail models.
     pub fn update(&mut self, at: &State) -> Result<(), Error> {
         self.geometry.update(self.system, at.t, &at.q, &at.force)
     }
 
-    /// Brings the geometry to `at` with the degrees of freedom `q`.
+    /// Updates the geometry to the time and forces of `at` with the degrees of freedom `q`.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Errors of the rail models.
     pub fn update_to(&mut self, at: &State, q: &DVector<f64>) -> Result<(), Error> {
         self.geometry.update(self.system, at.t, q, &at.force)
     }
 
-    /// Brings the slopes of the deflected rails to the forces of `at`, with the wheels where they are.
+    /// Updates the slopes of the deflected rails for the forces of `at`; the positions of the wheels are unchanged.
     pub fn update_rail_slope(&mut self, at: &State) {
         self.geometry.update_rail_slope(self.system, &at.q, &at.force);
     }
@@ -111,35 +111,35 @@ impl<'a> Solver<'a> {
         self.geometry.reset_heights(self.system);
     }
 
-    /// Puts wheel `w` on a piece of its uneven rail.
+    /// Sets the piece of the uneven rail on which wheel `w` runs.
     pub fn set_piece(&mut self, w: usize, piece: usize) {
         self.geometry.set_piece(w, piece);
     }
 
-    /// Carries out `action` of a rule at time `t`; whether the run ends.
+    /// Executes `action` of a rule at time `t`. Returns whether the run ends.
     ///
     /// # Errors
-    /// Hoisting that would take in more rope than there is before the end.
+    /// A hoisting speed that would wind up the whole rope before the end of the run.
     pub fn switch(&mut self, action: Action, t: f64) -> Result<bool, Error> {
         self.geometry.switch(self.system, action, t)
     }
 
-    /// Whether paths of the compliance are of use, see [`Geometry::set_paths`].
+    /// Whether interpolation of the compliance along paths is useful, see [`Geometry::set_paths`].
     pub fn wants_paths(&self) -> bool {
         self.geometry.wants_paths()
     }
 
-    /// Sets the paths of the compliance, see [`Geometry::set_paths`].
+    /// Sets the paths along which the compliance is interpolated, see [`Geometry::set_paths`].
     pub fn set_paths(&mut self, ends: [(f64, &DVector<f64>); 3]) {
         self.geometry.set_paths(self.system, ends);
     }
 
-    /// Drops the paths of the compliance.
+    /// Removes the paths of the compliance.
     pub fn clear_paths(&mut self) {
         self.geometry.clear_paths();
     }
 
-    /// Takes a geometry that belongs to the state at hand, and gives its own.
+    /// Exchanges the geometry of the solver with `geometry`, which belongs to the current state.
     pub fn exchange_geometry(&mut self, geometry: &mut Geometry) {
         std::mem::swap(&mut self.geometry, geometry);
     }
@@ -149,13 +149,13 @@ impl<'a> Solver<'a> {
         self.active.set(i, is_active);
     }
 
-    /// Opens vertical contact `i` at `at`; its damper keeps the penetration of now.
+    /// Opens vertical contact `i` at `at` and stores its present penetration for its damper.
     pub fn open(&mut self, i: usize, at: &State) {
         self.active.set(i, false);
         self.active.store(i, at);
     }
 
-    /// Lets the dampers of open contacts that have not opened during the run keep the penetrations of `at`.
+    /// Stores the penetrations of `at` for the open contacts that have no stored penetration yet.
     pub fn store_open(&mut self, at: &State) {
         for i in 0..self.system.verticals() {
             if !self.active.has(i) && self.active.stored(i).is_none() {
@@ -164,13 +164,13 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Takes which elements act, and the pieces of uneven rails that the wheels are on.
+    /// Restores the active set and the pieces of uneven rails on which the wheels run.
     pub fn restore(&mut self, active: &ActiveSet, pieces: &[usize]) {
         self.active.copy_from(active);
         self.geometry.set_pieces(pieces);
     }
 
-    /// Finds which ropes and stops act at `at`, where the geometry is.
+    /// Determines which ropes and stops are active at `at`; the geometry must belong to `at`.
     pub fn settle_springs(&mut self, at: &State) {
         for &i in self.system.springs() {
             let spring = &self.geometry.local()[i].spring;
@@ -180,7 +180,7 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Whether element `i` keeps its penetration as a state while it acts.
+    /// Whether element `i` is active and its penetration is a state.
     pub fn remembers(&self, i: usize) -> bool {
         self.active.has(i) && self.system.fixed[i].has_memory
     }
@@ -190,24 +190,26 @@ impl<'a> Solver<'a> {
         self.system.vertical(i).opens(at.force[i], self.geometry.fraction(i))
     }
 
-    /// Force of one wheel that open contact `i` would have if it closed now; positive: it must close.
+    /// Force of one wheel that open contact `i` would have if it closed now. A positive value means that it must
+    /// close.
     pub fn closing(&self, i: usize, at: &State) -> f64 {
         let rate = || self.geometry.rate(i, &at.v);
         self.system.vertical(i).closing(i, self.geometry.fraction(i), &self.active, at, rate)
     }
 
-    /// The scene at `at`, to which the geometry belongs.
+    /// The scene at `at`; the geometry must belong to `at`.
     pub fn frame<'s>(&'s self, at: &'s State) -> Frame<'s> {
         self.geometry.frame(self.system, at)
     }
 
-    /// Positive where element `i` must begin or cease to act at `frame`: the force by which it has gone too far.
+    /// Switching function of element `i` at `frame`: positive if an inactive element must become active or an active
+    /// one inactive. The value is the force by which the limit is exceeded.
     pub fn switch_guard(&self, i: usize, frame: &Frame) -> Option<f64> {
         self.system.elements[i].switch(&frame.at(i), &self.active)
     }
 
-    /// The first element from `first` on that must begin or cease to act at `at`, with the force by which it has gone
-    /// too far.
+    /// The first element from index `first` that must be switched at `at`, with the force by which its limit is
+    /// exceeded.
     pub fn next_switch(&self, first: usize, at: &State) -> Option<(usize, f64)> {
         let frame = self.frame(at);
         (first..self.system.elements.len()).find_map(|i| {
@@ -216,17 +218,17 @@ impl<'a> Solver<'a> {
         })
     }
 
-    /// Whether the rail below vertical contact `i` is rigid beside the wheel.
+    /// Whether the rail below vertical contact `i` is rigid relative to the wheel.
     pub fn is_on_rigid_rail(&self, i: usize) -> bool {
         self.geometry.own_compliance(i) * self.system.law(i).stiffness <= RIGID
     }
 
-    /// Penetration of element `i` by the matrices of the last solution under `force`.
+    /// Penetration of element `i` under `force`, from the matrices of the last solution.
     pub fn solved_penetration(&self, i: usize, force: &[f64]) -> f64 {
         self.problem.effects.penetration(i, force)
     }
 
-    /// Rate at which wheel and unloaded rail approach each other at vertical contact `i`.
+    /// Rate of approach of wheel and unloaded rail at vertical contact `i`.
     pub fn approach_rate(&self, i: usize, at: &State) -> f64 {
         let rows = self.geometry.rows();
         let own = along(&rows.approach, i, at.v.as_slice());
@@ -236,7 +238,7 @@ impl<'a> Solver<'a> {
         own + rows.rise[i] * self.system.contact_speed(i, at)
     }
 
-    /// M^-1 times the forces at `t` that do not depend on the elements.
+    /// M^-1 times the forces at `t` that are independent of the elements.
     pub fn free_accelerations(&mut self, t: f64) -> &DVector<f64> {
         self.free.accelerations(self.system, t)
     }
@@ -246,7 +248,8 @@ impl<'a> Solver<'a> {
         self.free.inverse().apply(row, out);
     }
 
-    /// Sets the displacements of rails without mass along x to those under the forces of `at`, at rest.
+    /// Sets the longitudinal displacements of massless rails to the static ones under the forces of `at`, and their
+    /// rates to zero.
     pub fn rest_rails(&self, at: &mut State) {
         for (i, slot) in self.sliding() {
             at.p[slot] = self.geometry.deflection(i, &at.force);
@@ -254,25 +257,30 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Sets the displacements of rails without mass along x to those under the forces of `at`.
+    /// Sets the longitudinal displacements of massless rails to those under the forces of `at`.
     pub fn move_rails(&self, at: &mut State) {
         for (i, slot) in self.sliding() {
             at.p[slot] = self.geometry.deflection(i, &at.force);
         }
     }
 
-    /// Elements whose rail's displacement along x is a state, with its place there.
+    /// Elements for which the longitudinal displacement of the rail is a state, with its index in the state.
     fn sliding(&self) -> impl Iterator<Item = (usize, usize)> + use<'a> {
         let (probes, first) = (&self.system.probes, self.system.verticals());
         probes.sliding.iter().enumerate().map(move |(k, &i)| (i, first + k))
     }
 
-    /// Forces, penetrations and accelerations at (t, q, v) for the elements that are active; the penetration of those
-    /// that remember it is given, inside a step its rate: p + G F = e with F = k p + c p' errs by c/(1 + k G) of the
-    /// rate's error, where F = k p + c p' alone errs by k of the penetration's. Returns whether it converged.
+    /// Solves for the forces, penetrations and accelerations at (t, q, v) with the present active set.
+    ///
+    /// Each iteration updates the geometry, solves for the forces, and updates the heights of the wheels. It ends
+    /// when the heights change by less than 1e-13. For active elements whose penetration is a state, the penetration
+    /// p is prescribed at the ends of steps. On the interpolant within a step, the rate p' is prescribed instead, and
+    /// p follows from p + G F = e: with F = k p + c p', an error of the rate then enters the force with the factor
+    /// c/(1 + k G), whereas an error of a prescribed penetration would enter it with the factor k. Returns whether
+    /// the forces converged.
     ///
     /// # Errors
-    /// What the rails refuse.
+    /// Errors of the rail models.
     pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         self.problem.idle.fill(false);
@@ -300,7 +308,7 @@ impl<'a> Solver<'a> {
         Ok(true)
     }
 
-    /// Fills the problem of the forces of an instant: W = G, and the states that are given.
+    /// Fills the problem of the forces at one instant: W = G, Y = 0, and the prescribed states.
     fn fill_instant(&mut self, at: &mut State) {
         let m = at.force.len();
         for i in 0..m {
@@ -320,8 +328,9 @@ impl<'a> Solver<'a> {
         let effects = &mut self.problem.effects;
         effects.w.copy_from_slice(&self.geometry.rails().value);
         effects.y.fill(0.0);
-        // Forces keep the displacements of rails without mass, as far as their laws allow. A rail that hardly complies
-        // takes its rate from before.
+        // A tangential force keeps the displacement of its massless rail, within the limits of its law. If the rail
+        // is practically rigid, the law itself determines the force. In both cases the rate of the rail is the stored
+        // one.
         for (i, slot) in self.sliding() {
             let complies = self.geometry.own_compliance(i) * self.stiffest() > RIGID;
             let effects = &mut self.problem.effects;
@@ -333,12 +342,12 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Largest stiffness of a wheel on its rail.
+    /// Largest normal stiffness of all wheels.
     fn stiffest(&self) -> f64 {
         self.system.scene.wheels.iter().fold(0.0, |max, wheel| wheel.normal.stiffness.max(max))
     }
 
-    /// Takes the wheels' own motion over the deflected rail, x' dG/dx F, from the rate of element `i`.
+    /// Subtracts x' dG/dx from row `i` of Y: the rate due to the motion of the wheels along the deflected rail.
     fn take_passing(&mut self, i: usize, at: &State) {
         let (system, m) = (self.system, at.force.len());
         for (contact, speed) in tangential_of(&system.mechanics, &system.probes, at, i) {
@@ -350,10 +359,10 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Sets `at` to the interpolant between the ends of the step just tried, at this fraction.
+    /// Sets `at` to the interpolant between the two ends of the last attempted step, at `fraction` of the step.
     ///
     /// # Errors
-    /// What the rail refuses.
+    /// Errors of the rail models.
     pub fn interpolate(
         &mut self,
         [from, to]: [&State; 2],
@@ -365,8 +374,9 @@ impl<'a> Solver<'a> {
         self.stretch_ropes(to.t - from.t, at)
     }
 
-    /// Calls `each` with the number of every degree of freedom and its errors of displacement and speed, which `of`
-    /// gives by number; those of hanging bodies are errors of their coordinates.
+    /// Calls `each` with the number and the errors of displacement and speed of every degree of freedom; `of` returns
+    /// the errors by number. For hanging bodies, `of` returns errors of the local coordinates, which are transformed
+    /// to X, Y and Z.
     #[inline]
     pub fn for_errors(
         &self,

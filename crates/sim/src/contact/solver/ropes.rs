@@ -1,19 +1,23 @@
-//! Ropes that are too stiff for a step, on the interpolant of the step.
+//! Corrects the interpolant of a step for ropes whose stretch is too stiff to be resolved by the step.
 
 use super::Solver;
 use crate::Error;
 use crate::contact::chart::{Chart, Local};
 use crate::mechanics::state::State;
 
-/// (omega h)^2 of a rope's stretch above which a step of length h does not resolve it.
+/// Value of (omega h)^2 of the stretch of a rope above which a step of length h does not resolve the oscillation.
 const UNRESOLVED: f64 = 100.0;
 
 impl Solver<'_> {
-    /// Stretches ropes that are far stiffer than a step of length `h` resolves so that they are in balance at `at`:
-    /// rates of their stretch say nothing between the ends of the step.
+    /// Sets the stretch of every rope that a step of length `h` does not resolve to its equilibrium at `at`, because
+    /// the interpolated rates of such a stretch are meaningless between the ends of the step.
+    ///
+    /// For each chart the acceleration of the stretch is evaluated at two values of the stretch. The difference
+    /// quotient is -omega^2. If (omega h)^2 exceeds `UNRESOLVED`, one Newton step sets the stretch to the value at
+    /// which its acceleration is zero.
     ///
     /// # Errors
-    /// What the rail refuses.
+    /// Errors of the rail models.
     pub(super) fn stretch_ropes(&mut self, h: f64, at: &mut State) -> Result<(), Error> {
         let charts = std::mem::take(&mut self.charts);
         let done = charts.iter().try_for_each(|chart| self.stretch_rope(chart, h, at));

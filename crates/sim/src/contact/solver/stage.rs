@@ -1,18 +1,19 @@
-//! One stage of a step: Q = q* + g V, V = v* + g A and the forces that belong to them.
+//! Solution of one stage of a step: Q = q* + g V, V = v* + g A, and the associated forces.
 //!
-//! Unknowns are the accelerations A and the forces F. With the mobility Z = (M + g C + g^2 K)^-1 the motion without
-//! forces is a_0 = Z (f - C v* - K (q* + g v*)), and A = a_0 - Z B^T F. The elements see W = G + g^2 R Z B^T and, in
-//! their rates, Y = W/g where the rate is that of the penetration, g R' Z B^T where it is that of the degrees of
-//! freedom.
+//! The unknowns are the accelerations A and the forces F. With the mobility Z = (M + g C + g^2 K)^-1 the motion
+//! without forces is a_0 = Z (f - C v* - K (q* + g v*)), and A = a_0 - Z B^T F. The elements depend on W = G + g^2 R
+//! Z B^T and, through their rates, on Y: Y = W/g if the rate is that of the penetration, and Y = g R' Z B^T if it is
+//! that of the degrees of freedom.
 //!
-//! A pass brings the geometry to the guess of the stage, forms W and Y there, solves F = law(e - W F, r - Y F), and
-//! moves the guess to the accelerations found. Passes repeat until they change nothing, or less than the step's
-//! accuracy asks ([`Convergence`](super::Convergence)); later passes of a step correct the stage by the factors of an
-//! earlier one ([`correct`](super::correct)). Where no row follows the motion, the first pass is the solution.
+//! A pass updates the geometry to the current guess of the stage, forms W and Y there, solves F = law(e - W F, r - Y
+//! F), and updates the guess with the resulting accelerations. Passes are repeated until the changes are within
+//! rounding or the remaining error is within the accuracy of the step ([`Convergence`](super::Convergence)). Later
+//! passes of a step correct the stage with the factors of an earlier one ([`correct`](super::correct)). If no row
+//! depends on the motion, the first pass is the solution.
 //!
-//! Order of a pass: motion without forces; geometry; idle elements (in the first pass); mobility by the rows; rows of
-//! the problem; forces; elements that begin to touch, which repeat the pass; accelerations; displacements, speeds and
-//! penetrations of the state; heights of the wheels.
+//! A pass is executed in this order: motion without forces; geometry; idle elements (first pass only); mobility
+//! projected on the rows; rows of the problem; forces; check for elements that begin to touch, which repeats the
+//! pass; accelerations; displacements, speeds and penetrations of the state; heights of the wheels.
 
 use nalgebra::DVector;
 
@@ -20,28 +21,29 @@ use super::{PASSES, RowKind, Solver};
 use crate::Error;
 use crate::mechanics::state::{Known, State};
 
-/// Residual of the forces for each unit of the error that passes may leave.
+/// Allowed relative residual of the forces, per unit of the allowed error of the passes.
 const SLACK: f64 = 0.1;
 
-/// What a pass of a stage did.
+/// Result of a pass of a stage.
 enum Pass {
-    /// Largest changes beside the degrees of freedom themselves, and beside their scales.
+    /// Largest changes of the degrees of freedom, relative to themselves and relative to their scales.
     Moved([f64; 2]),
-    /// Elements were found to touch that had been taken as idle.
+    /// Elements that had been treated as idle were found to touch.
     Touched,
-    /// The forces have no solution.
+    /// The problem of the forces did not converge.
     Failed,
 }
 
 impl Solver<'_> {
-    /// Lets stages, compliance and forces err as far as steps of the relative error `tolerance` allow, beside the
-    /// scales of displacements and speeds; `radius` is that of the smallest wheel.
+    /// Sets the accuracy of stages, compliance and forces for steps with the relative error `tolerance`, relative to
+    /// the scales of displacements and speeds. `radius` is the radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, scales: [&DVector<f64>; 2], radius: f64) {
         self.convergence.set_accuracy(tolerance, scales);
         self.geometry.set_accuracy(tolerance, radius);
     }
 
-    /// Begins a step at `from`: chooses the coordinates of hanging bodies, and keeps nothing of earlier stages.
+    /// Begins a step at `from`: selects the local coordinates of hanging bodies and discards the results of earlier
+    /// stages.
     pub fn begin_step(&mut self, from: &State) {
         if !self.system.springs().is_empty() {
             let (system, active) = (self.system, &self.active);
@@ -52,27 +54,28 @@ impl Solver<'_> {
         self.factored_for = None;
     }
 
-    /// Sets hanging bodies in the known parts of a stage to their coordinates at the start of the step.
+    /// Replaces the constant terms of hanging bodies by their local coordinates and rates at the start of the step.
     pub fn begin_stage(&self, known: &mut Known) {
         self.charts.set_start(&mut known.q, &mut known.v);
     }
 
-    /// Whether degree of freedom `k` is of a hanging body, in coordinates of its own during the step.
+    /// Whether degree of freedom `k` belongs to a hanging body, which has local coordinates during the step.
     pub fn is_charted(&self, k: usize) -> bool {
         self.charts.has(k)
     }
 
-    /// Speeds and accelerations of the stage that ended at `at` into `rates`, those of hanging bodies in their
+    /// Writes speeds and accelerations of the stage that ended at `at` into `rates`; those of hanging bodies in local
     /// coordinates.
     pub fn end_stage(&mut self, at: &State, rates: [&mut DVector<f64>; 2]) {
         self.charts.set_rates(self.system, self.geometry.switches(), at, rates);
     }
 
-    /// Solves the stage of the coefficient `g` at `at.t` with the elements that are active; `at` brings the previous
-    /// solution as a guess. Returns whether it converged.
+    /// Solves the stage with coefficient `g` at `at.t` with the present active set; `at` contains the previous
+    /// solution as the initial guess. Each iteration is a correction where `may_correct` allows it, else a
+    /// full pass. Returns whether the iteration converged.
     ///
     /// # Errors
-    /// What the rails refuse, and masses that are not positive definite.
+    /// Errors of the rail models, and masses that are not positive definite.
     pub fn stage(&mut self, g: f64, known: &mut Known, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         let traits = &system.traits;
@@ -110,7 +113,7 @@ impl Solver<'_> {
                 },
             };
             let verdict = self.convergence.judge(change, last);
-            // A good guess of where the wheels are says little of their speeds.
+            // In the first pass of a free motion, a small change of positions does not imply accurate speeds.
             let is_sure = pass > 0 || !system.mechanics.moves_freely;
             if (moved < 1e-13 && is_sure) || !iterates || verdict.has_ended {
                 return Ok(true);
@@ -123,8 +126,8 @@ impl Solver<'_> {
         Ok(false)
     }
 
-    /// A pass of a stage: all matrices at the places of `at`, and the forces that they give. `begins`: nothing is
-    /// known of the stage but the guess in `at`.
+    /// One pass of a stage: forms all matrices at the positions of `at` and solves for the forces. `begins` is true
+    /// if only the guess in `at` is available for this stage.
     fn pass(&mut self, g: f64, known: &mut Known, at: &mut State, begins: bool) -> Result<Pass, Error> {
         let system = self.system;
         let changes_mass = !system.mechanics.carried.is_empty();
@@ -156,8 +159,8 @@ impl Solver<'_> {
         Ok(Pass::Moved(changes))
     }
 
-    /// Takes what has no force out of the columns of a stage: open contacts, free flanges, drives and brakes that are
-    /// off, slack ropes.
+    /// Marks the elements that have no force in a stage, so that their columns are omitted: open contacts, flanges
+    /// without contact, inactive drives and brakes, slack ropes.
     fn find_idle(&mut self, force: &[f64]) {
         let elements = self.system.elements.iter().zip(self.geometry.local());
         for (i, (element, local)) in elements.enumerate() {
@@ -165,7 +168,7 @@ impl Solver<'_> {
         }
     }
 
-    /// Finds idle elements that touch under `force`; returns whether any does.
+    /// Removes the idle mark of elements that touch under `force`; returns whether there are any.
     fn find_touching(&mut self, force: &[f64]) -> bool {
         let mut is_found = false;
         for (i, element) in self.system.elements.iter().enumerate() {
@@ -180,7 +183,8 @@ impl Solver<'_> {
         is_found
     }
 
-    /// Row of element `i` in the problem of a stage of the coefficient `g`; `known` are penetrations.
+    /// Fills the row of element `i` in the problem of a stage with coefficient `g`; `known` contains the constant
+    /// terms of the penetrations.
     fn fill_row(&mut self, i: usize, g: f64, known: &[f64]) {
         let (m, remembers) = (self.system.elements.len(), self.remembers(i));
         let span = i * m..(i + 1) * m;
@@ -207,9 +211,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Adds to the rate of element `i` along a rail what the rail without mass moves, `known` before the stage: s =
-    /// x' + h omega - du/dt at a place of the rail, where du/dt = (G F - u*)/g along the wheel's path, less x' dG/dx
-    /// F for the path itself.
+    /// Adds the motion of the massless rail to the rate of tangential element `i`: s = x' + h omega - du/dt at a
+    /// fixed point of the rail, where du/dt = (G F - u*)/g is taken along the path of the wheel, minus x' dG/dx F for
+    /// the motion along that path. `known` is the constant term u* of the displacement.
     fn fill_sliding(&mut self, i: usize, g: f64, known: f64, at: &State) {
         let m = at.force.len();
         let effects = &mut self.problem.effects;
@@ -220,8 +224,9 @@ impl Solver<'_> {
         self.take_passing(i, at);
     }
 
-    /// Ends a pass: puts what the accelerations and forces of `at` give there, with the `penetration` of each vertical
-    /// contact; returns the largest changes beside the degrees of freedom themselves and beside their scales.
+    /// Completes a pass: updates the state `at` from its accelerations and forces, with the `penetration` of each
+    /// vertical contact. Returns the largest changes relative to the degrees of freedom themselves and relative to
+    /// their scales.
     pub(super) fn arrive(
         &mut self,
         g: f64,
@@ -243,8 +248,8 @@ impl Solver<'_> {
         changes.map(|change| change.max(rise))
     }
 
-    /// Largest of the changes from `at` to what its accelerations give, beside the degrees of freedom and beside their
-    /// scales, and puts them there.
+    /// Updates displacements and speeds of `at` from its accelerations. Returns the largest changes relative to the
+    /// degrees of freedom themselves and relative to their scales.
     fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
         let [mut moved, mut beside] = [0.0_f64; 2];
         for k in 0..at.q.len() {

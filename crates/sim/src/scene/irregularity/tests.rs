@@ -1,4 +1,4 @@
-//! Shapes of uneven rails, piece by piece.
+//! Tests of irregularities, piece by piece.
 
 use splines::Axis;
 

@@ -1,10 +1,10 @@
-//! Crossings at uniform speed by power series of time: bodies on linear wheels over a rail without mass.
+//! Crossings at uniform speed by power series of time, for bodies on linear wheels over a rail without mass.
 //!
-//! Where wheels travel together at uniform speed, G is a polynomial of time between two breaks of the rails
-//! ([`path`](super::path)), and so the forces and motions are power series ([`series`](super::series)) whose
-//! coefficients cost a few products each: no evaluation of G, no iteration, samples and powers from the same series.
-//! The step follows from the last terms, so that none is rejected; forces and energy are read off two terms more,
-//! which leave nearly no jump between steps.
+//! If all wheels travel together at uniform speed, G is a polynomial of time between two breaks of the rails
+//! ([`path`](super::path)). Forces and motions are then power series ([`series`](super::series)) whose coefficients
+//! cost a few matrix products each, without further evaluations of G and without an iteration; samples and powers are
+//! evaluated from the same series. The step length follows from the last terms of the series, so no step is rejected.
+//! Forces and energy are evaluated with two more terms, which nearly removes the jumps between steps.
 
 use std::ops::ControlFlow;
 
@@ -20,26 +20,27 @@ use crate::record::recorder::Recorder;
 use crate::time::counts::Counts;
 use crate::{Error, History};
 
-/// Contacts at most.
+/// Largest number of contacts.
 pub(crate) const WIDEST: usize = 8;
 
-/// Size of the last terms of a step for each unit of accuracy asked of the run.
+/// Allowed size of the last terms of a step, relative to the largest values, per unit of the accuracy of the run.
 const LAST: f64 = 0.1;
 
-/// Size of the last terms of the forces by the mean force, for that of the approaches by the largest.
+/// Ratio of the allowed last terms of the forces, relative to the largest force, to those of the approaches, relative
+/// to the largest approach.
 const FORCES: f64 = 50.0;
 
-/// Accuracy beyond which a step is no longer.
+/// Coarsest accuracy used for the step length; larger values are reduced to it.
 const COARSEST: f64 = 1e-3;
 
-/// Square of the quickest frequency by that of the bodies at rest on their wheels, beyond which the scene is too
-/// stiff for a series.
+/// Largest ratio of the squares of the highest frequency of a contact and of the bounce frequency of the bodies on
+/// their wheels for which a series is used; stiffer scenes are left to another method.
 const STIFF: f64 = 20.0;
 
-/// Steps, judged by the last, beyond which a series is not worth its while.
+/// Number of steps, estimated from the current step length, above which a series is not used.
 const MANY: f64 = 1e4;
 
-/// Places and weights of Lobatto on [0, 1], exact to degree 13; at 0 and at 1 the weight is [`ENDS`].
+/// Abscissae and weights of Lobatto quadrature on [0, 1], exact to degree 13; the weight at 0 and at 1 is [`ENDS`].
 const LOBATTO: [[f64; 2]; 6] = [
     [0.064_129_925_745_196_71, 0.105_352_113_571_753_04],
     [0.204_149_909_283_428_85, 0.170_561_346_241_752_15],
@@ -50,7 +51,8 @@ const LOBATTO: [[f64; 2]; 6] = [
 ];
 const ENDS: f64 = 1.0 / 56.0;
 
-/// What is missing in the scene to be a crossing of this kind, beside what collocation asks.
+/// Property that the scene would need for a crossing of this kind, in addition to the requirements of collocation;
+/// `None` if nothing is missing.
 pub(crate) fn missing(system: &System) -> Option<&'static str> {
     let scene = system.scene;
     let mut moving = scene.bodies.iter().enumerate().filter_map(|(b, body)| Some((b, body.motion.as_ref()?)));
@@ -77,7 +79,7 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
     troubles.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted)
 }
 
-/// A crossing from start to end, or until the caller stopped it.
+/// Result of a crossing from the start to the end, or until the caller stopped it.
 pub(crate) struct Crossed {
     pub is_stopped: bool,
     pub history: History,
@@ -85,8 +87,8 @@ pub(crate) struct Crossed {
     pub counts: Counts,
 }
 
-/// The run of a scene in which nothing is [`missing`]; `None` where a contact opens, wheels are too stiff or G is no
-/// polynomial of low degree between breaks: then another method has to take the run.
+/// Runs a scene for which nothing is [`missing`]. Returns `None` if a contact opens, if the wheels are too stiff, or
+/// if G is not a polynomial of low degree between breaks; another method must then take the run.
 ///
 /// # Errors
 /// As [`crate::run()`].
@@ -104,7 +106,7 @@ pub(crate) fn run(
     }
 }
 
-/// A crossing in progress; contacts and degrees of freedom padded to P.
+/// A crossing in progress; arrays over contacts and degrees of freedom are padded to P.
 struct Crossing<'a, const P: usize> {
     system: &'a System<'a>,
     geometry: Geometry,
@@ -119,29 +121,29 @@ struct Crossing<'a, const P: usize> {
     length: f64,
     audit: Audit,
     energy_at_start: f64,
-    /// Largest approach and largest force so far.
+    /// Largest approach and largest force so far, as magnitudes.
     largest_approach: f64,
     largest_force: f64,
 }
 
 /// The uniform travel of a crossing.
 struct UniformTravel {
-    /// The body whose travel is prescribed, and its speed.
+    /// The body with prescribed travel, and its speed.
     root: Option<usize>,
     speed: f64,
-    /// Places of the wheels at time 0.
+    /// Positions of the wheels along the rail at time 0.
     places: Vec<f64>,
 }
 
-/// What stays the same over a crossing, by the degrees of freedom.
+/// Matrices and vectors of the degrees of freedom that are constant over a crossing.
 struct Matrices<const P: usize> {
-    /// R by columns of degrees of freedom, and the offset of the approaches.
+    /// R by columns of degrees of freedom, and the constant terms of the approaches.
     rows: Matrix<P>,
     constant: [f64; P],
     /// M^-1 R^T by columns of contacts; M^-1 f.
     spread: Matrix<P>,
     free_fall: [f64; P],
-    /// M, the weights f, and the momentum of the degrees of freedom by the travel.
+    /// M, the weights f, and the coupling of the momentum of the degrees of freedom with the travel.
     mass: Matrix<P>,
     weight: [f64; P],
     travel_inertia: [f64; P],
@@ -292,7 +294,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.finish(false, t, recorder, counts).map(Some)
     }
 
-    /// Closes the run after a step that ended at `t`.
+    /// Completes the run after a step that ended at `t`.
     fn finish(
         mut self,
         is_stopped: bool,
@@ -309,7 +311,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         Ok(Crossed { is_stopped, history, audit, counts })
     }
 
-    /// Times at which wheels meet breaks of their rails, then the end.
+    /// Times at which wheels meet breaks of their rails, followed by the end time.
     fn breaks(&self) -> Vec<f64> {
         let system = self.system;
         let end = system.scene.end;
@@ -332,7 +334,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         times
     }
 
-    /// constant + R q, or R v.
+    /// Approaches, constant + R q, or their rates, R v.
     fn approach(&self, freedoms: &[f64; P], with_constant: bool) -> [f64; P] {
         let mut sum = if with_constant { self.matrices.constant } else { [0.0; P] };
         for (column, q) in self.matrices.rows.iter().zip(freedoms) {
@@ -343,7 +345,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         sum
     }
 
-    /// Moves the degrees of freedom to rest: A F - R q = constant, R^T F = f. False where nothing holds them.
+    /// Sets the degrees of freedom to static equilibrium: A F - R q = constant, R^T F = f. Returns false if the
+    /// equations have no solution.
     fn rest(&mut self, compliance: &Matrix<P>) -> bool {
         let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
         let size = n + m;
@@ -368,7 +371,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         true
     }
 
-    /// Opens the audit at the start of the first step; false where a contact does not press there.
+    /// Starts the audit at the start of the first step; returns false if a contact is not pressed there.
     fn begin(&mut self, compliance: &Matrix<P>) -> bool {
         let look = self.series.first();
         let (p, _) = self.penetration(&look);
@@ -384,7 +387,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         true
     }
 
-    /// p = F/k - r w' and its rate.
+    /// Penetration p = F/k - r w' and its rate.
     fn penetration(&self, at: &Values<P>) -> ([f64; P], [f64; P]) {
         let Contacts { mobile, free, ratio, softness, .. } = &self.contacts;
         let mut lift = *free;
@@ -395,7 +398,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         )
     }
 
-    /// Freedoms and speeds at `s` of the step.
+    /// Displacements and speeds of the degrees of freedom at the scaled time `s` of the step.
     fn moved(&self, s: f64) -> [[f64; P]; 2] {
         let time = s * self.series.scale;
         let [once, twice] = self.series.impulse(s);
@@ -407,7 +410,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         [q, v]
     }
 
-    /// Energy stored, without what never changes; and the elastic part of it.
+    /// Stored energy without its constant part, and the elastic part of it.
     fn energy(&self, q: &[f64; P], v: &[f64; P], at: &Values<P>) -> [f64; 2] {
         let (p, _) = self.penetration(at);
         let (mut elastic, mut rest) = (0.0, 0.0);
@@ -422,7 +425,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         [elastic + rest, elastic]
     }
 
-    /// Takes the step of length `h` and books it; false where a contact pulls.
+    /// Takes the step of length `h` and adds it to the audit; returns false if a contact would have to pull.
     fn step(&mut self, h: f64) -> bool {
         let end = h / self.series.scale;
         self.length = h;
@@ -450,8 +453,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
     }
 
-    /// What the dampers take and the travel puts in: c w' p' and -1/2 F dG/dt F, with u = w - p the deflection and
-    /// F dG/dt F = F u' - u F'.
+    /// Power dissipated in the dampers, c w' p', and power supplied by the travel, -1/2 F dG/dt F, where u = w - p is
+    /// the deflection and F dG/dt F = F u' - u F'.
     fn power(&self, at: &Values<P>) -> [f64; 2] {
         let (p, p_rate) = self.penetration(at);
         let (mut dampers, mut drives) = (0.0, 0.0);
@@ -463,7 +466,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         [dampers, drives]
     }
 
-    /// Brings state and geometry to `t`, at `s` of the step.
+    /// Sets state and geometry to time `t`, at the scaled time `s` of the step.
     fn sample(&mut self, t: f64, s: f64, compliance: &[Matrix<P>; TERMS]) {
         let [look] = self.series.at([s]);
         let [q, v] = self.moved(s);
@@ -471,7 +474,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         if self.travel.root.is_none() {
             return;
         }
-        // Half of dG/dx by the forces: its product with them is the force along the rail of all wheels.
+        // Half of dG/dx times the forces; its product with the forces is the longitudinal force of all wheels.
         let mut slope = [0.0; P];
         let mut power = -0.5 / (self.series.scale * self.travel.speed);
         for (k, matrix) in compliance.iter().enumerate().skip(1) {
@@ -509,8 +512,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 }
 
-/// Number of coefficients of the forces that suits an accuracy: 2 more than a multiple of 4. Other orders of Taylor
-/// need shorter steps along the imaginary axis, where the oscillations are.
+/// Number of coefficients of the forces for an accuracy: a multiple of 4 plus 2. Taylor methods of other orders need
+/// shorter steps along the imaginary axis, where the eigenvalues of oscillations lie.
 fn order(accuracy: f64) -> usize {
     let more = ((-accuracy.log10() - 2.5) / 2.5).clamp(0.0, 3.0) as usize;
     10 + 4 * more

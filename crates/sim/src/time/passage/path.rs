@@ -1,5 +1,5 @@
 //! The compliance of contacts that travel together at uniform speed, as a polynomial of time between two breaks of
-//! their rails.
+//! their rails. The polynomial is the Hermite interpolant of G and its rate at four points.
 
 use super::series::{Matrix, TERMS};
 use crate::Error;
@@ -7,15 +7,16 @@ use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 
-/// Places of a stretch at which G and its rate are taken, on [-1, 1]: zeros of the Chebyshev polynomial of degree 4.
+/// Points of an interval, on [-1, 1], at which G and its rate are evaluated: zeros of the Chebyshev polynomial of
+/// degree 4.
 const PLACES: [f64; 4] =
     [-0.923_879_532_511_286_7, -0.382_683_432_365_089_8, 0.382_683_432_365_089_8, 0.923_879_532_511_286_7];
 
-/// Largest coefficient of degree 7, relative to the compliance of rail and wheel, of what is taken for a polynomial
-/// of degree 6.
+/// Largest coefficient of degree 7, relative to the compliance of rail and wheel, for which G is regarded as a
+/// polynomial of degree 6.
 const ROUNDING: f64 = 1e-11;
 
-/// G over one stretch of time, by divided differences over [`PLACES`], each twice.
+/// G over one interval of time, by divided differences over [`PLACES`], each point used twice.
 pub(super) struct Path<const P: usize> {
     middle: f64,
     half: f64,
@@ -23,11 +24,11 @@ pub(super) struct Path<const P: usize> {
 }
 
 impl<const P: usize> Path<P> {
-    /// From `from` to `to`, at `speed`; `softness` is the compliance of the wheels. `None` where G is no polynomial
-    /// of degree 6.
+    /// Interpolates G from time `from` to `to` at `speed`; `softness` is the compliance of the wheels. Returns `None`
+    /// if G is not a polynomial of degree 6.
     ///
     /// # Errors
-    /// What the structures refuse.
+    /// Any error from evaluating the structures.
     pub fn new(
         system: &System,
         geometry: &mut Geometry,
@@ -69,7 +70,7 @@ impl<const P: usize> Path<P> {
         Ok(is_polynomial.then_some(Path { middle, half, differences }))
     }
 
-    /// Coefficients of G over time since `t`, by `scale`.
+    /// Coefficients of G over the time since `t` divided by `scale`.
     pub fn about(&self, t: f64, scale: f64) -> [Matrix<P>; TERMS] {
         let at = (t - self.middle) / self.half;
         let mut sum = [[[0.0; P]; P]; TERMS];

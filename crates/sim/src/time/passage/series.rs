@@ -1,36 +1,37 @@
 //! Power series of the contact forces over one step.
 //!
-//! A(t) F = w + r w', w'' = w_g - B F: each coefficient of F needs those of w up to the next, each of w that of F two
-//! before.
+//! The forces F and the approaches w satisfy A(t) F = w + r w' and w'' = w_g - B F, where A = G + 1/k. The
+//! coefficients are found by recurrence: coefficient k of F follows from the previous ones and from the coefficients
+//! of w up to k + 1, and coefficient k + 2 of w follows from coefficient k of F.
 
-/// P x P, by columns.
+/// Matrix of P x P entries, stored by columns.
 pub(super) type Matrix<const P: usize> = [[f64; P]; P];
 
-/// Coefficients that the compliance may have: that of a uniform beam is of degree 6 along the rail.
+/// Number of coefficients of the compliance; that of a uniform beam is of degree 6 along the rail.
 pub(super) const TERMS: usize = 7;
 
-/// Coefficients of the forces that move the degrees of freedom, at most.
+/// Largest number of force coefficients that move the degrees of freedom.
 pub(super) const MOST: usize = 24;
 
-/// Coefficients of the forces beyond those: what the law answers to the motion found, so that forces and energy do not
-/// jump where a step ends.
+/// Number of additional force coefficients. They are evaluated from the contact law for the motion already found, so
+/// that forces and energy do not jump at the end of a step.
 const MORE: usize = 2;
 
-/// m contacts, padded to P: what is the same everywhere.
+/// Constant data of m contacts, padded to P.
 pub(super) struct Contacts<const P: usize> {
-    /// B = R M^-1 R^T.
+    /// B = R M^-1 R^T, the accelerations of the approaches by unit contact forces.
     pub mobile: Matrix<P>,
-    /// w_g = R M^-1 f, the approach's acceleration without contact.
+    /// w_g = R M^-1 f, the acceleration of the approach without contact forces.
     pub free: [f64; P],
-    /// r = c/k.
+    /// r = c/k, the ratio of damping to stiffness.
     pub ratio: [f64; P],
-    /// c of all wheels of a contact.
+    /// Damping c summed over the wheels of a contact.
     pub damping: [f64; P],
-    /// 1/k of all wheels of a contact; 1 beyond the contacts.
+    /// 1/k for the total stiffness of the wheels of a contact; 1 in the padding.
     pub softness: [f64; P],
 }
 
-/// Series over (t - start)/`scale`.
+/// Power series of the scaled time (t - start)/`scale`.
 pub(super) struct Series<const P: usize> {
     pub scale: f64,
     pub order: usize,
@@ -38,7 +39,7 @@ pub(super) struct Series<const P: usize> {
     approach: [[f64; P]; MOST + MORE + 1],
 }
 
-/// Values at one time, and rates by time.
+/// Values at one time, and their time derivatives.
 pub(super) struct Values<const P: usize> {
     pub force: [f64; P],
     pub force_rate: [f64; P],
@@ -51,8 +52,8 @@ impl<const P: usize> Series<P> {
         Series { scale: 1.0, order, force: [[0.0; P]; MOST + MORE], approach: [[0.0; P]; MOST + MORE + 1] }
     }
 
-    /// The series of the step that starts with the approach `start` at the rate `rate`; `compliance` are the
-    /// coefficients of G over time by `scale`. `None` where A is not positive definite.
+    /// Computes the series of the step that starts with the approach `start` and its rate `rate`; `compliance` holds
+    /// the coefficients of G over the scaled time. Returns `None` if A is not positive definite.
     pub fn expand(
         &mut self,
         contacts: &Contacts<P>,
@@ -83,7 +84,7 @@ impl<const P: usize> Series<P> {
         Some(())
     }
 
-    /// Coefficient `k` of the forces, of those before and of the approaches up to the next.
+    /// Coefficient `k` of the forces, from the previous ones and from the approaches up to coefficient k + 1.
     fn answer(
         &self,
         contacts: &Contacts<P>,
@@ -102,7 +103,7 @@ impl<const P: usize> Series<P> {
         force.map(|force| -force)
     }
 
-    /// The longest step whose last two terms are at most `approach` and `force`, by `scale`.
+    /// Length, relative to `scale`, of the longest step whose last two terms are at most `approach` and `force`.
     pub fn reach(&self, approach: f64, force: f64) -> f64 {
         let longest = |terms: &[[f64; P]], allowed: f64, k: usize| {
             let size = terms[k].iter().fold(f64::MIN_POSITIVE, |max, term| max.max(term.abs()));
@@ -113,7 +114,7 @@ impl<const P: usize> Series<P> {
         by_force.into_iter().chain(by_approach).fold(f64::INFINITY, f64::min).exp()
     }
 
-    /// Values at each of `places`, time since the start by `scale`.
+    /// Values at each of the scaled times `places`.
     pub fn at<const N: usize>(&self, places: [f64; N]) -> [Values<P>; N] {
         let (force, force_rate) = look(&self.force[..self.order + MORE], &places);
         let (approach, rate) = look(&self.approach[..self.order + 2], &places);
@@ -137,7 +138,7 @@ impl<const P: usize> Series<P> {
         }
     }
 
-    /// The integral of the forces from the start to `s`, and the integral of that.
+    /// Integral of the forces from the start to the scaled time `s`, and the integral of that integral.
     pub fn impulse(&self, s: f64) -> [[f64; P]; 2] {
         let (mut once, mut twice) = ([0.0; P], [0.0; P]);
         for k in (0..self.order).rev() {
@@ -170,7 +171,7 @@ const fn inverses(more: usize) -> [f64; MOST] {
     out
 }
 
-/// Value and derivative of a series at each of `places`.
+/// Values and derivatives of a series at each of `places`.
 fn look<const P: usize, const N: usize>(
     series: &[[f64; P]],
     places: &[f64; N],
@@ -196,7 +197,7 @@ pub(super) fn subtract<const P: usize>(matrix: &Matrix<P>, x: &[f64; P], out: &m
     }
 }
 
-/// Inverse of a positive definite matrix by elimination; `None` where a pivot is not positive.
+/// Inverse of a positive definite matrix by elimination; `None` if a pivot is not positive.
 fn inverse<const P: usize>(mut a: Matrix<P>) -> Option<Matrix<P>> {
     for k in 0..P {
         let pivot = a[k][k];

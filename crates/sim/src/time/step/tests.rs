@@ -1,4 +1,4 @@
-//! The orders of the methods with fixed steps, and the energy they keep.
+//! Orders of convergence of the methods with fixed steps, and their conservation of energy.
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
@@ -19,7 +19,8 @@ use crate::{
 };
 use crate::{Scene, Shapes, Structure, Wheel};
 
-/// One undamped wheel of mass 1 and stiffness 100 on a rigid rail, in weight 10; it starts 0.05 above its rest.
+/// One undamped wheel of mass 1 and stiffness 100 on a rigid rail, with weight 10; it starts 0.05 above its
+/// equilibrium.
 fn scene() -> Scene {
     Scene {
         gravity: 10.0,
@@ -57,7 +58,7 @@ fn scene() -> Scene {
     }
 }
 
-/// Runs `body` with a step that starts at height `y` with speed `v`.
+/// Calls `body` with a step that starts at height `y` with speed `v`.
 fn with<T>(y: f64, v: f64, body: impl FnOnce(&mut Step<'_, '_>) -> Result<T, Error>) -> Result<T, Error> {
     let (scene, foundations) = (scene(), [Foundation::rigid()]);
     let system = System::new(&scene, &foundations)?;
@@ -112,7 +113,7 @@ fn instant_at_which_a_wheel_leaves_converges_with_the_step() -> Result<(), Error
     Ok(())
 }
 
-/// Three modes of a span of 10, and a wheel that starts at 2 with speed 3.
+/// Shapes of three modes of a span of 10; the wheel starts at 2 with speed 3.
 struct Sines;
 
 impl Shapes for Sines {
@@ -125,7 +126,7 @@ impl Shapes for Sines {
     }
 }
 
-/// A rail that gives with the square of a sine.
+/// A rail whose compliance varies with the square of a sine.
 struct Give;
 
 impl Compliance for Give {
@@ -157,8 +158,7 @@ fn modal() -> Foundation {
     Foundation { structure: Some(Structure { dynamics, shapes: Box::new(Sines) }), ..Foundation::default() }
 }
 
-/// Two rigid parts on springs that are joined by a beam, their datum handed over from 1.5 to 6.5: the wheel stays
-/// between.
+/// Two rigid parts on springs, joined by a beam. Their datum is blended from 1.5 to 6.5, where the wheel stays.
 fn parts() -> Foundation {
     let cells = [2.0, 6.0].iter().enumerate().map(|(j, centre)| RailElement {
         rail: j,
@@ -192,9 +192,10 @@ fn parts() -> Foundation {
     Foundation::massless(Box::new(BlendedParts { surface, chains: vec![chain] }), 1)
 }
 
-/// A pinned beam of three elements with all its natural modes; the wheel stays on the middle one, from 1.5 to 6.5.
+/// A pinned beam of three elements with all its natural modes; the wheel stays on the middle element, from 1.5 to
+/// 6.5.
 struct Beam {
-    /// Freedoms by modes: deflection and slope of each end of the middle element, 4 x 6.
+    /// Degrees of freedom by modes: deflection and slope of each end of the middle element, 4 x 6.
     middle: DMatrix<f64>,
 }
 
@@ -249,7 +250,7 @@ fn full() -> Foundation {
     Foundation { structure: Some(Structure { dynamics, shapes: Box::new(shapes) }), ..Foundation::default() }
 }
 
-/// Height and speed of the wheel after `steps` equal steps to time 1.
+/// Height and speed of the wheel at time 1, after `steps` equal steps.
 fn end(
     method: Method,
     damping: f64,
@@ -276,7 +277,8 @@ fn end(
     Ok([step.to.q[0], step.to.v[0]])
 }
 
-/// Between the two finest of three steps; the reference is Gauss of order 6, or Radau where a damper forbids it.
+/// The order is measured between the two finest of three steps. The reference is Gauss of order 6, or Radau if the
+/// damper rules out Gauss.
 #[test]
 fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
     let influence = || Foundation::massless(Box::new(Give), 1);
@@ -298,18 +300,20 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
             for (method, order) in
                 [(Method::Sdirk4, 4.0), (Method::Radau, 5.0), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
             {
-                // A place that moves along the shapes makes a damper's rate a constraint differentiated by the
-                // method (index 2): the diagonally implicit method, of stage order 1, keeps order 2.
+                // If the rail moves along the mode shapes, the method differentiates the rate of a damper between
+                // wheel and rail as a constraint of index 2. The diagonally implicit method, of stage order 1, then
+                // has order 2.
                 let order = if structure && (law, method) == ("rail", Method::Sdirk4) { 2.0 } else { order };
                 if law == "rail" && matches!(method, Method::Gauss2 | Method::Gauss3) {
                     continue;
                 }
-                // A rail's deflection relaxes against the damper within 0.02: only shorter steps resolve it.
+                // The deflection of the rail relaxes against the damper within a time of 0.02, which only shorter
+                // steps resolve.
                 let counts = match (method, law) {
                     (Method::Sdirk4, "rail") => [640, 1280, 2560],
                     (Method::Sdirk4, _) => [80, 160, 320],
                     (_, "rail") => [80, 160, 320],
-                    // Its quickest mode has a period of 0.06.
+                    // Its fastest mode has a period of 0.06.
                     _ if name == "full" => [40, 80, 160],
                     _ => [20, 40, 80],
                 };
@@ -330,7 +334,7 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
     Ok(())
 }
 
-/// Analytic: E = v^2/2 + 50 p^2 + 10 y; ten thousand periods of 2 pi/10 in 12 steps each.
+/// Analytic: E = v^2/2 + 50 p^2 + 10 y is constant; ten thousand periods of 2 pi/10 with 12 steps each.
 #[test]
 fn gauss_conserves_the_energy_of_ten_thousand_cycles() -> Result<(), Error> {
     for (method, bound) in
