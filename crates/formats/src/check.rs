@@ -6,12 +6,12 @@ use crate::units::{Dimension, Scale};
 
 /// Checks numbers as they are written in a file and converts them.
 ///
-/// A number that fails is converted all the same, so that the rest can be checked; the caller stops where there are faults.
+/// A number that fails is converted nevertheless so that checking can continue; the caller stops if there are faults.
 #[derive(Debug)]
 pub struct Check<'f> {
     /// All faults so far.
     pub faults: &'f mut Faults,
-    /// From the units of the file to those that are wanted.
+    /// Conversion from the units of the file to the target units.
     pub scale: Scale,
 }
 
@@ -21,7 +21,7 @@ impl Check<'_> {
         self.scaled(value, place, self.scale.factor(dimension))
     }
 
-    /// A number times a factor; the product must be finite, and not vanish.
+    /// Multiplies a number by a factor. The product must be finite, and must not underflow to zero.
     pub fn scaled(&mut self, value: f64, place: &Place<'_>, factor: f64) -> f64 {
         let converted = value * factor;
         if !converted.is_finite() || (value != 0.0 && converted == 0.0) {
@@ -58,7 +58,7 @@ impl Check<'_> {
         value.map(|value| self.positive(value, place, dimension, hint))
     }
 
-    /// A number above zero at `key` of the object at `place`, which must be there.
+    /// A required number above zero at `key` of the object at `place`.
     pub fn required_positive(
         &mut self,
         value: Option<f64>,

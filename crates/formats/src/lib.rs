@@ -1,7 +1,7 @@
-//! File formats and units: from the bytes of files to checked values, and back.
+//! File formats and units: conversion of the bytes of files to checked values, and back.
 //!
-//! Beam specs ([`spec`]), scenes ([`scene`]), grids ([`grid`]) and tables ([`tables`]) are read here; every number
-//! that leaves is finite, checked and in the units asked for. Everything that is wrong with a file is a
+//! This crate reads beam specs ([`spec`]), scenes ([`scene`]), grids ([`grid`]) and tables ([`tables`]). Every number
+//! of the result is finite, checked and in the requested units. Every fault of a file is reported as a
 //! [`text::diagnostic::Diagnostic`] with its place.
 //!
 //! ```
@@ -23,8 +23,8 @@
 //! assert!(first.starts_with("girder.json:3:27: girder.spans[1]: must be positive, got -60"), "{first}");
 //! ```
 //!
-//! Wings, lowest first: [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`], [`scene`],
-//! [`schema`].
+//! The modules from low to high are [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
+//! [`scene`], [`schema`].
 
 pub mod check;
 pub mod grid;

@@ -1,6 +1,7 @@
-//! JSON Schemas of the formats, from the types that read them.
+//! JSON Schemas of the formats, generated from the types that the readers deserialize.
 //!
-//! They give the keys and their types; ranges of numbers and keys that need each other are checked by the readers alone.
+//! The schemas describe keys and types. Ranges of numbers and dependencies between keys are checked by the readers
+//! only.
 
 use std::borrow::Cow;
 
@@ -33,7 +34,7 @@ pub fn scene() -> Value {
 
 fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
     let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
-    // the types of what is written are called Raw, which is of no interest in a schema
+    // the prefix `Raw` of the types is an implementation detail and does not belong in a schema
     let text = schema.to_value().to_string().replace("\"Raw", "\"").replace("$defs/Raw", "$defs/");
     let mut schema: Value = serde_json::from_str(&text).unwrap_or_default();
     schema["title"] = json!(title);
@@ -42,7 +43,7 @@ fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
     schema
 }
 
-/// Implements [`JsonSchema`] for a type that reads itself: its name, and its schema.
+/// Implements [`JsonSchema`] for a type with its own deserializer: its name, and its schema.
 macro_rules! schemas {
     ($($type:ty, $name:literal, |$generator:ident| $schema:expr;)+) => {
         $(impl JsonSchema for $type {

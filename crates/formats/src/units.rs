@@ -1,6 +1,6 @@
 //! Units of length and force, exact factors between them, and dimensions.
 //!
-//! The unit of time is the second everywhere; mass is in force time^2 / length, such as lbf s^2/ft (the slug).
+//! The unit of time is always the second. The unit of mass is force time^2 / length, such as lbf s^2/ft (the slug).
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -40,7 +40,7 @@ impl Length {
     const WORDS: [(&'static str, Length); 4] =
         [("ft", Length::Foot), ("in", Length::Inch), ("m", Length::Metre), ("mm", Length::Millimetre)];
 
-    /// The unit in 0.1 mm, a whole number.
+    /// The unit as a whole multiple of 0.1 mm.
     const fn count(self) -> u128 {
         match self {
             Length::Foot => 3048,
@@ -60,13 +60,13 @@ impl Length {
         over as f64 / under as f64
     }
 
-    /// The unit of a word of files.
+    /// The unit with this keyword in files.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Length> {
         Length::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
     }
 
-    /// The word of the unit in files.
+    /// The keyword of the unit in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -82,7 +82,7 @@ impl Force {
     const WORDS: [(&'static str, Force); 4] =
         [("lbf", Force::Pound), ("kip", Force::Kip), ("N", Force::Newton), ("kN", Force::Kilonewton)];
 
-    /// The unit in 1e-13 N, a whole number.
+    /// The unit as a whole multiple of 1e-13 N.
     const fn count(self) -> u128 {
         match self {
             Force::Pound => 44_482_216_152_605,
@@ -92,13 +92,13 @@ impl Force {
         }
     }
 
-    /// The unit of a word of files.
+    /// The unit with this keyword in files.
     #[must_use]
     pub fn of_word(word: &str) -> Option<Force> {
         Force::WORDS.iter().find(|(known, _)| *known == word).map(|(_, unit)| *unit)
     }
 
-    /// The word of the unit in files.
+    /// The keyword of the unit in files.
     #[must_use]
     pub const fn word(self) -> &'static str {
         match self {
@@ -143,7 +143,7 @@ impl Units {
     /// Metre and newton.
     pub const SI: Units = Units { length: Length::Metre, force: Force::Newton };
 
-    /// Reads the member `units` of the object at `place`; a fault where it is missing or a word is unknown.
+    /// Reads the member `units` of the object at `place`; a fault if it is missing or a keyword is unknown.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
             let hint = "none is guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, or in, m, mm; kip, N, kN";
@@ -302,9 +302,9 @@ impl Dimension {
 /// Conversion from the units of one file to those of another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Scale {
-    /// Units of the numbers given.
+    /// Units of the given numbers.
     pub from: Units,
-    /// Units wanted.
+    /// Units of the result.
     pub to: Units,
 }
 

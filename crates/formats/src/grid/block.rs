@@ -1,4 +1,4 @@
-//! The blocks of an influence grid: which displacement each relates to which load.
+//! The blocks of an influence grid. Each block relates displacements in one direction to loads in one direction.
 
 use std::fmt;
 
@@ -48,8 +48,8 @@ impl GridBlock {
         }
     }
 
-    /// The direct blocks of the direction of displacement and of the direction of load; a direct block gives itself
-    /// twice.
+    /// The direct blocks of the direction of displacement and of the direction of load. For a direct block both are
+    /// the block itself.
     #[must_use]
     pub fn direct(self) -> [GridBlock; 2] {
         match self {

@@ -1,4 +1,4 @@
-//! How strongly the directions of a structure are coupled, and the error of leaving the coupling out.
+//! Strength of the coupling between the directions of a structure, and the error caused by neglecting it.
 
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
@@ -11,29 +11,31 @@ use crate::text::number::number;
 
 crate::text::object::objects!(RawCoupling, RawDropped, RawChange);
 
-/// Lateral load of the comparison, as a fraction of the wheel load.
+/// Lateral load used for the coupling error, as a fraction of the wheel load.
 pub const LATERAL_LOAD_FRACTION: f64 = 0.1;
 
-/// A station whose compliance is below this fraction of the largest is fixed: its compliance is rounding error.
+/// Compliance, relative to the largest, below which a station is considered fixed. Smaller values are rounding
+/// errors.
 const FIXED: f64 = 1e-9;
 
-/// Relative coupling below which no line is printed.
+/// Relative coupling below which the summary is omitted.
 const NEGLIGIBLE: f64 = 1e-3;
 
 /// Strength of the couplings of a grid.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupling {
-    /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) over all pairs of stations, in 0..=1 but for
-    /// rounding, of each coupling that the grid has.
+    /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) over all pairs of stations, for each coupling of the grid.
+    /// It lies in 0..=1 except for rounding.
     pub largest: Vec<(GridBlock, f64)>,
-    /// Error of the deflections when the coupling of vertical and lateral is dropped.
+    /// Error of the deflections if the coupling of vertical and lateral directions is neglected.
     pub error: Option<CouplingError>,
 }
 
-/// Relative change of the deflections of a station when the coupling of vertical and lateral is dropped.
+/// Relative change of the deflections of a station if the coupling of vertical and lateral directions is neglected.
 ///
-/// A wheel load F and a lateral load of [`LATERAL_LOAD_FRACTION`] F at a station deflect it vertically by G_vv F + G_vl 0.1 F and
-/// laterally by G_ll 0.1 F + G_lv F. The second terms are dropped; the change is their ratio to the first.
+/// A wheel load F and a lateral load of [`LATERAL_LOAD_FRACTION`] F at a station deflect it vertically by G_vv F +
+/// G_vl 0.1 F and laterally by G_ll 0.1 F + G_lv F. The second terms are neglected; the change is the ratio of the
+/// second term to the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CouplingError {
     /// Vertical deflection.
@@ -52,7 +54,7 @@ pub struct Change {
 }
 
 impl Coupling {
-    /// The couplings of a grid; `None` where it has no coupling block.
+    /// The couplings of a grid; `None` if the grid has no coupling block.
     #[must_use]
     pub fn of(grid: &StationGrid) -> Option<Coupling> {
         let mut largest = Vec::new();
@@ -95,7 +97,7 @@ impl Coupling {
         Value::Object(object)
     }
 
-    /// One line for the terminal, where the relative coupling of vertical and lateral is at least 1e-3.
+    /// One line for the terminal; `None` if the relative coupling of vertical and lateral directions is below 1e-3.
     #[must_use]
     pub fn summary(&self) -> Option<String> {
         let (_, relative) =
@@ -114,7 +116,7 @@ impl Coupling {
     }
 }
 
-/// Whether a station is not fixed, by its entry of a direct block.
+/// Returns a function that determines from the diagonal of a direct block whether a station is not fixed.
 fn moving(block: &DMatrix<f64>) -> impl Fn(usize) -> bool + '_ {
     let least = FIXED * block.diagonal().amax();
     move |i| block[(i, i)] > least

@@ -1,4 +1,4 @@
-//! Influence lines of reactions and internal forces: their values under unit loads at the stations.
+//! Influence lines of reactions and internal forces, sampled at the stations.
 
 use fea::{Effect, FactoredFrame, Model};
 use splines::{Axis, Probe};
@@ -9,30 +9,30 @@ use crate::spec::{Cut, CutPlace, Form, Spec};
 /// Influence lines of reactions and of internal forces, sampled at the stations.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effects {
-    /// Forces and moments that the ground exerts.
+    /// Reactions of the ground.
     pub reactions: Vec<Reaction>,
-    /// Internal forces at named sections.
+    /// Internal forces at the named sections.
     pub sections: Vec<SectionForces>,
 }
 
-/// Influence lines by the direction of the unit load: one value for each station. Forces are per unit force, moments
-/// are lengths.
+/// Influence lines for each direction of the unit load, with one value per station. Values are dimensionless for
+/// forces and lengths for moments.
 pub type EffectLines = Vec<(Axis, Vec<f64>)>;
 
-/// A reaction, positive along its global degree of freedom.
+/// A reaction, positive in the positive direction of its global degree of freedom.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reaction {
-    /// Where it acts.
+    /// Location of the reaction.
     pub at: ReactionPoint,
-    /// Word of its degree of freedom, such as `uy`.
+    /// Keyword of its degree of freedom, such as `uy`.
     pub dof: String,
-    /// Index of the spring that exerts it; `None` where a support does.
+    /// Index of the spring that exerts it; `None` if it is the reaction of a support.
     pub spring: Option<usize>,
     /// Its influence lines.
     pub lines: EffectLines,
 }
 
-/// A supported place in the terms of the spec.
+/// A supported location in the terms of the spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ReactionPoint {
     /// Coordinate along a girder.
@@ -46,7 +46,7 @@ pub enum ReactionPoint {
 pub struct SectionForces {
     /// Its name.
     pub name: String,
-    /// Where it is.
+    /// Location of the section.
     pub at: CutPlace,
     /// Influence lines of the components N, Vy, Vz, Mx, My, Mz in the member's local axes.
     pub lines: [EffectLines; 6],
@@ -59,7 +59,7 @@ impl Effects {
     /// the six components of each section; columns are the stations for each of `axes` in turn.
     ///
     /// # Errors
-    /// A station where the frame has no solution.
+    /// A station for which the frame has no solution.
     pub fn of(
         spec: &Spec,
         model: &Model,

@@ -1,4 +1,4 @@
-//! Member `effects` of a grid file: influence lines at the stations, written and read.
+//! Reading and writing the member `effects` of a grid file: influence lines at the stations.
 
 use std::fmt::Write;
 
@@ -79,7 +79,7 @@ struct RawLines {
     longitudinal: Option<Vec<f64>>,
 }
 
-/// The member as text, one reaction or section per line. `units`: those of the file.
+/// The member as text, with one reaction or section per line, in the units `units` of the file.
 pub fn write(effects: &Effects, units: Units) -> String {
     let (force, length) = (units.force.word(), units.length.word());
     let own = json!({ "force": format!("{force}/{force}"), "moment": format!("{force} {length}/{force}") });
@@ -139,7 +139,7 @@ fn lines(lines: &EffectLines) -> Map<String, Value> {
 }
 
 impl RawEffects {
-    /// The influence lines of a file with `size` stations; lines of another length are faults.
+    /// Reads the influence lines of a file with `size` stations. Lines of a different length are faults.
     pub fn effects(&self, size: usize, place: &Place<'_>, faults: &mut Faults) -> Effects {
         let mut effects = Effects::default();
         let list = place.key("reactions");
@@ -187,7 +187,7 @@ impl RawEffects {
     }
 }
 
-/// The lines by direction of the unit load, each of `size` numbers.
+/// Reads the influence lines of the three load directions, each with `size` numbers.
 fn read(all: [&Option<Vec<f64>>; 3], size: usize, place: &Place<'_>, faults: &mut Faults) -> EffectLines {
     let mut lines = EffectLines::new();
     for ((word, axis), line) in AXES.iter().zip(all) {

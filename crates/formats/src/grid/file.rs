@@ -1,4 +1,4 @@
-//! Grid files, `girderway-grid/1`: written in the fewest digits that identify every number, read back bit for bit.
+//! Grid files, `girderway-grid/1`. Numbers are written in the shortest decimal form that is read back bit for bit.
 
 use std::fmt::Write;
 
@@ -26,12 +26,13 @@ crate::text::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-grid/1";
-/// Most degrees of freedom of the node states of an exact compliance that the command `fea` writes: some 170 MB of
-/// text.
+/// Largest number of degrees of freedom of an exact compliance that the command `fea` writes. It corresponds to a
+/// file of about 170 MB.
 pub const MAX_DOFS: usize = 3000;
 
-/// The text of a grid file: one row of a matrix per line, every number in the fewest digits that give it back.
-/// `surface`, where given, is written too: the compliance between any two places, exact also between the stations.
+/// The text of a grid file, with one matrix row per line and every number in its shortest exact decimal form. If
+/// `surface` is given, the compliance between arbitrary positions is included, which is exact between the stations
+/// too.
 #[must_use]
 pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
     let mut head = serde_json::Map::new();
@@ -155,11 +156,11 @@ impl RawInfluence {
     }
 }
 
-/// Reads a grid file: the grid, and the exact compliance where the file has one.
+/// Reads a grid file: the grid, and the exact compliance if the file contains it.
 ///
 /// # Errors
-/// The first syntax or type error, or else all other faults, such as a block whose size differs from the number of
-/// stations or a direct block that is not symmetric to the last bit.
+/// The first syntax or type error, or otherwise all other faults, such as a block whose size differs from the number
+/// of stations or a direct block that is not exactly symmetric.
 pub fn read(source: &Source) -> Result<(StationGrid, Option<ExactSurface>), Vec<Diagnostic>> {
     let raw: RawGrid = source.parse(FORMAT).map_err(|error| vec![*error])?;
     let mut faults = Faults::default();
@@ -241,7 +242,7 @@ fn read_rails(raw: &RawGrid, root: &Place<'_>, faults: &mut Faults) -> Vec<GridR
     rails
 }
 
-/// The matrix of `rows`; a fault where it is not `size` x `size`.
+/// The matrix of `rows`; a fault if it is not `size` x `size`.
 fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults) -> Option<DMatrix<f64>> {
     if rows.len() != size {
         let fault = Fault::new(place, format!("must have {size} rows, one for each station")).got(rows.len());
@@ -257,7 +258,7 @@ fn square(rows: &[Vec<f64>], size: usize, place: &Place<'_>, faults: &mut Faults
     Some(DMatrix::from_fn(size, size, |row, column| rows[row][column]))
 }
 
-/// Adds a fault at the first pair of entries that differ: Maxwell's reciprocity makes a direct block symmetric.
+/// Adds a fault at the first pair of unequal entries. A direct block is symmetric by Maxwell's reciprocity.
 fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
     for row in 0..block.nrows() {
         for column in 0..row {

@@ -12,9 +12,9 @@ use crate::units::Units;
 /// Influence coefficients between all stations of all rails of a structure: G(i, j) is the displacement of station i
 /// under a unit load at station j.
 ///
-/// With n stations in all, rails one after the other, each block is an n x n matrix: row = station of the
-/// displacement, column = station of the unit load, in length per force. Displacements and loads are positive along
-/// +x, up and to the right.
+/// With n stations in total, numbered rail after rail, each block is an n x n matrix in length per force. Its rows
+/// are the stations of the displacement, its columns the stations of the unit load. Displacements and loads are
+/// positive along +x, upwards and to the right.
 ///
 /// ```
 /// use formats::grid::{StationGrid, GridBlock};
@@ -44,17 +44,17 @@ pub struct StationGrid {
     pub name: String,
     /// Units of all numbers.
     pub units: Units,
-    /// Word of the beam theory, where it is known.
+    /// Keyword of the beam theory, if known.
     pub theory: Option<String>,
     /// The rails, in the order of rows and columns.
     pub rails: Vec<GridRail>,
-    /// The blocks of those directions in which every rail is supported.
+    /// The blocks of the directions in which every rail is supported.
     pub blocks: Vec<(GridBlock, DMatrix<f64>)>,
-    /// Condition of the stiffness matrix and bound of the relative error, where they are known.
+    /// Condition number of the stiffness matrix and bound of the relative error, if known.
     pub certificate: Option<Certificate>,
-    /// Reactions and internal forces per unit load, where they are known.
+    /// Reactions and internal forces per unit load, if known.
     pub effects: Option<Effects>,
-    /// Remarks for the reader, such as why a block is absent.
+    /// Remarks for the user, such as the reason why a block is missing.
     pub notes: Vec<String>,
 }
 
@@ -68,12 +68,12 @@ pub struct GridRail {
 }
 
 impl StationGrid {
-    /// Influence coefficients between the stations of `spec`, from its factored `frame`.
+    /// Computes the influence coefficients between the stations of `spec` from the factored `frame`.
     ///
-    /// Blocks of a direction in which some rail is free to move are left out, with a note.
+    /// Blocks of a direction in which some rail is not restrained are omitted, and a note is added.
     ///
     /// # Errors
-    /// A station where the frame has no solution, such as one beyond the end of its rail.
+    /// A station for which the frame has no solution, such as one beyond the end of its rail.
     pub fn of(spec: &Spec, frame: &FactoredFrame) -> Result<StationGrid, fea::Error> {
         let rails = spec.rails();
         let lists = rails.iter().map(|rail| rail.stations.as_slice());
@@ -120,10 +120,10 @@ impl StationGrid {
         })
     }
 
-    /// The same grid with the influence lines of reactions and internal forces, from the frame and its model.
+    /// Adds the influence lines of reactions and internal forces, computed from the frame and its model.
     ///
     /// # Errors
-    /// A station where the frame has no solution.
+    /// A station for which the frame has no solution.
     pub fn with_effects(
         self,
         spec: &Spec,
@@ -143,13 +143,13 @@ impl StationGrid {
         listed(self.rails.iter().map(|rail| rail.stations.as_slice()))
     }
 
-    /// One block; `None` where the grid does not have it.
+    /// One block; `None` if it is missing in the grid.
     #[must_use]
     pub fn block(&self, quantity: GridBlock) -> Option<&DMatrix<f64>> {
         self.blocks.iter().find(|(known, _)| *known == quantity).map(|(_, block)| block)
     }
 
-    /// Number n of stations of all rails.
+    /// Total number n of stations of all rails.
     #[must_use]
     pub fn size(&self) -> usize {
         self.rails.iter().map(|rail| rail.stations.len()).sum()
@@ -161,7 +161,7 @@ fn listed<'r>(rails: impl Iterator<Item = &'r [f64]>) -> Vec<(usize, f64)> {
     rails.enumerate().flat_map(|(index, stations)| stations.iter().map(move |x| (index, *x))).collect()
 }
 
-/// The word of a direction in notes.
+/// Name of a direction in notes.
 const fn direction(axis: Axis) -> &'static str {
     match axis {
         Axis::Longitudinal => "longitudinal",

@@ -1,9 +1,9 @@
-//! Influence grids of a structure, and the files that hold them.
+//! Influence grids of a structure and their files.
 //!
-//! An [`StationGrid`] holds the compliances between all stations of a structure. Its file, `girderway-grid/1`,
-//! may also hold influence lines of reactions and internal forces, the exact compliance between the stations, and
-//! natural modes. From low to high: [`block`], [`effects`], [`influence`], [`coupling`], then the members of the file
-//! and the [`file`](mod@file) itself.
+//! A [`StationGrid`] contains the compliances between all stations of a structure. Its file, `girderway-grid/1`, can
+//! also contain influence lines of reactions and internal forces, the exact compliance between the stations, and
+//! natural modes. The modules from low to high are [`block`], [`effects`], [`influence`], [`coupling`], the members
+//! of the file, and the [`file`](mod@file) itself.
 
 pub mod block;
 pub mod coupling;

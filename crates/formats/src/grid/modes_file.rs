@@ -14,7 +14,7 @@ use crate::text::place::Place;
 
 crate::text::object::objects!(RawModes, RawMode, RawShape);
 
-/// Largest relative error of natural frequencies due to the length of the finite elements that is accepted.
+/// Largest accepted relative discretisation error of the natural frequencies.
 pub const MESH_TOLERANCE: f64 = 1e-3;
 
 const AXES: [(&str, Axis); 3] =
@@ -22,8 +22,9 @@ const AXES: [(&str, Axis); 3] =
 
 /// The member as text, one mode per line.
 ///
-/// `stations` are index of the rail and coordinate, in the order of the blocks. A direction in which the shapes have no
-/// value at some station, as the rail there is free to move, is left out. Frequencies are in Hz and rad/s.
+/// `stations` contains the index of the rail and the coordinate of each station, in the order of the blocks. A
+/// direction is omitted if the mode shapes have no value at some station because the rail is not restrained there.
+/// Frequencies are written in Hz and rad/s.
 #[must_use]
 pub fn write(refined: &RefinedModes, stations: &[(usize, f64)]) -> String {
     let modes = &refined.modes;
@@ -70,15 +71,15 @@ pub fn write(refined: &RefinedModes, stations: &[(usize, f64)]) -> String {
     text
 }
 
-/// The text of a grid file, as [`write`](super::file::write) of the file gives it, with `member` added at its end.
+/// Adds `member` at the end of the text of a grid file written by [`write`](super::file::write).
 #[must_use]
 pub fn append(grid: &str, member: &str) -> String {
     let body = grid.strip_suffix("\n}\n").unwrap_or(grid);
     format!("{body},\n  \"modes\": {member}\n}}\n")
 }
 
-/// One line for the terminal: the first frequencies, and how many there are below the shift by the count of negative
-/// pivots.
+/// One line for the terminal: the first frequencies, and the number of modes below the shift, which equals the number
+/// of negative pivots.
 #[must_use]
 pub fn summary(modes: &Modes) -> String {
     let mut list: Vec<String> = modes.modes.iter().take(6).map(|mode| hertz(mode.omega)).collect();
@@ -137,7 +138,8 @@ struct RawShape {
 }
 
 impl RawModes {
-    /// Checks that frequencies do not fall and that every shape has `size` values, one for each station.
+    /// Checks that the frequencies are in ascending order and that every shape has `size` values, one for each
+    /// station.
     pub fn check(&self, size: usize, place: &Place<'_>, faults: &mut Faults) {
         let list = place.key("modes");
         let mut last = 0.0;

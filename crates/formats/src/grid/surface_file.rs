@@ -1,8 +1,9 @@
-//! Member `surface` of a grid file: the exact compliance, as rail elements and the compliance of their end states.
+//! Member `surface` of a grid file: the exact compliance, stored as rail elements and the compliance of their end
+//! nodes.
 //!
-//! `cells` are the rail elements. `compliance` is a matrix over the node states, six degrees of freedom each (ux uy uz
-//! rx ry rz, in the frame of the state's rail). `null` stands for an infinite flexibility: a motion that nothing
-//! resists.
+//! `cells` are the rail elements. `compliance` is a matrix over the node states, each with six degrees of freedom (ux
+//! uy uz rx ry rz, in the frame of the rail). `null` represents an infinite compliance, which belongs to an
+//! unrestrained motion.
 
 use std::sync::Arc;
 
@@ -75,7 +76,7 @@ pub(crate) fn to_json(surface: &ExactSurface) -> Value {
 }
 
 impl RawSurface {
-    /// The compliance of the member; `None`, and a fault, where elements or matrix are unusable.
+    /// Reads the compliance from the member; `None` and a fault if the elements or the matrix are invalid.
     pub fn surface(&self, place: &Place<'_>, faults: &mut Faults) -> Option<ExactSurface> {
         let finite_or_infinite = |value: Option<f64>| value.unwrap_or(f64::INFINITY);
         let cells: Vec<RailElement> = self

@@ -1,4 +1,4 @@
-//! Columns of reactions, internal forces and stresses, by name.
+//! Columns of reactions, internal forces and stresses, identified by name.
 
 use super::values::scene::Scene;
 use super::values::structure::Origin;
@@ -6,23 +6,23 @@ use crate::grid::effects::COMPONENTS;
 use crate::spec::Spec;
 use crate::units::Dimension;
 
-/// Number of columns of one kind up to which a scene has all of them by default.
+/// Number of columns of one kind up to which all of them are written by default.
 pub const MOST_BY_DEFAULT: usize = 100;
 
-/// A reaction, a component of the internal force at a section, or the stress at a point of one.
+/// A reaction, a component of the internal force at a section, or the stress at a point of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
     /// `<structure>.<support>.<freedom>`, `<structure>.<section>.<component>` or `<structure>.<section>.<point>`.
     pub name: String,
     /// Force or moment.
     pub dimension: Dimension,
-    /// What it is.
+    /// Its kind.
     pub kind: Kind,
-    /// Whether it is a force of the ground along the structure's `up`, or sideways to its first rail.
+    /// Whether it is a force of the ground along the structure's `up`, or in the lateral direction of its first rail.
     pub direction: Option<Direction>,
 }
 
-/// What a column is.
+/// Kind of a column.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// A reaction of the ground.
@@ -42,7 +42,7 @@ pub enum Direction {
     Lateral,
 }
 
-/// Names of all reactions, and of all internal forces, that a structure of this spec can have.
+/// Names of all reactions and of all internal forces that are available for a structure with this spec.
 #[must_use]
 pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
     let reactions = spec.model().map_or_else(
@@ -65,7 +65,7 @@ pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
     [reactions, sections.collect()]
 }
 
-/// Names of all stresses that a structure of this spec can have.
+/// Names of all stresses that are available for a structure with this spec.
 #[must_use]
 pub fn stresses(structure: &str, spec: &Spec) -> Vec<String> {
     let cuts = spec.effects.iter();
@@ -73,7 +73,7 @@ pub fn stresses(structure: &str, spec: &Spec) -> Vec<String> {
     points.map(|(cut, point)| format!("{structure}.{cut}.{point}")).collect()
 }
 
-/// Whether a scene has few reactions, few internal forces, few stresses: at most [`MOST_BY_DEFAULT`].
+/// Whether the reactions, the internal forces and the stresses of a scene number at most [`MOST_BY_DEFAULT`] each.
 #[must_use]
 pub fn has_few(scene: &Scene) -> [bool; 3] {
     let mut counts = [0; 3];

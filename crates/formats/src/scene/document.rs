@@ -1,4 +1,4 @@
-//! A scene file with its comparisons: the scene, and the scene again with the changes of each comparison.
+//! A scene file with its comparisons: the scene, and one variant of it with the changes of each comparison.
 
 use std::path::Path;
 
@@ -14,7 +14,7 @@ use crate::text::place::Place;
 use crate::text::source::Tree;
 use crate::text::tree::{TreeNode, Value};
 
-/// A scene file with its comparisons, read and checked with all files that it names.
+/// A scene file with its comparisons, read and checked together with all files to which it refers.
 ///
 /// ```
 /// use std::path::Path;
@@ -47,10 +47,10 @@ pub struct Case {
 }
 
 impl Document {
-    /// Reads a scene, the files it names, and its comparisons.
+    /// Reads a scene, the files to which it refers, and its comparisons.
     ///
     /// # Errors
-    /// The first syntax or type error, or everything else that is wrong, in all files.
+    /// The first syntax or type error, or otherwise all other faults in all files.
     pub fn open(path: &Path) -> Result<Document, Vec<Diagnostic>> {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let tree = source.tree();
@@ -85,7 +85,7 @@ impl Document {
     }
 }
 
-/// Checks that every comparison has a label of its own that fits file names, and that it does not change `format`,
+/// Checks that every comparison has a unique label that is valid in file names, and that it does not change `format`,
 /// `units`, `name` and `compare`.
 fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
     let root = Place::root();

@@ -1,8 +1,8 @@
-//! Scenes: read, checked, names resolved, in the scene's units.
+//! Scenes: reading, checking and resolution of names, in the units of the scene.
 //!
-//! Wings, lowest first: `raw` (a scene as written), `values` (what a checked scene holds), [`columns`], [`motion`] and
-//! [`quantity`] (what follows from the values), `read` (from what is written to the values), `document` (a file with
-//! its comparisons).
+//! The modules from low to high are `raw` (a scene as written), `values` (the content of a checked scene),
+//! [`columns`], [`motion`] and [`quantity`] (results derived from the values), `read` (conversion of the raw scene to
+//! the values) and `document` (a file with its comparisons).
 
 pub mod columns;
 mod document;

@@ -1,4 +1,4 @@
-//! A scene of the file format as a scene of the simulator.
+//! Converts a scene of the file format to a scene of the simulator.
 
 use sim::{Contact, NormalLaw};
 use splines::Probe;
@@ -31,9 +31,9 @@ pub struct NamedWheel {
     pub body: usize,
     /// Its rail, as an index into the scene's rails.
     pub rail: usize,
-    /// Its kind.
+    /// Index of its wheel type.
     pub kind: usize,
-    /// Whether it spins: its angle is a degree of freedom, or prescribed.
+    /// Whether its angle is a variable: it is a degree of freedom, or prescribed.
     pub spins: bool,
     /// Whether its spin is prescribed.
     pub is_prescribed: bool,
@@ -49,7 +49,8 @@ pub struct UnequalFractions {
     pub truck: String,
 }
 
-/// Makes the input of the simulation: one contact for each node of each truck, and forces in the scene's units.
+/// Makes the input of the simulation: one contact for each top-level node of each truck, and
+/// forces in the units of the scene.
 ///
 /// # Errors
 /// An equaliser whose wheels carry unequal fractions of its load.
@@ -121,7 +122,7 @@ pub fn wheels(scene: &Scene) -> Vec<NamedWheel> {
     scene.trucks.iter().enumerate().flat_map(of_truck).collect()
 }
 
-/// Wheels whose spin is prescribed, by their contacts.
+/// Wheels whose spin is prescribed, identified by their contacts.
 fn turns(scene: &Scene) -> Vec<sim::PrescribedSpin> {
     let mut contact = 0;
     let mut turns = Vec::new();
@@ -141,7 +142,7 @@ fn turns(scene: &Scene) -> Vec<sim::PrescribedSpin> {
     turns
 }
 
-/// Loads, drives and brakes; drives and brakes act on the contacts of driven and braked wheels.
+/// Loads, drives and brakes. Drives and brakes act on the contacts of driven and braked wheels.
 fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     let own = |b: usize, is_meant: &dyn Fn(&WheelKind) -> bool| {
         let all = contacts.iter().enumerate();
@@ -200,7 +201,7 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     out
 }
 
-/// Gauges of all structures, in their order.
+/// Gauges of all structures, in the order of the structures.
 fn gauges(scene: &Scene) -> Vec<sim::Gauge> {
     let structures = scene.structures.iter().enumerate();
     structures

@@ -1,4 +1,4 @@
-//! Quantities of a run by their names in histories, events and charts.
+//! Quantities of a run, identified by their names in histories, events and charts.
 
 use sim::{BodyDof, Channel};
 use splines::Axis;
@@ -14,14 +14,14 @@ use crate::units::Dimension;
 pub struct Quantity {
     /// Its name: `time`, `<body>.x`, `<truck>.wheel1.vertical`, ...
     pub name: String,
-    /// Its dimension; that of a number for angles.
+    /// Its dimension; angles have the dimension of a pure number.
     pub dimension: Dimension,
-    /// Channels with their factors.
+    /// Channels and their factors.
     pub terms: Vec<(Channel, f64)>,
 }
 
-/// All quantities that a run of `scene` records: time, those of bodies, wheels, ropes, stops and gauges, then the sums
-/// of the vertical, lateral and longitudinal forces on each rail.
+/// All quantities that a run of `scene` records: time; the quantities of bodies, wheels, ropes, stops and gauges; and
+/// the sums of the vertical, lateral and longitudinal forces on each rail.
 #[must_use]
 pub fn quantities(scene: &Scene) -> Vec<Quantity> {
     let mut list = List(Vec::new());

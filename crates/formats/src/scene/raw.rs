@@ -142,7 +142,7 @@ pub(crate) struct RawTables {
     pub lateral: Option<RawPick>,
 }
 
-/// Any list: the changes of comparisons are merged into the tree of a scene before they are converted.
+/// Accepts any list, because the changes of comparisons are merged into the tree of a scene before conversion.
 fn leave_to_merge<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Value>, D::Error> {
     Vec::<IgnoredAny>::deserialize(deserializer).map(|_| Vec::new())
 }
@@ -400,7 +400,7 @@ pub(crate) struct RawEvent {
 }
 
 impl RawEvent {
-    /// Whether it puts on the brakes of body `name`.
+    /// Whether it applies the brakes of body `name`.
     pub fn brakes(&self, name: &str) -> bool {
         self.actions.as_ref().is_some_and(|actions| actions.brake.as_deref() == Some(name))
     }

@@ -1,7 +1,8 @@
-//! Items of `cell_data` as written: one for each cell of a block, or one for the whole block.
+//! Items of `cell_data` as written: one for each cell of a block, or a single one for the whole block.
 //!
-//! A list may be the items of the cells or, where an item is itself a list, the one item of the block. Which of the two
-//! it is shows in its entries: numbers (of a vector) or words (of a list of degrees of freedom) make it one item.
+//! A list contains either the items of the cells or, if an item is itself a list, the single item of the block. Its
+//! entries decide: if they are numbers (of a vector) or keywords (of a list of degrees of freedom), the list is one
+//! item.
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -65,22 +66,22 @@ impl<'de> Deserialize<'de> for Reference {
     }
 }
 
-/// A type of items that may be given as a list of one for each cell, or as one for the whole block.
+/// A type of items that may be given as a list with one item per cell, or as one item for the whole block.
 pub trait Item: Sized + for<'de> Deserialize<'de> {
-    /// What is expected, in messages.
+    /// The expected value, for messages.
     const WHAT: &'static str;
 
-    /// The item that a number is, if any.
+    /// The item that a number represents, if any.
     fn of_index(_: usize) -> Option<Self> {
         None
     }
 
-    /// The item that a text is, if any.
+    /// The item that a text represents, if any.
     fn of_word(_: &str) -> Option<Self> {
         None
     }
 
-    /// What a list is: items of the cells, or one item of the block.
+    /// Interprets a list as the items of the cells, or as one item of the block.
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         Vec::deserialize(SeqAccessDeserializer::new(list)).map(Block::Each)
     }
@@ -126,13 +127,13 @@ impl Item for Option<usize> {
     }
 }
 
-/// One entry of a list: a leaf, of which one item of the whole block is made, or an item of a cell.
+/// One entry of a list: a leaf, which is part of a single item of the whole block, or an item of a cell.
 enum Entry<L, T> {
     Leaf(L),
     Item(T),
 }
 
-/// What a list of such entries is. `of_leaves` makes an item of leaves, and refuses a wrong number of them.
+/// Classifies a list by its entries. `of_leaves` makes an item of leaves, and rejects a wrong number of them.
 fn classified<L, T, E: Error>(
     entries: Vec<Entry<L, T>>,
     what: &'static str,
@@ -226,7 +227,7 @@ impl Item for Vec<String> {
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries: Vec<Entry<String, Self>> = Vec::deserialize(SeqAccessDeserializer::new(list))?;
-        // an empty list is no degrees of freedom for the whole block, whatever the number of its cells
+        // an empty list means no degrees of freedom for the whole block, regardless of the number of its cells
         if entries.is_empty() { Ok(Block::Absent) } else { classified(entries, Self::WHAT, Ok) }
     }
 }

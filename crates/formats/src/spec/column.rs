@@ -5,17 +5,17 @@ use crate::check::Check;
 use crate::text::fault::Fault;
 use crate::text::place::Place;
 
-/// One array of `cell_data`: for each block of cells an item for each cell, or one for the block.
+/// One array of `cell_data`: for each block of cells, one item per cell or one for the whole block.
 pub(super) struct Column<'r, T> {
     key: &'static str,
-    /// Whether the file has the array.
+    /// Whether the file contains the array.
     pub given: bool,
     blocks: Option<&'r Vec<Block<T>>>,
 }
 
 impl<'r, T: PartialEq> Column<'r, T> {
-    /// Checks the lengths against `counts`, the number of cells of each block; wrong lengths are faults and leave the
-    /// column without items.
+    /// Checks the lengths against `counts`, the number of cells of each block. Wrong lengths are faults, and the
+    /// column is then empty.
     pub fn new(
         key: &'static str,
         blocks: &'r Option<Vec<Block<T>>>,
@@ -52,8 +52,8 @@ impl<'r, T: PartialEq> Column<'r, T> {
         self.blocks.and_then(|blocks| blocks.get(block)).is_some_and(|items| *items == Block::Absent)
     }
 
-    /// Calls `then` with the place of a cell's item below `data`, the place of `cell_data`; of one item for the whole
-    /// block it is the place of the block.
+    /// Calls `then` with the place of the item of a cell below `data`, the place of `cell_data`. If one item applies
+    /// to the whole block, the place is that of the block.
     pub fn at<R>(
         &self,
         [block, index]: [usize; 2],

@@ -1,16 +1,16 @@
-//! Properties of cross sections by their dimensions: the shapes of the NASTRAN entries PBARL and PBEAML.
+//! Properties of cross sections from their dimensions: the shapes of the NASTRAN entries PBARL and PBEAML.
 //!
-//! y is upwards and z sideways in the shapes' usual drawings. Areas and second moments are those of the exact
-//! rectangles and circles, about the centroid:
-//! A = sum b h, I1 = sum (b h^3/12 + b h y^2), I2 = sum (h b^3/12 + b h z^2).
+//! In the usual drawings of the shapes, y points upwards and z is horizontal. Areas and second moments are those of
+//! the exact rectangles and circles, about the centroid: A = sum b h, I1 = sum (b h^3/12 + b h y^2), I2 = sum (h
+//! b^3/12 + b h z^2).
 //!
-//! Torsion constants: circles pi r^4/2; rectangles a b^3 (1/3 - 0.21 b/a (1 - b^4/(12 a^4))) with a >= b; thin open
-//! shapes sum s t^3/3 over walls of centre line s and thickness t; thin closed ones 4 Am^2 / sum (s/t), with the area
-//! Am enclosed by the centre line.
+//! The torsion constants are, for circles, pi r^4/2; for rectangles, a b^3 (1/3 - 0.21 b/a (1 - b^4/(12 a^4)))
+//! where a >= b; for thin open shapes, sum s t^3/3 over walls with centre line s and thickness t; and for thin closed
+//! shapes, 4 Am^2 / sum (s/t), where Am is the area enclosed by the centre line.
 //!
-//! Shear factors (shear area / A): rectangles 5/6, circles 9/10, thin tubes 1/2; of other shapes, the area of the walls
-//! parallel to the force, counted between the walls across it, divided by A; for flanges of I, H and T and the bars of
-//! a cross 5/6 of that.
+//! The shear factors (shear area / A) are 5/6 for rectangles, 9/10 for circles and 1/2 for thin tubes. For other
+//! shapes the shear area is the area of the walls parallel to the force, measured between the walls perpendicular to
+//! it. For flanges of I, H and T and the bars of a cross it is 5/6 of that area.
 //!
 //! # Source
 //! W. C. Young, R. G. Budynas: Roark's Formulas for Stress and Strain, 7th ed., table 10.1 (torsion). The meaning
@@ -36,18 +36,18 @@ pub struct Properties {
     pub k2: f64,
 }
 
-/// Why a shape gives no section.
+/// The reason why a shape has no valid section.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ShapeError {
-    /// The shape is not known.
+    /// The shape is unknown.
     Unknown,
     /// The walls overlap, or one of them has no thickness.
     Dimensions,
-    /// The principal axes are not y and z.
+    /// The principal axes are not parallel to y and z.
     Oblique,
 }
 
-/// The known shapes with the number of their dimensions.
+/// The known shapes and the number of dimensions of each.
 pub const SHAPES: [(&str, usize); 16] = [
     ("ROD", 1),
     ("TUBE", 2),
@@ -67,13 +67,13 @@ pub const SHAPES: [(&str, usize); 16] = [
     ("CROSS", 4),
 ];
 
-/// Number of dimensions of a shape; `None` where it is not known.
+/// Number of dimensions of a shape; `None` if the shape is unknown.
 #[must_use]
 pub fn dimensions(shape: &str) -> Option<usize> {
     SHAPES.iter().find(|(name, _)| *name == shape).map(|(_, count)| *count)
 }
 
-/// A rectangular wall: its extent from, to along y and z.
+/// A rectangular wall: its extent (from, to) along y and z.
 #[derive(Clone, Copy, Debug)]
 struct Wall {
     y: [f64; 2],
@@ -81,7 +81,7 @@ struct Wall {
 }
 
 impl Wall {
-    /// The wall of this height and width with its lower edge at y and its left edge at z.
+    /// The wall with this height and width, whose lower edge is at y and whose left edge is at z.
     fn new(y: f64, height: f64, z: f64, width: f64) -> Wall {
         Wall { y: [y, y + height], z: [z, z + width] }
     }
@@ -96,7 +96,7 @@ impl Wall {
     }
 }
 
-/// A shape as walls, with its shear areas and torsion constant.
+/// A shape as a set of walls, with its shear areas and torsion constant.
 struct Drawing {
     walls: Vec<Wall>,
     /// Shear areas for forces along y and z.
@@ -110,7 +110,7 @@ struct Drawing {
 /// An unknown shape, or a wrong number of dimensions; walls that overlap; principal axes that are not y and z.
 pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeError> {
     let circle = |r: f64, inner: f64, k: f64| {
-        // squared, a negative inner radius would pass for a positive one
+        // a negative inner radius would be squared and treated as a positive one
         let inner = if inner < 0.0 { r } else { inner };
         let [two, four] = [r.powi(2) - inner.powi(2), r.powi(4) - inner.powi(4)].map(|value| PI * value);
         Properties { area: two, i1: four / 4.0, i2: four / 4.0, j: four / 2.0, k1: k, k2: k }
@@ -153,7 +153,7 @@ pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeErr
 
 /// Area and second moments of the walls about their common centroid.
 fn of_drawing(drawing: &Drawing) -> Result<Properties, ShapeError> {
-    // a wall whose side is negative does not fit between the others
+    // a wall with a negative side does not fit between the others
     if drawing.walls.iter().flat_map(Wall::sides).any(|side| side.is_nan() || side <= 0.0) {
         return Err(ShapeError::Dimensions);
     }
@@ -175,7 +175,7 @@ fn of_drawing(drawing: &Drawing) -> Result<Properties, ShapeError> {
     Ok(Properties { area, i1, i2, j: drawing.j, k1: drawing.shear[0] / area, k2: drawing.shear[1] / area })
 }
 
-/// The same with y and z exchanged.
+/// Exchanges y and z.
 fn turned(drawing: Drawing) -> Drawing {
     let walls = drawing.walls.iter().map(|wall| Wall { y: wall.z, z: wall.y }).collect();
     let [y, z] = drawing.shear;
@@ -198,7 +198,7 @@ fn boxed(b: f64, h: f64, level: [f64; 2], upright: [f64; 2]) -> Drawing {
         Wall::new(h - level[1], level[1], 0.0, b),
         Wall::new(level[0], clear[0], 0.0, upright[0]),
         Wall::new(level[0], clear[0], b - upright[1], upright[1]),
-        // the hollow, which must have positive sides
+        // the hollow space, which must have positive sides
         Wall::new(level[0], clear[0], upright[0], clear[1]),
     ];
     let [height, width] = [h - 0.5 * (level[0] + level[1]), b - 0.5 * (upright[0] + upright[1])];
@@ -209,7 +209,7 @@ fn boxed(b: f64, h: f64, level: [f64; 2], upright: [f64; 2]) -> Drawing {
     Drawing { walls, shear, j: 4.0 * (height * width).powi(2) / around }
 }
 
-/// A web between a lower and an upper flange, all centred on one vertical line.
+/// A web between a lower and an upper flange, symmetric about a vertical line.
 fn flanged(h: f64, width: [f64; 2], web: f64, flange: [f64; 2]) -> Drawing {
     let clear = h - flange[0] - flange[1];
     let walls = vec![
@@ -223,7 +223,7 @@ fn flanged(h: f64, width: [f64; 2], web: f64, flange: [f64; 2]) -> Drawing {
     Drawing { walls, shear: [clear * web, 5.0 / 6.0 * flanges], j }
 }
 
-/// A flange across the end of a web.
+/// A flange perpendicular to the end of a web.
 fn tee(b: f64, h: f64, flange: f64, web: f64) -> Drawing {
     let clear = h - flange;
     let walls = vec![Wall::new(0.0, clear, -0.5 * web, web), Wall::new(clear, flange, -0.5 * b, b)];
@@ -231,7 +231,7 @@ fn tee(b: f64, h: f64, flange: f64, web: f64) -> Drawing {
     Drawing { walls, shear: [clear * web, 5.0 / 6.0 * b * flange], j }
 }
 
-/// A vertical web with two flanges to one side.
+/// A vertical web with two flanges on the same side.
 fn channel(b: f64, h: f64, web: f64, flange: f64) -> Drawing {
     let [clear, reach] = [h - 2.0 * flange, b - web];
     let walls = vec![

@@ -1,4 +1,4 @@
-//! Sections of members whose internal forces are asked for: the key `effects` of both forms.
+//! Sections of members whose internal forces are requested: the key `effects` of both forms.
 
 use fea::Girder;
 
@@ -10,33 +10,34 @@ use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// A section of a member whose internal forces are asked for.
+/// A section of a member whose internal forces are requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cut {
     /// Its name.
     pub name: String,
-    /// Where it is, in the terms of the spec.
+    /// Its location, in the terms of the spec.
     pub place_in_spec: CutPlace,
     /// Index of the member.
     pub member: usize,
-    /// Place along the member's flexible part, as a fraction of its length from end a, 0..=1.
+    /// Position along the flexible part of the member, as a fraction of its length from end a, 0..=1.
     pub place: f64,
-    /// Points of the section whose stresses are asked for.
+    /// Points of the section whose stresses are requested.
     pub points: Vec<StressPoint>,
 }
 
-/// A place of a structure in the terms of the spec.
+/// A position on a structure in the terms of the spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum CutPlace {
     /// Coordinate along a girder, in length.
     Along(f64),
-    /// Block and index of a cell, and the place along its flexible part as a fraction from end a, 0..=1.
+    /// Block and index of a cell, and the position along its flexible part as a fraction from end a, 0..=1.
     Cell([usize; 2], f64),
 }
 
-/// Cuts of a girder. A cut at a support is taken just beyond it, one at the girder's last end just before it.
+/// Reads the cuts of a girder. A cut at a support is located just beyond it, a cut at the last end of the girder just
+/// before it.
 ///
-/// `faultless`: whether the girder has no fault, so that cuts can be placed on its members.
+/// `faultless` specifies that the girder has no fault, so that cuts can be located on its members.
 pub(super) fn read_girder(
     raw: &RawSpec,
     girder: &Girder,
@@ -85,7 +86,7 @@ pub(super) fn read_girder(
     cuts
 }
 
-/// Cuts of the general form, on the cells as the file has them. `points`: the stress points of a member.
+/// Reads the cuts of the general form, on the cells of the file. `points` returns the stress points of a member.
 pub(super) fn read_frame(
     raw: &RawSpec,
     cells: &Cells,
@@ -119,7 +120,7 @@ pub(super) fn read_frame(
     cuts
 }
 
-/// Calls `read` for every entry, with its place and its name; a name that is empty or not unique is a fault.
+/// Calls `read` for every entry, with its place and its name. A name that is empty or not unique is a fault.
 fn each(
     raw: &RawSpec,
     root: &Place<'_>,

@@ -15,13 +15,13 @@ use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::length;
 
-/// Upward direction where the spec has none.
+/// Default upward direction.
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// Reads the general form: the structure, and the sections whose internal forces are asked for.
+/// Reads the general form: the structure, and the sections whose internal forces are requested.
 ///
-/// All parts are read even where an earlier one has faults, so that every fault is reported at once; what would need
-/// valid members (rails' extents, completeness of sections, tapers) is left out where some member has a fault.
+/// All parts are read even if an earlier one has faults, so that every fault is reported at once. Checks that require
+/// valid members (extent of rails, completeness of sections, tapers) are skipped if a member has a fault.
 pub(super) fn read(
     raw: &RawSpec,
     theory: BeamTheory,
@@ -54,7 +54,7 @@ pub(super) fn read(
     read_masses(raw, root, &known, &mut model, check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
     let points = stress::of_sections(raw, root, check);
-    // a tapered cell has no section of the file between its ends, and so no stress points
+    // a tapered cell has no section of the file between its ends, and therefore no stress points
     let points_of = |member: usize| -> Vec<StressPoint> {
         let uniform = cells.tapers.get(member).is_some_and(Option::is_none);
         let section = model.members.get(member).map(|member| member.section).filter(|_| uniform);
@@ -76,7 +76,8 @@ pub(super) fn read(
     if cells.complete { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
 }
 
-/// Replaces each tapered member by uniform parts; rails run over all parts, and each cut moves to the part it is in.
+/// Replaces each tapered member by uniform parts. Rails are extended over all parts, and each cut is moved to the
+/// part that contains it.
 fn in_parts(frame: FrameSpec, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (FrameSpec, Vec<Cut>) {
     if tapers.iter().all(Option::is_none) {
         return (frame, cuts);
@@ -104,7 +105,8 @@ fn in_parts(frame: FrameSpec, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (
     (FrameSpec { model, rails, cells, ..frame }, cuts)
 }
 
-/// Supports; the result is, for each support of the model, the index of the file's support that gave it.
+/// Reads the supports. The result contains, for each support of the model, the index of the corresponding support in
+/// the file.
 fn read_supports(
     raw: &RawSpec,
     root: &Place<'_>,
@@ -192,7 +194,7 @@ fn read_masses(
     }
 }
 
-/// Point sets; indices beyond the points are faults.
+/// Reads the point sets. Indices beyond the number of points are faults.
 fn read_sets(
     raw: &RawSpec,
     root: &Place<'_>,

@@ -9,7 +9,7 @@ use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Reads the member `girder`, and the `stations` on it.
+/// Reads the member `girder` and its `stations`.
 pub(super) fn read(
     raw: &RawGirder,
     stations: &Option<Vec<f64>>,
@@ -36,7 +36,7 @@ pub(super) fn read(
         let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
         overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
     }
-    // stations can be checked only against valid lengths
+    // stations can only be checked if the lengths are valid
     let raw_range = (check.faults.0.len() == before).then(|| range_of(raw));
     let mut optional =
         |value, key: &str, dimension| check.optional_positive(value, &at.key(key), dimension, "");
@@ -88,7 +88,7 @@ fn range_of(raw: &RawGirder) -> [f64; 2] {
     [-before, raw.spans.iter().flatten().sum::<f64>() + after]
 }
 
-/// Reads stations; `range` is that of the rail in the units of the file, where its lengths are valid.
+/// Reads the stations. `range` is the range of the rail in the units of the file, if its lengths are valid.
 fn read_stations(
     stations: &Option<Vec<f64>>,
     range: Option<[f64; 2]>,

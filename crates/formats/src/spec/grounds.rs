@@ -1,24 +1,25 @@
-//! Names of the points where the ground supports a structure.
+//! Names of the points at which the ground supports a structure.
 
 use fea::{Dof, Model};
 
 use super::structure::{Form, Spec};
 use super::words::FREEDOMS;
 
-/// A point held by supports or springs.
+/// A point restrained by supports or springs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SupportedPoint {
     /// Index of the point.
     pub point: usize,
-    /// Its name. Of a girder: `support1`, `support2`, ... along it. Of the general form: that of its point set,
-    /// followed by a number where the set has several points, else `point<index>`.
+    /// Its name. The points of a girder are `support1`, `support2`, ... along it. A point of the general form has the
+    /// name of its point set, followed by a number if the set has several points; without a set it is `point<index>`.
     pub name: String,
-    /// The degrees of freedom that are held, each once, in the order ux, uy, uz, rx, ry, rz.
+    /// The restrained degrees of freedom, each once, in the order ux, uy, uz, rx, ry, rz.
     pub dofs: Vec<Dof>,
 }
 
 impl Spec {
-    /// All points that the ground holds: of a girder along it, else in the order of the file, supports first.
+    /// All points restrained by the ground: for a girder along it, otherwise in the order of the file, supports
+    /// first.
     ///
     /// `model` is that of [`Spec::model`].
     #[must_use]
@@ -48,7 +49,7 @@ impl Spec {
         all
     }
 
-    /// Name of a point; `index` is its place among the supported points.
+    /// Name of a point. `index` is its position among the supported points.
     fn ground_name(&self, point: usize, index: usize) -> String {
         let Form::Frame(frame) = &self.form else { return format!("support{}", index + 1) };
         let is_plain = |name: &str| {
@@ -56,7 +57,7 @@ impl Spec {
         };
         let sets =
             || frame.point_sets.iter().filter(|(name, points)| is_plain(name) && points.contains(&point));
-        // a set of this point alone is the most specific name
+        // a set that contains only this point is the most specific name
         let set = sets().find(|(_, points)| points.len() == 1).or_else(|| sets().next());
         match set {
             Some((name, points)) if points.len() == 1 => name.clone(),
@@ -68,8 +69,8 @@ impl Spec {
         }
     }
 
-    /// The word of a degree of freedom in names of columns: of a girder `longitudinal`, `vertical`, `lateral` and
-    /// `twist` instead of `ux`, `uy`, `uz` and `rx`.
+    /// The name of a degree of freedom in column names. For a girder, `longitudinal`, `vertical`, `lateral` and
+    /// `twist` replace `ux`, `uy`, `uz` and `rx`.
     #[must_use]
     pub fn dof_word(&self, freedom: Dof) -> &'static str {
         match (&self.form, freedom) {

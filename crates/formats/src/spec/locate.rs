@@ -1,4 +1,4 @@
-//! Errors of the solver in the terms of the spec: with the place in the file that caused them.
+//! Converts errors of the solver to the terms of the spec, with the place in the file that caused them.
 
 use fea::{Dof, Error, ModelEntry};
 
@@ -8,18 +8,18 @@ use crate::text::fault::{Fault, Faults};
 use crate::text::place::{Path, Step};
 use crate::text::source::Source;
 
-/// Why the structure of a spec has no solution, in the terms of the spec.
+/// The reason why the structure of a spec has no solution, in the terms of the spec.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SolveError {
-    /// An entry of the file is unusable.
+    /// An entry of the file is invalid.
     Input(Vec<Diagnostic>),
-    /// There is no trustworthy solution: the structure is a mechanism, ill-conditioned, or too large for the memory.
+    /// There is no reliable solution: the structure is a mechanism, ill-conditioned, or too large for the memory.
     NoSolution(String),
 }
 
 impl Spec {
-    /// An error of the solver in the terms of the spec: an unusable entry is an input error with its place in `source`;
-    /// of a mechanism or an ill-conditioned system no number can be trusted.
+    /// Converts an error of the solver to the terms of the spec. An invalid entry is an input error with its place in
+    /// `source`; a mechanism or an ill-conditioned system has no reliable solution.
     #[must_use]
     pub fn locate_error(&self, source: &Source, error: &Error) -> SolveError {
         match error {
@@ -113,7 +113,7 @@ impl Spec {
         }
     }
 
-    /// Place of a rail, or of an item of one of its lists.
+    /// Place of a rail, or of an item in one of its lists.
     fn rail_path(&self, rail: usize, below: Option<(&str, usize)>) -> Path {
         let mut steps = vec![Step::Key("rails".to_owned())];
         if let Form::Frame(frame) = &self.form {
@@ -125,7 +125,7 @@ impl Spec {
         Path(steps)
     }
 
-    /// A point in messages: by index, set and coordinates; of a girder by its coordinate.
+    /// Description of a point in messages: index, set and coordinates, or for a girder its coordinate.
     fn point(&self, index: usize) -> String {
         let unit = self.units.length.word();
         match &self.form {
@@ -147,7 +147,7 @@ impl Spec {
     }
 }
 
-/// A degree of freedom in plain words.
+/// Description of a degree of freedom.
 const fn meaning(freedom: Dof) -> &'static str {
     match freedom {
         Dof::Ux => "displacement along x",

@@ -13,21 +13,21 @@ use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
 
-/// The cells of the file, and the members they became.
+/// The cells of the file and the corresponding members.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Cells {
     /// Block and index of the cell of each member.
     pub places: Vec<[usize; 2]>,
     /// Number of cells of each block.
     pub counts: Vec<usize>,
-    /// The taper of each member; `None` of a uniform one.
+    /// The taper of each member; `None` for a uniform one.
     pub tapers: Vec<Option<Taper>>,
-    /// Whether every cell became a member without a fault.
+    /// Whether every cell was converted to a member without a fault.
     pub complete: bool,
 }
 
 impl Cells {
-    /// Index of the member of a cell given as [block, index]; a fault where there is no such cell.
+    /// Index of the member of the cell [block, index]; a fault if there is no such cell.
     pub fn of(&self, [block, index]: [usize; 2], at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
         if self.counts.get(block).is_some_and(|count| index < *count) {
             return Some(self.counts[..block].iter().sum::<usize>() + index);
@@ -92,7 +92,7 @@ pub(super) fn read(
     cells
 }
 
-/// The arrays of `cell_data`, those of tapers excepted.
+/// The arrays of `cell_data`, except those of tapers.
 struct Columns<'r> {
     kind: Column<'r, String>,
     section: Column<'r, Reference>,
@@ -119,7 +119,7 @@ impl<'r> Columns<'r> {
         }
     }
 
-    /// The member of a cell between two points; `None`, and a fault, where a point or its section is missing.
+    /// The member of a cell between two points; `None` and a fault if a point or its section is missing.
     #[allow(clippy::too_many_arguments)]
     fn member(
         &self,
@@ -210,7 +210,7 @@ impl<'r> Columns<'r> {
     }
 }
 
-/// A vector as files write it.
+/// A vector in the notation of the files.
 fn listed(vector: [f64; 3]) -> String {
     format!("[{}]", vector.map(crate::text::fault::number).join(", "))
 }

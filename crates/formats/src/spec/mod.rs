@@ -1,10 +1,10 @@
-//! Beam specs: read, checked, converted to the units asked for.
+//! Beam specs: reading, checking, and conversion to the requested units.
 //!
-//! From low to high: what the file says (`raw`, with the items of `block`); references and arrays of it
-//! (`references`, `column`); its parts (`sections` with `shape` and [`cross_section`], `tapers`, `members`, `rails`,
-//! `stress`, `cuts`, `girder`); the checked [`Spec`] (`structure`); the reader of the general form (`frame`) and of
-//! specs (`read`); what follows from a spec: names of supported points (`grounds`), places of solver errors
-//! (`locate`), rails on ties ([`ties`]).
+//! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
+//! arrays (`references`, `column`); its parts (`sections` with `shape` and [`cross_section`], `tapers`, `members`,
+//! `rails`, `stress`, `cuts`, `girder`); the checked [`Spec`] (`structure`); the readers of the general form
+//! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), places of
+//! solver errors (`locate`) and rails on ties ([`ties`]).
 
 mod block;
 mod column;

@@ -10,7 +10,7 @@ use crate::text::place::Place;
 use crate::units::Dimension;
 use crate::vector::{length, parallel};
 
-/// Reads the rails; the second list has the first and last coordinate of each.
+/// Reads the rails. The second list contains the first and last coordinate of each.
 pub(super) fn read(
     raw: &RawSpec,
     root: &Place<'_>,
@@ -40,7 +40,7 @@ pub(super) fn read(
     (rails, ranges)
 }
 
-/// Reads a rail and its range; the range is zero where the rail or a member has a fault.
+/// Reads a rail and its range. The range is zero if the rail or a member has a fault.
 fn read_rail(
     raw: &RawRail,
     at: &Place<'_>,
@@ -108,7 +108,7 @@ fn read_rail(
     (rail, range)
 }
 
-/// First and last coordinate along the rail that the segments cover. `places` are their indices in the file; a segment
+/// First and last coordinate of the segments along the rail. `places` contains their indices in the file. A segment
 /// whose member has no extent along the rail is a fault.
 fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &mut Check<'_>) -> [f64; 2] {
     let size = length(rail.axis);

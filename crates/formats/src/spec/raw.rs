@@ -137,7 +137,7 @@ pub struct RawSection {
 }
 
 impl RawSection {
-    /// Its own numbers, without shape and points.
+    /// The section with its explicit properties only, without shape and points.
     pub fn numbers(&self) -> RawSection {
         RawSection {
             name: self.name.clone(),

@@ -1,4 +1,4 @@
-//! Reading a beam spec: which of the two forms it has, and everything that is wrong with it.
+//! Reads a beam spec: detects which of the two forms it has, and reports all its faults.
 
 use fea::BeamTheory;
 
@@ -18,7 +18,7 @@ use crate::units::{Scale, Units};
 pub const FORMAT: &str = "girderway-beam/1";
 
 impl Spec {
-    /// Reads a spec and converts it to the units `target`; it keeps its own units where that is `None`.
+    /// Reads a spec and converts it to the units `target`, or keeps its own units if that is `None`.
     ///
     /// # Errors
     /// The first syntax or type error, or else all other faults of the file, each with its place.
@@ -42,7 +42,7 @@ impl Spec {
             }
             None => BeamTheory::Timoshenko,
         };
-        // without units the numbers are still checked, in any one system
+        // without units the numbers are checked in an arbitrary system of units
         let from = own.unwrap_or(Units::SI);
         let to = target.filter(|_| own.is_some()).unwrap_or(from);
         let mut check = Check { faults, scale: Scale { from, to } };
@@ -74,7 +74,7 @@ impl Spec {
     }
 }
 
-/// Refuses keys of the general form beside `girder`.
+/// Rejects keys of the general form in a spec that has a `girder`.
 fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
     let general = [
         ("up", raw.up.is_some()),

@@ -1,4 +1,4 @@
-//! References within a spec: indices, names of sections and of point sets, words of degrees of freedom.
+//! References within a spec: indices, names of sections and of point sets, keywords of degrees of freedom.
 
 use super::block::Reference;
 use super::words::FREEDOMS;
@@ -7,7 +7,7 @@ use crate::text::fault::Fault;
 use crate::text::names::resolve;
 use crate::text::place::Place;
 
-/// The points of a spec, as references to them are resolved.
+/// The points of a spec, for the resolution of references to them.
 pub(super) struct Points<'s> {
     /// Number of points.
     pub count: usize,
@@ -16,7 +16,7 @@ pub(super) struct Points<'s> {
 }
 
 impl Points<'_> {
-    /// The points that an index or the name of a point set refers to; all of them exist.
+    /// The points to which an index or the name of a point set refers. All of them exist.
     pub fn all(
         &self,
         given: &Option<Reference>,
@@ -34,14 +34,14 @@ impl Points<'_> {
                 let names: Vec<(&str, usize)> =
                     self.sets.iter().enumerate().map(|(index, (name, _))| (name.as_str(), index)).collect();
                 let set = refer(name, &names, "point set", &at.key(key), check);
-                // points that do not exist are reported at the set itself
+                // points that do not exist are reported in the set itself
                 let all = set.map(|set| self.sets[set].1.as_slice()).unwrap_or_default();
                 all.iter().copied().filter(|point| *point < self.count).collect()
             }
         }
     }
 
-    /// The one point that an index or the name of a point set refers to; a set of several points is a fault.
+    /// The single point to which an index or the name of a point set refers. A set of several points is a fault.
     pub fn one(
         &self,
         given: &Option<Reference>,
@@ -60,8 +60,8 @@ impl Points<'_> {
     }
 }
 
-/// Index of the item of a list that an index or a name refers to; a fault where there is none. `what` is the kind of
-/// item, such as "section".
+/// Index of the list item to which an index or a name refers; a fault if there is none. `what` is the kind of item,
+/// such as "section".
 pub(super) fn refer(
     given: &Reference,
     names: &[(&str, usize)],
@@ -77,7 +77,7 @@ pub(super) fn refer(
     }
 }
 
-/// Whether an index is below `count`; a fault where it is not. `what` are the items, such as "points".
+/// Whether an index is below `count`; a fault if it is not. `what` is the kind of items, such as "points".
 pub(super) fn index_below(
     index: usize,
     count: usize,
@@ -92,7 +92,7 @@ pub(super) fn index_below(
     index < count
 }
 
-/// A list of degrees of freedom, each at most once, as a set in the order ux, uy, uz, rx, ry, rz.
+/// Reads a list of degrees of freedom, each at most once, as flags in the order ux, uy, uz, rx, ry, rz.
 pub(super) fn dofs(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
     let mut set = [false; 6];
     for (index, word) in words.iter().enumerate() {

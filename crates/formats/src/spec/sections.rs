@@ -17,7 +17,7 @@ struct Material {
     density: f64,
 }
 
-/// Reads materials and sections into the model; the result are the names of the sections.
+/// Reads materials and sections into the model and returns the names of the sections.
 pub(super) fn read(raw: &RawSpec, root: &Place<'_>, model: &mut Model, check: &mut Check<'_>) -> Vec<String> {
     let mut materials = BTreeMap::new();
     let list = root.key("materials");
@@ -109,8 +109,8 @@ fn read_section(
     }
 }
 
-/// Checks that sections have what their members need: an area, and for beams second moments of area and a torsion
-/// constant too. Sections that no member uses need nothing.
+/// Checks that sections have the properties that their members require: an area, and for beams also the second
+/// moments of area and a torsion constant. Sections that no member uses are not checked.
 pub(super) fn check_complete(
     raw: &RawSpec,
     root: &Place<'_>,

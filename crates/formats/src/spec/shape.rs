@@ -1,4 +1,4 @@
-//! Sections given by the dimensions of their plates: the key `shape` of a section.
+//! Sections defined by the dimensions of their plates: the key `shape` of a section.
 
 use super::cross_section::section_properties;
 use super::raw::{RawSection, RawShape};
@@ -7,11 +7,11 @@ use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::{Dimension, Length};
 
-/// Keys of dimensions, in the order in which [`read`] lists them.
+/// Keys of dimensions, in the order in which [`read`] returns them.
 const KEYS: [&str; 8] =
     ["height", "width", "flange", "web", "lower_width", "lower_flange", "diameter", "wall"];
 
-/// Kinds of shapes that specs know.
+/// Kinds of shapes in specs.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     I,
@@ -35,7 +35,7 @@ impl Kind {
     }
 }
 
-/// The numbers of a section, where it leaves some out those of its shape, in the units of the file.
+/// The properties of a section, in the units of the file. Missing properties are computed from its shape.
 ///
 /// y is along the height: Iz = int y^2 dA, Iy = int z^2 dA.
 pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) -> RawSection {
@@ -43,7 +43,8 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
     let Some(shape) = &raw.shape else { return section };
     let place = at.key("shape");
     let Some(found) = read(shape, &place, check) else {
-        // the shape has its fault; placeholders keep the section from being reported as incomplete too
+        // the fault of the shape has been reported; placeholders prevent a second report that the section is
+        // incomplete
         for number in [&mut section.area, &mut section.iy, &mut section.iz, &mut section.j] {
             number.get_or_insert(1.0);
         }
@@ -59,7 +60,7 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
     section
 }
 
-/// A, Iy, Iz, J, Asy, Asz of a shape, in the units of the file; `None`, and faults, where its dimensions are unusable.
+/// A, Iy, Iz, J, Asy, Asz of a shape, in the units of the file; `None` and faults if its dimensions are invalid.
 fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6]> {
     let kind = check.faults.require(&raw.kind, at, "kind")?;
     let kind = check.faults.one_of(kind, &at.key("kind"), &Kind::WORDS)?;
@@ -105,7 +106,7 @@ fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6
         return None;
     }
     let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = dimensions;
-    // an optional dimension that is not given is still 0
+    // an optional dimension that is missing is still 0
     let or = |own: f64, other: f64| if own > 0.0 { own } else { other };
     let found = match kind {
         Kind::I => {

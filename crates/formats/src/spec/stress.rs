@@ -1,4 +1,4 @@
-//! Points of sections whose stresses are asked for, with their detail categories.
+//! Points of sections whose stresses are requested, with their detail categories.
 
 use practice::aisc::AiscCategory;
 use practice::fatigue::CATEGORIES;
@@ -10,7 +10,7 @@ use crate::text::fault::{Fault, alternatives, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// A point of a section whose normal stress is asked for.
+/// A point of a section whose normal stress is requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StressPoint {
     /// Its name.
@@ -19,7 +19,7 @@ pub struct StressPoint {
     pub y: f64,
     /// Coordinate along its local z axis from the centroid, in length.
     pub z: f64,
-    /// Detail category, where fatigue is to be assessed.
+    /// Detail category, if fatigue is to be assessed.
     pub detail: Option<Detail>,
 }
 
@@ -33,7 +33,7 @@ pub enum Detail {
 }
 
 impl Detail {
-    /// The category as specs write it.
+    /// The category in the notation of specs.
     #[must_use]
     pub fn word(&self) -> String {
         match self {

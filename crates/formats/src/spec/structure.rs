@@ -1,14 +1,14 @@
-//! A checked beam spec: a structure with its rails and the names that users know, as plain values.
+//! A checked beam spec: a structure with its rails and user-defined names, as plain values.
 
 use fea::{BeamTheory, Girder, Model, Rail};
 
 use super::cuts::Cut;
 use crate::units::Units;
 
-/// Name of the one rail of the short form.
+/// Name of the only rail of the short form.
 pub const GIRDER_RAIL: &str = "rail";
 
-/// A beam spec, checked and in the units asked for.
+/// A beam spec, checked and in the requested units.
 ///
 /// ```
 /// use formats::text::source::Source;
@@ -28,15 +28,15 @@ pub const GIRDER_RAIL: &str = "rail";
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spec {
-    /// Its name; that of the file, without its ending, where the spec has none.
+    /// Its name; by default the name of the file without its extension.
     pub name: String,
     /// Units of all its numbers.
     pub units: Units,
-    /// Beam theory: whether shear deforms the members.
+    /// Beam theory, with or without shear deformation.
     pub theory: BeamTheory,
     /// The structure.
     pub form: Form,
-    /// Sections of members whose internal forces are asked for.
+    /// Sections of members whose internal forces are requested.
     pub effects: Vec<Cut>,
 }
 
@@ -60,7 +60,7 @@ pub struct RailOutline {
     pub stations: Vec<f64>,
 }
 
-/// The checked general form, in the units asked for: the model with the names of the file.
+/// The checked general form, in the requested units: the model with the names of the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameSpec {
     /// Points, members, supports, springs, links and masses.
@@ -71,32 +71,32 @@ pub struct FrameSpec {
     pub ranges: Vec<[f64; 2]>,
     /// Names of the sections.
     pub sections: Vec<String>,
-    /// Number of points in the file; the points between the parts of tapered members follow them in the model.
+    /// Number of points in the file. In the model they are followed by the points between the parts of tapered
+    /// members.
     pub points: usize,
-    /// For each member, the block of `cells` and the index in it: parts of a tapered cell share it.
+    /// Block of `cells` and index in it for each member. The parts of a tapered cell have the same entry.
     pub cells: Vec<[usize; 2]>,
     /// Named sets of points.
     pub point_sets: Vec<(String, Vec<usize>)>,
-    /// For each support of the model the index of the file's support that gave it; supports of ties are not among
-    /// them.
+    /// Index of the corresponding support in the file for each support of the model, except the supports of ties.
     pub supports: Vec<usize>,
-    /// Pads between rail and structure, where ties carry the rail.
+    /// Pads between rail and structure, if ties carry the rail.
     pub pads: Vec<Pad>,
 }
 
-/// The pad between a rail and its base at one tie: the two places between which its damper acts.
+/// The pad between a rail and its base at one tie. Its damper acts between the two points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pad {
     /// Index of the point of the rail.
     pub rail: usize,
-    /// Index of the point of the structure, and the rigid arm from it to the pad; `None`: the ground.
+    /// Index of the point of the structure, and the rigid arm from it to the pad; `None` if the base is the ground.
     pub base: Option<(usize, [f64; 3])>,
     /// Direction of the damper, a unit vector.
     pub up: [f64; 3],
 }
 
 impl Spec {
-    /// The straight girder; `None` where the spec has the general form.
+    /// The straight girder; `None` if the spec has the general form.
     #[must_use]
     pub const fn girder(&self) -> Option<&Girder> {
         match &self.form {
@@ -105,7 +105,7 @@ impl Spec {
         }
     }
 
-    /// The pads between rails and structure; empty where there are no ties.
+    /// The pads between rails and structure; empty if there are no ties.
     #[must_use]
     pub fn pads(&self) -> &[Pad] {
         match &self.form {
@@ -135,10 +135,10 @@ impl Spec {
         }
     }
 
-    /// The model and the rails on it, as `fea::FrameSpec::new` takes them.
+    /// The model and its rails, as `fea::FrameSpec::new` requires them.
     ///
     /// # Errors
-    /// A girder whose numbers give no model.
+    /// A girder from whose numbers no model can be built.
     pub fn model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
         match &self.form {
             Form::Girder(girder) => girder.model_and_rail().map(|(model, rail)| (model, vec![rail])),
@@ -148,7 +148,7 @@ impl Spec {
         }
     }
 
-    /// The same structure under another beam theory.
+    /// Returns the same structure with a different beam theory.
     #[must_use]
     pub fn with_theory(mut self, theory: BeamTheory) -> Spec {
         self.theory = theory;

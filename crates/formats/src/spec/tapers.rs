@@ -10,14 +10,14 @@ use crate::check::Check;
 use crate::text::fault::Fault;
 use crate::text::place::Place;
 
-/// Most uniform parts of a tapered member: more of them lose digits to rounding and gain none.
+/// Maximum number of uniform parts of a tapered member. A finer subdivision only adds rounding error.
 const MAX_PARTS: usize = 1000;
 
 /// The tapers of the file.
 pub(super) struct Tapers<'r> {
     section_b: Column<'r, Option<Reference>>,
     parts: Column<'r, Option<usize>>,
-    /// Number of parts of cells that do not have their own.
+    /// Number of parts of cells without a number of their own.
     default: Option<usize>,
 }
 
@@ -41,8 +41,8 @@ impl<'r> Tapers<'r> {
         }
     }
 
-    /// The taper of the cell [block, index] at `place`, which became `member`; `None` of a uniform one. `names` are
-    /// those of the sections.
+    /// The taper of the cell [block, index] at `place`, which was converted to `member`; `None` for a uniform one.
+    /// `names` are the names of the sections.
     #[allow(clippy::too_many_arguments)]
     pub fn of(
         &self,
@@ -69,7 +69,7 @@ impl<'r> Tapers<'r> {
         })
     }
 
-    /// The taper of `member` to the section `other`, which the file names at `item`.
+    /// The taper of `member` to the section `other`, whose place in the file is `item`.
     #[allow(clippy::too_many_arguments)]
     fn between(
         &self,
@@ -93,7 +93,7 @@ impl<'r> Tapers<'r> {
                 check.faults.add(fault.hint(hint));
             }
         }
-        // a tapered truss member stays one bar where the file does not say otherwise
+        // a tapered truss member remains a single bar unless the file specifies otherwise
         let of_kind = (member.kind == MemberKind::Truss).then_some(1);
         let Some(parts) = own.or(self.default).or(of_kind) else {
             let hint = "a cell with `section_b` is solved in uniform parts: give their number in `parts` or \
@@ -105,7 +105,7 @@ impl<'r> Tapers<'r> {
     }
 }
 
-/// Adds a fault where the number of parts is out of range.
+/// Adds a fault if the number of parts is out of range.
 fn check_parts(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
     if !(1..=MAX_PARTS).contains(&parts) {
         let fault = Fault::new(at, format!("must be from 1 to {MAX_PARTS}")).got(parts);

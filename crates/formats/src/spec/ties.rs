@@ -1,11 +1,12 @@
-//! Rails on elastic ties, over the rails of a structure or over the ground, as specs of the general form.
+//! Rails on elastic ties, on the rails of a structure or on the ground, as specs of the general form.
 //!
-//! [`on_ground`] makes a spec of a rail alone: points at the ties and between them, beams of the rail's section, a
-//! spring to the ground at every tie. [`on_structure`] lays a rail over each rail of a structure in four steps: the
-//! place of every tie on the members of the structure is found (`Seat`); members are split there (`split`); the new
-//! rail is laid along the line of the structure's rail (`lay`); between the two, a truss member of the tie's stiffness
-//! leads from the rail's point through a rigid arm to the point of the structure. Every rail must run along a global
-//! axis, since supports, which keep the new rail from moving along itself, exist for global axes alone.
+//! [`on_ground`] builds a spec of the rail alone: points at the ties and between them, beams with the section of the
+//! rail, and a spring to the ground at every tie. [`on_structure`] adds a rail above each rail of a structure in four
+//! steps. First, the position of every tie on the members of the structure is determined (`Seat`). Second, the
+//! members are split there (`split`). Third, the new rail is added along the line of the rail of the structure
+//! (`lay`). Fourth, the two are connected at every tie by a truss member with the stiffness of the tie, from the
+//! point of the new rail to the point of the structure, with a rigid arm at the latter. Every rail must be parallel
+//! to a global axis, because the supports that restrain the new rail longitudinally exist for global axes only.
 
 use fea::{
     BeamTheory, CrossSection, Dof, GroundSpring, Member, Model, PointMass, Rail, RailSegment, Support,
@@ -18,18 +19,19 @@ pub use super::structure::Pad;
 use super::structure::{Form, FrameSpec, GIRDER_RAIL, Spec};
 use crate::units::Units;
 
-/// Most elements of one rail: bays between ties times elements per bay.
+/// Maximum number of elements of one rail: bays between ties times elements per bay.
 pub const MAX_ELEMENTS: f64 = 2000.0;
-/// Number of stations of a rail over the ground, approximately.
+/// Approximate number of stations of a rail on the ground.
 const STATIONS: usize = 50;
-/// Places closer than this fraction of a length (of the member, or of the spacing of ties) are one place.
+/// Distance, as a fraction of a length (of the member, or of the spacing of ties), below which two positions are
+/// considered equal.
 const SAME: f64 = 1e-9;
 
 /// A rail and the ties under it, in one system of units.
 ///
-/// Every tie is a vertical spring `k` under the axis of the rail with a damper `c` beside it and, where the rail may
-/// bend laterally, a lateral spring `lateral_k`; its mass moves with the rail. At every tie the rail is restrained
-/// longitudinally and against roll by the ground.
+/// Every tie is a vertical spring `k` below the axis of the rail, with a damper `c` in parallel. If the rail may bend
+/// laterally, the tie also has a lateral spring `lateral_k`. The mass of the tie moves with the rail. At every tie
+/// the ground restrains the rail longitudinally and against roll.
 ///
 /// ```
 /// use formats::spec::ties::{Ties, on_ground};
@@ -49,11 +51,11 @@ const SAME: f64 = 1e-9;
 pub struct Ties {
     /// Distance between ties, length.
     pub spacing: f64,
-    /// Coordinate of the first tie, length; `None`: at the beginning of the rail.
+    /// Coordinate of the first tie, length; `None` for a tie at the beginning of the rail.
     pub first: Option<f64>,
     /// Vertical stiffness of one tie, force/length.
     pub k: f64,
-    /// Lateral stiffness of one tie, force/length; `None`: the rail is laterally fixed.
+    /// Lateral stiffness of one tie, force/length; `None` if the rail is laterally fixed.
     pub lateral_k: Option<f64>,
     /// Vertical damping coefficient of one tie, force time/length.
     pub c: f64,
@@ -76,7 +78,7 @@ impl Ties {
     fn places(&self, [first, last]: [f64; 2]) -> Result<Vec<f64>, TiesError> {
         let start = self.first.unwrap_or(first);
         let slack = SAME * self.spacing;
-        // two ties at least
+        // at least two ties are required
         if start < first - slack || start + self.spacing > last + slack {
             return Err(TiesError::Few { range: [first, last] });
         }
@@ -89,7 +91,7 @@ impl Ties {
     }
 }
 
-/// Why ties cannot be laid.
+/// The reason why a rail on ties cannot be built.
 #[derive(Clone, Copy, Debug, Error, PartialEq)]
 pub enum TiesError {
     /// Fewer than two ties on a rail.
@@ -98,10 +100,10 @@ pub enum TiesError {
         /// First and last coordinate of the rail.
         range: [f64; 2],
     },
-    /// More than [`MAX_ELEMENTS`] elements of rail.
+    /// More than [`MAX_ELEMENTS`] elements of a rail.
     #[error("must leave at most {MAX_ELEMENTS} elements of rail, got {bays}")]
     Many {
-        /// Number of elements there would be.
+        /// Number of elements that would be required.
         bays: f64,
     },
     /// A tie at the end of a member that has releases.
@@ -112,7 +114,7 @@ pub enum TiesError {
         /// Index of the member.
         cell: usize,
     },
-    /// A rail that no global axis follows.
+    /// A rail that is not parallel to a global axis.
     #[error("rail {rail} must run along a global axis, square to `up`")]
     Oblique {
         /// Index of the rail.
@@ -123,7 +125,7 @@ pub enum TiesError {
     Model,
 }
 
-/// A rail on ties over the ground, from coordinate `range[0]` to `range[1]`, as a spec of this name.
+/// A rail on ties on the ground, from coordinate `range[0]` to `range[1]`, as a spec with this name.
 ///
 /// # Errors
 /// Fewer than two ties; more than [`MAX_ELEMENTS`] elements.
@@ -157,15 +159,15 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
     Ok(Spec { name, units, theory: BeamTheory::EulerBernoulli, form, effects: Vec::new() })
 }
 
-/// The structure with a rail on ties over each of its rails. The new rails have the names, coordinates and stations of
-/// the structure's own.
+/// The structure with a rail on ties above each of its rails. The new rails have the names, coordinates and stations
+/// of the rails of the structure.
 ///
-/// Members are split where ties stand. Pads are truss members of the stiffness `k` with rigid arms to the structure, so
-/// that the base of a pad moves as the structure's own rail does at that place.
+/// Members are split at the ties. Pads are truss members of the stiffness `k` with rigid arms to the structure, so
+/// that the base of a pad moves as the rail of the structure does at that position.
 ///
 /// # Errors
-/// Fewer than two ties on a rail, or more than [`MAX_ELEMENTS`] elements; a tie at a hinge; a rail that does not run along a
-/// global axis; a structure without a model.
+/// Fewer than two ties on a rail, or more than [`MAX_ELEMENTS`] elements; a tie at a hinge; a rail that is not
+/// parallel to a global axis; a structure without a model.
 pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     let (model, rails) = spec.model().map_err(|_| TiesError::Model)?;
     let mut seats = Vec::new();
@@ -190,7 +192,7 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     for (rail, (mut line, places, outline)) in rails.iter().zip(lines) {
         let own: Vec<_> = seated.by_ref().take(places.len()).collect();
         if let Some((seat, _)) = own.first() {
-            // the new rail's axis goes through the structure's rail at the first tie
+            // the axis of the new rail intersects the rail of the structure at the first tie
             let off = seat.place - line.origin;
             line.origin += off - line.x * off.dot(&line.x);
         }
@@ -253,7 +255,7 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
 }
 
-/// The straight line of a rail: a place on it, its direction x and its upward direction y, unit vectors.
+/// The straight line of a rail: a point on it, its direction x and its upward direction y, both unit vectors.
 struct Line {
     origin: Vector3<f64>,
     x: Vector3<f64>,
@@ -261,7 +263,7 @@ struct Line {
 }
 
 impl Line {
-    /// The line of a rail; `None` unless x and y lie along global axes and are perpendicular.
+    /// The line of a rail; `None` unless x and y are parallel to global axes and perpendicular to each other.
     fn of(model: &Model, rail: &Rail) -> Option<Line> {
         let unit = |vector: [f64; 3]| {
             let unit = Vector3::from(vector).normalize();
@@ -273,9 +275,9 @@ impl Line {
     }
 }
 
-/// Adds a rail along `summary` to a model: points at the ends of `range`, at the ties and, with several elements per bay,
-/// between them; beams of the rail's section between these; and the segments of `rail`. The result are the points at
-/// the ties, in the order of `places`.
+/// Adds a rail along `line` to a model: points at the ends of `range`, at the ties and, if there are several elements
+/// per bay, between them; beams with the section of the rail between these points; and the segments of `rail`. The
+/// result is the list of points at the ties, in the order of `places`.
 fn lay(
     model: &mut Model,
     rail: &mut Rail,
@@ -320,8 +322,8 @@ fn lay(
     at_ties
 }
 
-/// Restrains a point of the rail longitudinally and against roll and, where the rail is laterally fixed, against
-/// lateral motion and bending too; adds the mass of the tie.
+/// Restrains a point of the rail longitudinally and against roll. If the rail is laterally fixed, lateral
+/// displacement and lateral bending are restrained too. Adds the mass of the tie.
 fn restrain(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
     let z = line.x.cross(&line.y);
     let plane = ties.lateral_k.is_none();
@@ -336,20 +338,20 @@ fn restrain(model: &mut Model, ties: &Ties, point: usize, line: &Line) {
     }
 }
 
-/// The place of a tie on a structure.
+/// The position of a tie on a structure.
 struct Seat {
     /// Coordinate along the rail.
     x: f64,
     /// Index of the member that carries it.
     member: usize,
-    /// Place along the member's flexible part, as a fraction of its length.
+    /// Position along the flexible part of the member, as a fraction of its length.
     fraction: f64,
-    /// Position of the structure's rail there.
+    /// Position of the rail of the structure there.
     place: Vector3<f64>,
 }
 
 impl Seat {
-    /// The place of coordinate `x` on the segment nearest to it along the rail; `None` of a rail without segments.
+    /// The position of coordinate `x` on the nearest segment along the rail; `None` for a rail without segments.
     fn of(model: &Model, rail: &Rail, line: &Line, x: f64) -> Option<Seat> {
         let seats = rail.segments.iter().filter_map(|segment| {
             let member = model.members.get(segment.member)?;
@@ -367,7 +369,7 @@ impl Seat {
             let away = (x - from - (to - from) * fraction).abs();
             Some((away, Seat { x, member: segment.member, fraction, place }))
         });
-        // of two segments equally near, the first
+        // if two segments are equally near, the first is taken
         let nearest =
             seats.reduce(|best, other| if other.0 < best.0 - SAME * x.abs().max(1.0) { other } else { best });
         nearest.map(|(_, seat)| seat)
@@ -379,17 +381,17 @@ fn ends(model: &Model, member: &Member) -> [Vector3<f64>; 2] {
     [0, 1].map(|k| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]))
 }
 
-/// For each part of a split member the index of the member, and where the part begins and ends along its flexible part,
-/// as fractions.
+/// Index of the member for each part of a split member, and the beginning and end of the part along the flexible part
+/// of the member, as fractions.
 type Parts = Vec<(usize, [f64; 2])>;
 
-/// The model with its members split at the seats, the point of each seat, and the parts.
+/// Splits the members of a model at the seats. Returns the model, the point of each seat, and the parts.
 ///
-/// A seat at the end of a member takes the point there, others a new point on the member's axis. Inner ends of parts
-/// have neither offsets nor releases.
+/// A seat at the end of a member uses the existing point; every other seat has a new point on the axis of the member.
+/// Inner ends of parts have neither offsets nor releases.
 ///
 /// # Errors
-/// A seat at an end that has releases: a hinge there would be on both sides of the tie or on neither.
+/// A seat at an end with releases, because it would be ambiguous on which side of the tie the hinge is.
 fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), TiesError> {
     let mut model = Model { members: Vec::new(), ..m.clone() };
     let mut points = vec![0; seats.len()];
@@ -434,7 +436,7 @@ fn split(m: &Model, seats: &[Seat]) -> Result<(Model, Vec<usize>, Parts), TiesEr
     Ok((model, points, parts))
 }
 
-/// A cut, moved to the part of its member that it is on.
+/// Moves a cut to the part of its member that contains it.
 fn on_part(cut: &Cut, parts: &[(usize, [f64; 2])]) -> Cut {
     let own = parts.iter().enumerate().filter(|(_, (member, _))| *member == cut.member);
     let part = own.into_iter().rfind(|(_, (_, range))| range[0] <= cut.place);

@@ -1,12 +1,12 @@
-//! Words of specs and grid files for beam theories, degrees of freedom and internal forces.
+//! Keywords for beam theories, degrees of freedom and internal forces in specs and grid files.
 
 use fea::{BeamTheory, Dof, ForceComponent};
 
-/// Words of the beam theories.
+/// Keywords of the beam theories.
 pub const THEORIES: [(&str, BeamTheory); 2] =
     [("euler-bernoulli", BeamTheory::EulerBernoulli), ("timoshenko", BeamTheory::Timoshenko)];
 
-/// The word of a beam theory in files.
+/// The keyword of a beam theory in files.
 #[must_use]
 pub const fn theory_word(theory: BeamTheory) -> &'static str {
     match theory {
@@ -15,11 +15,11 @@ pub const fn theory_word(theory: BeamTheory) -> &'static str {
     }
 }
 
-/// Words of the degrees of freedom of points and of the ends of members.
+/// Keywords of the degrees of freedom of points and of the ends of members.
 pub(super) const FREEDOMS: [(&str, Dof); 6] =
     [("ux", Dof::Ux), ("uy", Dof::Uy), ("uz", Dof::Uz), ("rx", Dof::Rx), ("ry", Dof::Ry), ("rz", Dof::Rz)];
 
-/// Words of the components of an internal force, in the member's local axes.
+/// Keywords of the components of an internal force, in the local axes of the member.
 pub const COMPONENTS: [(&str, ForceComponent); 6] = [
     ("N", ForceComponent::Axial),
     ("Vy", ForceComponent::ShearY),

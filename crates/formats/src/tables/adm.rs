@@ -11,7 +11,7 @@ use crate::text::source::Source;
 use crate::units::{Dimension, Units};
 
 impl TableSet {
-    /// The tables as SPLINE statements; all of them extrapolate linearly.
+    /// The tables as SPLINE statements, all with linear extrapolation.
     pub(super) fn adams(&self) -> Tables {
         let unit = self.units.label(Dimension::FLEXIBILITY);
         let spline = |table: &Table| Spline {
@@ -29,7 +29,7 @@ impl TableSet {
     }
 }
 
-/// The tables of SPLINE statements.
+/// Converts SPLINE statements to tables.
 pub(super) fn drafts(splines: Vec<Spline>) -> Vec<Draft> {
     let draft = |spline: Spline| Draft {
         id: Some(spline.id),
@@ -40,10 +40,10 @@ pub(super) fn drafts(splines: Vec<Spline>) -> Vec<Draft> {
     splines.into_iter().map(draft).collect()
 }
 
-/// What stands between the structure's name and the unit of the values in the title of a data set.
+/// Text between the name of the structure and the unit of the values in the title of a data set.
 const TITLE: &str = ": influence coefficients, ";
 
-/// The structure's name in the title of a data set: of ours, of Adams View, or any other.
+/// The name of the structure in the title of a data set written by this program, by Adams View or by another program.
 fn name_of_title(title: &str) -> &str {
     let own = title.split_once(TITLE).map(|(name, _)| name);
     own.or_else(|| title.strip_prefix("Adams View model name: ")).unwrap_or(title).trim()
@@ -55,20 +55,20 @@ pub fn data_set(grid: &StationGrid) -> Tables {
     TableSet::of_grid(grid).adams()
 }
 
-/// The tables of a grid as the text of an ADAMS data set, for a structure called `name`; `None` where no rail has the
-/// four stations that a SPLINE needs.
+/// The tables of a grid as the text of an ADAMS data set for the structure `name`. The result is `None` if no rail
+/// has the four stations that a SPLINE requires.
 ///
 /// # Errors
-/// More tables than there are identifiers.
+/// More tables than available identifiers.
 pub fn adm(name: &str, grid: &StationGrid) -> Result<Option<String>, adams::Error> {
     let set = data_set(&StationGrid { name: name.to_owned(), ..grid.clone() });
     if set.splines.is_empty() { Ok(None) } else { adams::tables::write(&set).map(Some) }
 }
 
-/// The text of a data set: UNITS and SPLINE statements, with the products in comments at its head.
+/// The text of a data set: comments with the products, followed by UNITS and SPLINE statements.
 ///
 /// # Errors
-/// Two tables of one number.
+/// Two tables with the same number.
 pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     let tables = set.adams();
     let mut statements: Vec<_> = tables.units.iter().map(adams::AdamsUnits::statement).collect();
@@ -89,7 +89,7 @@ pub(super) fn remarks(set: &TableSet) -> Vec<String> {
     std::iter::once(head).chain(set.products.iter().map(Product::expression)).collect()
 }
 
-/// The text of the comment lines, which begin with `mark`.
+/// The text of the comment lines, which are the lines that begin with `mark`.
 pub(super) fn comments(text: &str, mark: char) -> String {
     let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix(mark));
     lines.collect::<Vec<_>>().join("\n")
@@ -112,7 +112,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     })
 }
 
-/// An error of `adams` with its place in the file.
+/// Converts an error of `adams` to a diagnostic with its position in the file.
 pub(super) fn unreadable(source: &Source, error: &adams::Error) -> Diagnostic {
     match error {
         adams::Error::At { line, column, fault } => Diagnostic {

@@ -1,4 +1,4 @@
-//! Checks of a table's numbers, by row and column, whatever the format.
+//! Checks of the numbers of a table, independent of the file format.
 
 use adams::SplineValues;
 
@@ -21,7 +21,7 @@ pub(super) enum Part {
     Value(usize, usize),
 }
 
-/// What is wrong with a table: where, what is expected, what was found.
+/// A defect of a table: its location, the requirement, and the value found.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Defect {
     pub part: Part,
@@ -36,11 +36,12 @@ impl Defect {
     }
 }
 
-/// The table of these numbers: `x` and `z` increasing, `values` a row for each z (one row where `z` is empty).
+/// Makes a table of these numbers. `x` and `z` must increase; `values` has a row for each z, or one row if `z` is
+/// empty.
 ///
 /// # Errors
-/// The first defect: fewer than four x, places that do not increase, rows of another length, numbers that are not
-/// finite.
+/// The first defect: fewer than four x, coordinates that do not increase, rows of a wrong length, or numbers that are
+/// not finite.
 pub(super) fn checked(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result<SplineValues, Defect> {
     if x.len() < SplineValues::MIN_POINTS {
         let expected = format!("must have at least {} x", SplineValues::MIN_POINTS);
@@ -78,7 +79,8 @@ pub(super) fn checked(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result
     })
 }
 
-/// What is wrong with the last of these rows (x, value): x must not fall, and only two rows, a step, may be at one x.
+/// Describes why the last of these rows (x, value) is invalid. x must not decrease, and at most two rows, which form
+/// a step, may have the same x.
 pub(crate) fn disorder(rows: &[[f64; 2]]) -> Option<String> {
     match rows {
         [.., before, last] if last[0] < before[0] => {

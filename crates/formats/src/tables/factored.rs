@@ -1,9 +1,9 @@
-//! The factored form of tables: G as a sum of products of curves along the rails.
+//! The factored form of influence tables: G as a sum of products of curves along the rails.
 //!
-//! The tables of all directions that are coupled are the blocks of one symmetric matrix over the stations of these
-//! directions. Its eigenvectors, scaled by the square roots of the eigenvalues, are the curves phi_k, and
-//! G(x, z) = sum over k of phi_k(x) phi_k(z); the smallest eigenvalues may be dropped. [`factor`] decomposes,
-//! [`expand`] multiplies out at the stations.
+//! All tables of coupled directions are the blocks of one symmetric matrix over the stations of these directions. Let
+//! lambda_k be its eigenvalues and v_k its eigenvectors. The curves are phi_k = sqrt(lambda_k) v_k, and G(x, z) = sum
+//! over k of phi_k(x) phi_k(z). The smallest eigenvalues may be dropped. [`factor`] computes the decomposition, and
+//! [`expand`] evaluates the sums at the stations.
 
 use adams::SplineValues;
 use nalgebra::DMatrix;
@@ -20,37 +20,38 @@ use crate::grid::{GridBlock, GridRail, axes};
 /// Index of a rail, and the axis of a displacement or load on it.
 type Direction = (usize, Axis);
 
-/// Tables in the factored form, and how far they deviate from the given ones.
+/// Tables in the factored form, and their deviation from the original tables.
 #[derive(Clone, Debug)]
 pub struct FactoredTables {
     /// The factored form.
     pub set: TableSet,
-    /// For each set of coupled directions, the number of products kept and the number of eigenvalues above rounding.
+    /// For each set of coupled directions, the number of retained products and the number of eigenvalues above
+    /// rounding.
     pub ranks: Vec<[usize; 2]>,
-    /// Largest deviation from the given tables at their stations.
+    /// Largest deviation from the original tables at their stations.
     pub stations: TableDeviation,
-    /// Numbers of the tables left out: those of a rail with fewer stations than a curve needs, and couplings that are
-    /// zero.
+    /// Numbers of the omitted tables: those of a rail with fewer stations than a curve requires, and couplings that
+    /// are zero.
     pub skipped: Vec<u32>,
     form: FactoredTable,
-    /// For each product the directions of deflection and load.
+    /// The directions of deflection and load of each product.
     directions: Vec<[Direction; 2]>,
     /// Names of the rails.
     rails: Vec<String>,
 }
 
-/// The rails of tables, and for each table the directions of deflection and load.
+/// The rails of the tables, and the directions of deflection and load of each table.
 struct Directions {
     rails: Vec<String>,
     of_tables: Vec<[Direction; 2]>,
 }
 
-/// Decomposes the tables into products of curves along the rails, each to be read by CUBSPL. `rank` says how many
-/// products are kept.
+/// Decomposes the tables into products of curves along the rails, which CUBSPL can interpolate. `rank` determines the
+/// number of retained products.
 ///
 /// # Errors
-/// No table with four stations both ways; a table whose rails or directions are not known; tables that are all zero, or
-/// that have no such form, as a matrix with negative eigenvalues.
+/// No table with four stations in both directions; a table whose rails or directions are unknown; tables that are all
+/// zero; tables without a factored form, such as those of a matrix with negative eigenvalues.
 pub fn factor(set: &TableSet, rank: Rank) -> Result<FactoredTables, FactorError> {
     let (tables, skipped): (Vec<&Table>, Vec<&Table>) = set.tables.iter().partition(|table| {
         let relates = |quantity: GridBlock| quantity.direct() != [quantity; 2];
@@ -100,7 +101,7 @@ pub fn factor(set: &TableSet, rank: Rank) -> Result<FactoredTables, FactorError>
     })
 }
 
-/// Number of dropped eigenvalues above the rounding error of the largest.
+/// Number of dropped eigenvalues that exceed the rounding error of the largest one.
 fn significant(factor: &TableFactor) -> usize {
     let largest = factor.kept.first().copied().unwrap_or(0.0);
     factor.dropped.iter().filter(|value| value.abs() > 1e-15 * factor.dropped.len() as f64 * largest).count()
@@ -112,7 +113,7 @@ pub enum FactorError {
     /// No table with four stations along x and along z.
     #[error("there is no table of four stations both ways")]
     Empty,
-    /// A table whose rails or directions are not known.
+    /// A table whose rails or directions are unknown.
     #[error(
         "SPLINE/{id} does not say which directions of which rails it relates, and its x differ from its z"
     )]
@@ -128,8 +129,8 @@ pub enum FactorError {
     Splines(#[from] splines::Error),
 }
 
-/// Directions of the tables. A table without rails belongs to the one unnamed rail where no other such table has its
-/// quantity. A table without quantity, if its x are its z, is that of a rail of its own.
+/// Determines the directions of the tables. A table without rails belongs to a single unnamed rail unless another
+/// such table has the same quantity. A table without quantity is assigned a rail of its own if its x and z are equal.
 fn directions(tables: &[&Table]) -> Result<Directions, FactorError> {
     let mut rails: Vec<String> = Vec::new();
     let mut number = |name: String| {
@@ -166,8 +167,8 @@ fn directions(tables: &[&Table]) -> Result<Directions, FactorError> {
     Ok(Directions { rails, of_tables })
 }
 
-/// The curves of every direction as tables. The numbers of directions are steps of 100 (or more, where a direction has
-/// more curves) apart.
+/// The curves of all directions as tables. The numbers of consecutive directions differ by 100, or by more if a
+/// direction has more curves.
 fn curves_of(
     tables: &[&Table],
     directions: &[[Direction; 2]],
@@ -223,8 +224,8 @@ fn deviation(tables: &[&Table], factored: &TableSet) -> TableDeviation {
 }
 
 impl FactoredTables {
-    /// Deviation from the exact compliance at the stations and at three places between each two; `None` where a rail of
-    /// the tables is not among `rails`, those of the compliance.
+    /// Deviation from the exact compliance at the stations and at three points in each interval between them. `None`
+    /// if a rail of the tables is missing in `rails`, the rails of the compliance.
     #[must_use]
     pub fn deviation_from(&self, surface: &ExactSurface, rails: &[GridRail]) -> Option<TableDeviation> {
         let mut out = TableDeviation::default();
@@ -262,14 +263,14 @@ impl FactoredTables {
     }
 }
 
-/// The matrix of compliances between the places; `None` where one of them is off its rail.
+/// The matrix of compliances between the positions; `None` if one of them is not on its rail.
 fn filled(form: &dyn Compliance, at: &[Probe]) -> Option<DMatrix<f64>> {
     let mut out = Influence::zeros(at.len());
     form.fill(at, &mut out).ok()?;
     Some(out.value)
 }
 
-/// The stations, and three places between each two.
+/// The stations, and three points in each interval between them.
 fn places(stations: &[f64]) -> Vec<f64> {
     let between = |pair: &[f64]| {
         let (a, b) = (pair[0], pair[1]);
@@ -278,11 +279,11 @@ fn places(stations: &[f64]) -> Vec<f64> {
     stations.windows(2).flat_map(between).chain(stations.last().copied()).collect()
 }
 
-/// The tables in the plain form: the sums of products at the stations of the curves.
+/// Converts tables to the plain form by evaluating the sums of products at the stations of the curves.
 ///
-/// The natural spline is linear in its values, so that these tables, read by natural splines, equal the factored form
-/// at every place but for rounding. Tables of one curve that are in no product stay as they are, and so does a set in
-/// the plain form.
+/// The natural spline is linear in its values. These tables, interpolated by natural splines, therefore equal the
+/// factored form everywhere except for rounding. Tables of one curve that belong to no product are unchanged, and so
+/// is a set in the plain form.
 #[must_use]
 pub fn expand(set: &TableSet) -> TableSet {
     if set.products.is_empty() {
@@ -331,12 +332,12 @@ pub fn expand(set: &TableSet) -> TableSet {
 pub struct TableDeviation {
     /// |difference| / largest |value|.
     pub largest: f64,
-    /// Name of the table, x and z where it is.
+    /// Name of the table, and x and z of the largest difference.
     pub at: Option<(String, f64, f64)>,
 }
 
 impl TableDeviation {
-    /// Takes a relative difference into account.
+    /// Updates the largest relative difference.
     fn take(&mut self, name: &str, x: f64, z: f64, error: f64) {
         if error > self.largest || self.at.is_none() {
             (self.largest, self.at) = (error, Some((name.to_owned(), x, z)));

@@ -1,4 +1,4 @@
-//! The formats of tables: which one a file has, and reading and writing it.
+//! The formats of tables: detection of the format, reading and writing.
 
 use std::path::Path;
 
@@ -31,10 +31,10 @@ pub enum TableFormat {
 }
 
 impl TableFormat {
-    /// The format of a file by the ending of its name.
+    /// The format of a file, from the extension of its name.
     ///
     /// # Errors
-    /// An ending that is none of `.adm`, `.cmd`, `.csv`, `.json` and `.npz`.
+    /// An extension other than `.adm`, `.cmd`, `.csv`, `.json` and `.npz`.
     pub fn of(name: &str) -> Result<TableFormat, Box<Diagnostic>> {
         let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy().to_lowercase());
         match ending.as_deref().unwrap_or_default() {
@@ -54,7 +54,7 @@ impl TableFormat {
 /// Why tables cannot be written.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// The tables give no valid SPLINE statements, such as two of one number.
+    /// The tables cannot be written as valid SPLINE statements, for example because two have the same number.
     #[error(transparent)]
     Adams(#[from] adams::Error),
     /// The archive cannot be written.
@@ -62,10 +62,10 @@ pub enum WriteError {
     Archive(#[from] ZipError),
 }
 
-/// The bytes of a file of tables. Equal tables give equal bytes.
+/// The bytes of a file of tables. Equal tables result in equal bytes.
 ///
 /// # Errors
-/// Two tables of one number; an archive that cannot be written.
+/// Two tables with the same number; an archive that cannot be written.
 pub fn write(set: &TableSet, format: TableFormat) -> Result<Vec<u8>, WriteError> {
     match format {
         TableFormat::Adams => Ok(adm::write(set)?.into_bytes()),
@@ -76,13 +76,13 @@ pub fn write(set: &TableSet, format: TableFormat) -> Result<Vec<u8>, WriteError>
     }
 }
 
-/// Reads the tables of a file, in the format that the ending of its name says.
+/// Reads the tables of a file. The format follows from the extension of its name.
 ///
-/// `units` are those of the numbers where the file says none.
+/// `units` are the units of the numbers if the file does not specify them.
 ///
 /// # Errors
-/// What is wrong, by line and column, path, or array and index; units that are missing in both the file and `units`, or
-/// that differ.
+/// The faults of the file, located by line and column, by path, or by array and index; units that are missing in both
+/// the file and `units`, or that differ.
 pub fn read(name: &str, bytes: &[u8], units: Option<Units>) -> Result<TableSet, Vec<Diagnostic>> {
     let parsed = parse(name, bytes)?;
     let units = match (parsed.units, units) {
@@ -102,24 +102,24 @@ pub fn read(name: &str, bytes: &[u8], units: Option<Units>) -> Result<TableSet, 
     Ok(parsed.set(units))
 }
 
-/// The tables of a file in the plain form, for inspection: the file need not say its units.
+/// The tables of a file in the plain form, for inspection. The file need not specify its units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Contents {
-    /// Units, where the file says them.
+    /// Units, if the file specifies them.
     pub units: Option<Units>,
-    /// The tables, each with whether ADAMS is to extrapolate it linearly beyond its ends, where the file says so.
+    /// The tables. The flag of each table specifies linear extrapolation in ADAMS, if the file contains it.
     pub tables: Vec<(Table, Option<bool>)>,
 }
 
-/// Reads the tables of a file for inspection, in the format that the ending of its name says.
+/// Reads the tables of a file for inspection. The format follows from the extension of its name.
 ///
 /// # Errors
-/// What is wrong with the file; missing units are no fault.
+/// The faults of the file. Missing units are not a fault.
 pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
     let parsed = parse(name, bytes)?;
     let units = parsed.units;
     let linear: Vec<Option<bool>> = parsed.drafts.iter().map(|draft| draft.linear_extrapolate).collect();
-    // the numbers are those of the file whatever the units
+    // no conversion takes place, so the choice of units has no effect on the numbers
     let set = parsed.set(units.unwrap_or(Units::SI));
     let extrapolate =
         |k: usize| if set.products.is_empty() { linear.get(k).copied().flatten() } else { None };
@@ -128,7 +128,7 @@ pub fn contents(name: &str, bytes: &[u8]) -> Result<Contents, Vec<Diagnostic>> {
     Ok(Contents { units, tables })
 }
 
-/// Reads a file as it is.
+/// Reads a file without conversion of units.
 fn parse(name: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     let format = TableFormat::of(name).map_err(|error| vec![*error])?;
     if format == TableFormat::Npz {
@@ -143,7 +143,8 @@ fn parse(name: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     }
 }
 
-/// Whether a file is one of tables and not a grid file: by the ending of its name, and of JSON also by its members.
+/// Whether a file contains tables and is not a grid file. The extension of its name decides, and for JSON also its
+/// members.
 #[must_use]
 pub fn is_tables(name: &str, bytes: &[u8]) -> bool {
     #[derive(Deserialize)]

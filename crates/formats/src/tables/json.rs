@@ -1,4 +1,4 @@
-//! Tables as JSON: `girderway-tables/1`, or one table as `x`, `z` and `values`.
+//! Tables as JSON: `girderway-tables/1`, or a single table as `x`, `z` and `values`.
 
 use std::fmt::Write;
 
@@ -22,7 +22,7 @@ crate::text::object::objects!(RawSet, RawTable, RawProduct);
 /// Value of the member `format`: name and version of the format.
 pub(super) const FORMAT: &str = "girderway-tables/1";
 
-/// The text: one row of values per line, every number in the fewest digits that give it back.
+/// The text, with one row of values per line and every number in its shortest exact decimal form.
 pub(super) fn write(set: &TableSet) -> String {
     let mut text = format!("{{\n  \"format\": \"{FORMAT}\",\n  \"name\": {},\n", json!(set.name));
     // writing to a string cannot fail
@@ -60,7 +60,7 @@ pub(super) fn write(set: &TableSet) -> String {
     text
 }
 
-/// Adds quantity and rails, where they are known.
+/// Adds the quantity and the rails, if known.
 fn relation(object: &mut Map<String, Value>, quantity: Option<GridBlock>, rails: &Option<[String; 2]>) {
     if let Some(quantity) = quantity {
         object.insert("quantity".into(), json!(quantity.name()));
@@ -198,7 +198,7 @@ fn quantity(word: &Option<String>, at: &Place<'_>, faults: &mut Faults) -> Optio
     word.as_ref().and_then(|word| faults.one_of(word, &at.key("quantity"), &words))
 }
 
-/// A defect as a fault below `at`; `x` is the key of x.
+/// Converts a defect to a fault below `at`. `x` is the key of the x coordinates.
 fn placed(defect: Defect, at: &Place<'_>, x: &str) -> Fault {
     let (values, xs, zs) = (at.key("values"), at.key(x), at.key(if x == "x" { "z" } else { x }));
     let fault = |place: &Place<'_>| Fault {
@@ -216,7 +216,7 @@ fn placed(defect: Defect, at: &Place<'_>, x: &str) -> Fault {
     }
 }
 
-/// Checks that numbers of tables are positive and differ.
+/// Checks that the numbers of tables are positive and unique.
 fn check_ids(tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) {
     for (k, table) in tables.iter().enumerate() {
         let Some(id) = table.id else { continue };
@@ -229,7 +229,7 @@ fn check_ids(tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) {
     }
 }
 
-/// The products in `factored`, whose terms must be curves over the same x.
+/// Reads the products in `factored`. Their terms must be curves with the same x.
 fn read_products(raw: &RawSet, tables: &[RawTable], list: &Place<'_>, faults: &mut Faults) -> Vec<Product> {
     let mut out = Vec::new();
     for (k, raw) in raw.factored.iter().flatten().enumerate() {

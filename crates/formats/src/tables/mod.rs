@@ -1,8 +1,9 @@
-//! Influence tables as files, written and read.
+//! Reading and writing files of influence tables.
 //!
-//! A [`TableSet`] is what every format holds; [`read()`] and [`write()`] go by the ending of the file's name. From low
-//! to high: the tables (`set`), what a file says of them (`parsed`, `defect`), the formats (`adm`, `view`, `csv`,
-//! `json`, `npz`), the factored form (`factored`) and rounding (`round`), and the choice of the format (`format`).
+//! A [`TableSet`] is the content of a file in any format. [`read()`] and [`write()`] select the format by the
+//! extension of the file name. The modules from low to high are the tables (`set`), the content of a file before
+//! completion (`parsed`, `defect`), the formats (`adm`, `view`, `csv`, `json`, `npz`), the factored form (`factored`)
+//! and rounding (`round`), and the selection of the format (`format`).
 
 mod adm;
 mod csv;

@@ -1,4 +1,4 @@
-//! What a file of tables says, and how names, numbers and quantities that it leaves out are filled in.
+//! The content of a file of tables, and default names, numbers and quantities for missing ones.
 
 use adams::SplineValues;
 
@@ -10,19 +10,19 @@ use crate::units::Units;
 pub(super) struct Parsed {
     /// Name of the structure.
     pub name: String,
-    /// Units, where the file says them.
+    /// Units, if the file specifies them.
     pub units: Option<Units>,
     /// Message and hint for a file without units.
     pub missing_units: [&'static str; 2],
     pub drafts: Vec<Draft>,
     /// The comments of the file.
     pub comments: String,
-    /// The products, in formats that do not have them in comments.
+    /// The products, in formats that do not store them in comments.
     pub products: Vec<Product>,
 }
 
 impl Parsed {
-    /// The tables, with numbers in `units`.
+    /// Converts the content to tables whose numbers are in `units`.
     pub fn set(self, units: Units) -> TableSet {
         let mut set = TableSet::assemble(self.name, units, self.drafts, &self.comments);
         set.products.extend(self.products);
@@ -30,26 +30,26 @@ impl Parsed {
     }
 }
 
-/// A table as a file has it: some of its properties may be missing.
+/// A table as read from a file. Some of its properties may be missing.
 pub(super) struct Draft {
     pub id: Option<u32>,
     pub name: Option<String>,
     pub quantity: Option<GridBlock>,
     pub rails: Option<[String; 2]>,
-    /// Whether ADAMS is to extrapolate it linearly beyond its ends, where the file says so.
+    /// Whether ADAMS extrapolates it linearly beyond its ends, if the file specifies this.
     pub linear_extrapolate: Option<bool>,
     pub curves: SplineValues,
 }
 
 impl Draft {
-    /// A table of which nothing else is known.
+    /// A table without any other properties.
     pub fn of(curves: SplineValues) -> Draft {
         Draft { id: None, name: None, quantity: None, rails: None, linear_extrapolate: None, curves }
     }
 }
 
-/// A number for a table that has none, which is added to `used`: that of its quantity (SPLINE/6 to 11), or one above
-/// all used numbers.
+/// Chooses a number for a table that has none and adds it to `used`. It is the number of its quantity
+/// (SPLINE/6 to 11) if that is unused, and otherwise one above all used numbers and above 11.
 fn free(used: &mut Vec<u32>, quantity: Option<GridBlock>) -> u32 {
     let own = quantity.and_then(|quantity| GridBlock::ALL.into_iter().position(|one| one == quantity));
     let own = own.and_then(|index| u32::try_from(index).ok()).map(|index| FIRST + index);
@@ -61,8 +61,8 @@ fn free(used: &mut Vec<u32>, quantity: Option<GridBlock>) -> u32 {
 }
 
 impl TableSet {
-    /// The tables of a file, with numbers, names and quantities where it has none, and the products that its comments
-    /// state.
+    /// The tables of a file, with default numbers, names and quantities for missing ones, and with the products that
+    /// its comments state.
     pub(super) fn assemble(name: String, units: Units, drafts: Vec<Draft>, comments: &str) -> TableSet {
         let mut used: Vec<u32> = drafts.iter().filter_map(|draft| draft.id).collect();
         let mut tables = Vec::new();
@@ -82,7 +82,7 @@ impl TableSet {
     }
 }
 
-/// The quantity that the end of a name states, such as that of `north_vertical`.
+/// The quantity stated at the end of a name, such as `north_vertical`.
 fn quantity(name: &str) -> Option<GridBlock> {
     let ends = |quantity: &&GridBlock| {
         let before = name.strip_suffix(quantity.name());
@@ -92,7 +92,7 @@ fn quantity(name: &str) -> Option<GridBlock> {
 }
 
 impl Product {
-    /// The products that comments state in the form of [`Product::expression`]; lines may be broken at blanks.
+    /// Reads the products that comments state in the form of [`Product::expression`]. Lines may be broken at blanks.
     fn read(comments: &str) -> Vec<Product> {
         let words: Vec<&str> = comments.split_whitespace().collect();
         let mut out = Vec::new();
@@ -109,7 +109,7 @@ impl Product {
     }
 }
 
-/// The terms of `term + term + term`, up to the end of the sum; `None` where there is no term.
+/// The terms of `term + term + term`, up to the end of the sum; `None` if there is no term.
 fn sum_of(words: &[&str]) -> Option<Vec<[u32; 2]>> {
     if words.first() == Some(&"0") {
         return Some(Vec::new());

@@ -6,21 +6,21 @@ use serde_json::{Value, json};
 use super::set::{Table, TableSet};
 use crate::text::number::rounded;
 
-/// What rounding changed.
+/// The effect of rounding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rounding {
-    /// Significant digits kept.
+    /// Number of significant digits after rounding.
     pub digits: usize,
-    /// Largest relative change |rounded - given| / |given| over all values and stations.
+    /// Largest relative change |rounded - original| / |original| over all values and stations.
     pub largest: f64,
-    /// Where it is: number of the table, x, and z (`None` in a table of one curve), before rounding; `None` where no
-    /// number changed.
+    /// Location of the largest change: number of the table, x, and z (`None` in a table of one curve), before
+    /// rounding. `None` if no number changed.
     pub at: Option<(u32, f64, Option<f64>)>,
-    /// Whether stations changed too.
+    /// Whether stations were changed too.
     pub stations: bool,
 }
 
-/// Why tables cannot be rounded to so few digits.
+/// The reason why tables cannot be rounded to this number of digits.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum RoundError {
     /// A value that overflows when rounded.
@@ -60,7 +60,8 @@ impl Rounding {
     }
 }
 
-/// The tables with every number rounded to `digits` significant decimal digits, ties to even, and what that changed.
+/// Rounds every number of the tables to `digits` significant decimal digits, with ties to even, and reports the
+/// changes.
 ///
 /// # Errors
 /// A value that overflows; stations that become equal.
@@ -71,7 +72,7 @@ pub fn round(set: &TableSet, digits: usize) -> Result<(TableSet, Rounding), Roun
     Ok((TableSet { tables, ..set.clone() }, rounding))
 }
 
-/// Rounds a table, and takes each change into account in `rounding`.
+/// Rounds a table and records each change in `rounding`.
 fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, RoundError> {
     let id = table.id;
     let (x, z) = (table.curves.x(), table.curves.z());
@@ -81,7 +82,7 @@ fn table_rounded(table: &Table, rounding: &mut Rounding) -> Result<Table, RoundE
             return Err(RoundError::Overflow { id });
         }
         if nearest != value {
-            // value is not 0, which rounding does not change
+            // the value is not 0, because rounding does not change 0
             let error = ((nearest - value) / value).abs();
             rounding.stations |= station;
             if rounding.at.is_none() || error > rounding.largest {

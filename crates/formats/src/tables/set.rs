@@ -1,17 +1,17 @@
-//! Tables of one structure, in no particular format.
+//! The tables of one structure, independent of the file format.
 
 use adams::SplineValues;
 
 use crate::grid::{GridBlock, StationGrid};
 use crate::units::Units;
 
-/// Number of the first SPLINE: the paper's vertical table is SPLINE/6, its lateral one SPLINE/7.
+/// Number of the first SPLINE. In the paper the vertical table is SPLINE/6 and the lateral table SPLINE/7.
 pub(super) const FIRST: u32 = 6;
 
 /// Influence tables of one structure.
 ///
 /// In the plain form each table is G(x, z) itself, the deflection at z per unit load at x. In the factored form each
-/// table is one curve along a rail, and `products` say of which products of curves G is the sum.
+/// table is one curve along a rail, and G is the sum of the products of curves listed in `products`.
 ///
 /// ```
 /// use formats::tables::{TableFormat, expand, factor, read, write};
@@ -35,8 +35,8 @@ pub(super) const FIRST: u32 = 6;
 pub struct TableSet {
     /// Name of the structure.
     pub name: String,
-    /// Units of all numbers: stations in length, values in length per force, curves of the factored form in its square
-    /// root.
+    /// Units of all numbers. Stations are lengths and values are lengths per force; curves of the factored form have
+    /// the square root of the unit of values.
     pub units: Units,
     /// The tables, in the order of the file.
     pub tables: Vec<Table>,
@@ -51,22 +51,22 @@ pub struct Table {
     pub id: u32,
     /// Its name.
     pub name: String,
-    /// Which deflection it relates to which load, where that is known.
+    /// Quantity: the directions of deflection and load, if known.
     pub quantity: Option<GridBlock>,
-    /// Rail of the deflection and rail of the load, where they are known.
+    /// Rail of the deflection and rail of the load, if known.
     pub rails: Option<[String; 2]>,
-    /// x: place of the load; z: place of the deflection; y: values, a row for each z.
+    /// x: position of the load; z: position of the deflection; y: values, with a row for each z.
     pub curves: SplineValues,
 }
 
 impl TableSet {
     /// The tables of a grid.
     ///
-    /// SPLINE/6 holds the vertical grid, 7 the lateral, 8 the longitudinal one, 9 to 11 the couplings
-    /// vertical-lateral, vertical-longitudinal and lateral-longitudinal. Of several rails, the six tables of the first
-    /// rail with itself come first, then those of each other pair of rails; a direct block of two rails is written
-    /// once, as the other is its transpose. Rails with fewer than four stations, the fewest of a SPLINE, have no
-    /// tables.
+    /// SPLINE/6 is the vertical table, 7 the lateral and 8 the longitudinal one; 9 to 11 are the couplings
+    /// vertical-lateral, vertical-longitudinal and lateral-longitudinal. If there are several rails, the six tables
+    /// of the first rail with itself come first, followed by those of each other pair of rails. A direct block of two
+    /// different rails is written once, because the other one is its transpose. A rail with fewer than four stations,
+    /// the minimum of a SPLINE, has no tables.
     #[must_use]
     pub fn of_grid(grid: &StationGrid) -> TableSet {
         let mut tables = Vec::new();
@@ -108,26 +108,26 @@ impl TableSet {
         TableSet { name: grid.name.clone(), units: grid.units, tables, products: Vec::new() }
     }
 
-    /// The table with this number.
+    /// The table with the number `id`.
     #[must_use]
     pub fn table(&self, id: u32) -> Option<&Table> {
         self.tables.iter().find(|table| table.id == id)
     }
 }
 
-/// G(x, z) as a sum of products of curves, G(x, z) = sum over k of a_k(x) b_k(z), with the load at x and the deflection
-/// at z.
+/// G(x, z) as a sum of products of curves, G(x, z) = sum over k of a_k(x) b_k(z), with the load at x and the
+/// deflection at z.
 ///
-/// Each curve is read as ADAMS' CUBSPL does, by the natural cubic spline.
+/// Each curve is interpolated by the natural cubic spline, as in CUBSPL of ADAMS.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Product {
     /// Name of the table in the plain form.
     pub name: String,
-    /// Which deflection it relates to which load, where that is known.
+    /// Quantity: the directions of deflection and load, if known.
     pub quantity: Option<GridBlock>,
-    /// Rail of the deflection and rail of the load, where they are known.
+    /// Rail of the deflection and rail of the load, if known.
     pub rails: Option<[String; 2]>,
-    /// For each term the numbers of its two curves: the one over x, the one over z.
+    /// The numbers of the two curves of each term: the curve over x and the curve over z.
     pub terms: Vec<[u32; 2]>,
 }
 
@@ -142,8 +142,8 @@ impl Product {
     }
 }
 
-/// The tables whose deflections and loads are both of these directions (direct blocks): the direct tables and the
-/// couplings between them. In the factored form these are the products, and the curves of their terms.
+/// Selects the tables whose deflection and load are both in the given directions (direct blocks): the direct tables
+/// and the couplings between them. In the factored form these are the products and the curves of their terms.
 #[must_use]
 pub fn select(set: &TableSet, directions: &[GridBlock]) -> TableSet {
     let wanted = |quantity: Option<GridBlock>| {
@@ -160,7 +160,7 @@ pub fn select(set: &TableSet, directions: &[GridBlock]) -> TableSet {
     out
 }
 
-/// A name as data sets and Adams View can hold it: ASCII letters, digits and underscores, 56 at most.
+/// A name that is valid in data sets and in Adams View: ASCII letters, digits and underscores, at most 56 characters.
 pub(super) fn adams_name(name: &str) -> String {
     let name: String =
         name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).take(56).collect();

@@ -8,10 +8,10 @@ use crate::text::diagnostic::Diagnostic;
 use crate::text::source::Source;
 use crate::units::Units;
 
-/// The text of a command file: units, model and splines, with the products in comments at its head.
+/// The text of a command file: comments with the products, followed by units, model and splines.
 ///
 /// # Errors
-/// Two tables of one number.
+/// Two tables with the same number.
 pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     let mut tables = set.adams();
     tables.title = Some(view_name(&set.name));
@@ -21,7 +21,7 @@ pub(super) fn write(set: &TableSet) -> Result<String, adams::Error> {
     adams::view::write(&tables, &remarks(set))
 }
 
-/// A name as Adams View takes it: it does not begin with a digit.
+/// A name that is valid in Adams View: it does not begin with a digit.
 fn view_name(name: &str) -> String {
     let mut name = adams_name(name);
     if name.starts_with(|c: char| c.is_ascii_digit()) {

@@ -1,10 +1,11 @@
-//! From a located tree to the types of a format.
+//! Conversion of a located tree to the types of a format.
 //!
-//! A value is converted by serde. Where a value has the wrong type, or a key is unknown or given twice, the fault is
-//! kept with its place, the member or item is marked as left out, and the whole tree is converted once more without it,
-//! until nothing fails: derived types need no code of their own for that, and a right text is converted once.
-//! A value that fails only since something within it has been left out (a vector with too few items) is left out
-//! without a fault of its own. Where the text breaks off, the conversion stops.
+//! A value is converted by serde. If a value has the wrong type, or a key is unknown or duplicate, the fault is
+//! recorded with its place, and the member or item is marked as omitted. The whole tree is then converted again
+//! without it, and this is repeated until no further fault occurs. Derived types therefore need no code for error
+//! recovery, and a correct text is converted once. A value that fails only because a part of it has been omitted (for
+//! example a vector with too few items) is omitted without a fault of its own. The conversion stops where the text is
+//! truncated.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -18,7 +19,7 @@ use super::place::Place;
 use super::tree::{TreeMember, TreeNode, Value};
 use super::wording::{is_duplicate, type_fault};
 
-/// Largest number of faults that are collected from one text.
+/// Maximum number of faults that are collected from one text.
 const MOST: usize = 100;
 
 /// A fault of the conversion, with its place in the text.
@@ -26,14 +27,14 @@ const MOST: usize = 100;
 pub(crate) struct Located {
     /// What is wrong.
     pub fault: Fault,
-    /// Byte offset of the value or key that is meant.
+    /// Byte offset of the value or key that the fault concerns.
     pub offset: usize,
-    /// Byte offset of the first item too many, where that is what is wrong with a list.
+    /// Byte offset of the first surplus item, if a list is too long.
     pub excess: Option<usize>,
 }
 
-/// Converts a tree. The first fault is the first one of the text. Where there are faults, the members and items that they
-/// concern are left out of the value; there is no value where the rest cannot be converted either.
+/// Converts a tree. The first fault is the first one in the text. If there are faults, the members and items
+/// concerned are omitted from the value; there is no value if the remainder cannot be converted either.
 pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> (Option<T>, Vec<Located>) {
     let mut left_out = BTreeSet::new();
     let mut faults = Vec::new();
@@ -54,22 +55,22 @@ pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> (Op
     (None, faults)
 }
 
-/// Why a conversion stops.
+/// The reason why a conversion stops.
 #[derive(Debug)]
 enum Stop {
-    /// A message of serde that has no place yet.
+    /// A message of serde whose place has not been determined yet.
     Message(String),
-    /// A list has too many items; the first one too many begins at byte `offset`.
+    /// A list has too many items. The first surplus item begins at byte `offset`.
     Excess { items: usize, offset: usize },
-    /// The value that begins at byte `start` cannot be converted; without a fault of its own where that follows from
-    /// others.
+    /// The value that begins at byte `start` cannot be converted. It has no fault of its own if the failure is a
+    /// consequence of other faults.
     At { located: Option<Box<Located>>, start: usize },
-    /// The text breaks off here.
+    /// The text is truncated here.
     Broken,
 }
 
 impl Stop {
-    /// The same, placed at a value unless it has a place within it already.
+    /// Assigns the place of a value, unless a place within it has already been assigned.
     #[cold]
     fn at(self, reader: &Reader<'_, '_>) -> Stop {
         let node = reader.node;
@@ -93,7 +94,7 @@ impl Stop {
         Stop::At { located: (!follows).then(|| Box::new(located)), start: node.start }
     }
 
-    /// The same, placed at the key of a member.
+    /// Assigns the place of the key of a member.
     #[cold]
     fn at_key(self, member: &TreeMember<'_>, place: &Place<'_>) -> Stop {
         let Stop::Message(message) = self else { return self };
@@ -116,7 +117,7 @@ impl fmt::Display for Stop {
 
 impl std::error::Error for Stop {}
 
-/// Values as `serde_json` writes them in its messages.
+/// Displays values as `serde_json` writes them in its messages.
 struct Seen<'a>(Unexpected<'a>);
 
 impl fmt::Display for Seen<'_> {
@@ -151,7 +152,7 @@ impl de::Error for Stop {
 struct Reader<'a, 'de> {
     node: &'de TreeNode<'de>,
     place: &'a Place<'a>,
-    /// Where the values begin that are left out.
+    /// Byte offsets of the omitted values.
     left_out: &'a BTreeSet<usize>,
 }
 
@@ -160,7 +161,7 @@ impl<'de> Reader<'_, 'de> {
         !self.left_out.is_empty() && self.left_out.contains(&node.start)
     }
 
-    /// `value`, where the text of the list or object is complete.
+    /// Returns `value` if the text of the list or object is complete.
     fn closed<T>(&self, value: T) -> Result<T, Stop> {
         if self.node.is_whole() { Ok(value) } else { Err(Stop::Broken) }
     }
@@ -212,7 +213,7 @@ impl<'de> Deserializer<'de> for Reader<'_, 'de> {
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Stop> {
         match self.node.value {
-            // visitors of derived types would take a list too
+            // visitors of derived types would accept a list too
             Value::List(_) => Err(de::Error::invalid_type(Unexpected::Seq, &visitor)),
             _ => self.deserialize_any(visitor),
         }
@@ -320,7 +321,7 @@ mod tests {
         parts: Entries<Option<f64>>,
     }
 
-    /// The value, and `path: what is wrong @ what stands at the byte`.
+    /// The value, and the faults as `path: message @ text at the byte`.
     fn beam(text: &str) -> (Option<Beam>, Vec<String>) {
         let root = json::read(text).root;
         let (value, faults) = convert(&root);

@@ -1,10 +1,10 @@
-//! A located error: where, what was expected, what was found, what to do.
+//! An error with its place: what was expected, what was found, and what the user can do.
 
 use std::fmt;
 
 use serde::Serialize;
 
-/// One error of an input with its place in the file, as far as that is known.
+/// One error of an input with its place in the file, if known.
 ///
 /// ```
 /// use formats::text::diagnostic::Diagnostic;
@@ -14,24 +14,24 @@ use serde::Serialize;
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 pub struct Diagnostic {
-    /// The file, as the user named it (or as another input named it).
+    /// The file, as named by the user or by another input file.
     pub file: String,
-    /// Line, counted from 1; `None` where the file as a whole is meant.
+    /// Line, counted from 1; `None` if the error concerns the whole file.
     pub line: Option<usize>,
     /// Column in characters, counted from 1.
     pub column: Option<usize>,
     /// JSON path of the value, such as `girder.spans[1]`; empty for the file's root.
     pub path: String,
-    /// What would be right, such as `must be positive`.
+    /// The requirement, such as `must be positive`.
     pub expected: String,
-    /// What was found instead.
+    /// The value that was found.
     pub found: Option<String>,
     /// What the user can do about it.
     pub hint: Option<String>,
 }
 
 impl Diagnostic {
-    /// An error about a file as a whole: missing, unreadable, not writable.
+    /// An error that concerns a whole file: it is missing, cannot be read or cannot be written.
     #[must_use]
     pub fn of_file(file: impl Into<String>, expected: impl Into<String>) -> Self {
         Diagnostic {
@@ -45,7 +45,7 @@ impl Diagnostic {
         }
     }
 
-    /// The same with a hint.
+    /// Adds a hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use serde::de::{Deserialize, Deserializer, Error, MapAccess, Visitor};
 
-/// An object whose keys are names: keeps the file's order and refuses a name given twice.
+/// An object whose keys are names. It preserves the order of the file and rejects duplicate names.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entries<T>(pub Vec<(String, T)>);
 

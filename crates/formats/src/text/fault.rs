@@ -1,12 +1,12 @@
-//! Faults of a document by path; they are collected first and placed in the text afterwards.
+//! Faults of a document, identified by path. They are collected first and located in the text afterwards.
 
 pub use super::number::number;
 use super::place::{Path, Place};
 
-/// How the fault of a key given twice begins.
+/// Beginning of the message for a duplicate key.
 const DUPLICATE: &str = "duplicate key ";
 
-/// One thing wrong, by path; `Source::diagnose` finds its line and column.
+/// One fault, identified by its path. `Source::diagnose` determines its line and column.
 ///
 /// ```
 /// use formats::text::fault::Fault;
@@ -22,13 +22,13 @@ const DUPLICATE: &str = "duplicate key ";
 pub struct Fault {
     /// The value (or, with `at_key`, the key) that is wrong.
     pub path: Path,
-    /// Whether the key itself is meant, not its value.
+    /// Whether the fault concerns the key itself instead of its value.
     pub at_key: bool,
-    /// What would be right.
+    /// The requirement.
     pub expected: String,
-    /// What was found.
+    /// The value that was found.
     pub found: Option<String>,
-    /// What the user can do.
+    /// What the user can do about it.
     pub hint: Option<String>,
 }
 
@@ -39,7 +39,7 @@ impl Fault {
         Fault { path: place.path(), at_key: false, expected: expected.into(), found: None, hint: None }
     }
 
-    /// A key given twice in the object at `path`; it is placed where the key stands for the second time.
+    /// A duplicate key in the object at `path`. Its place is the second occurrence of the key.
     #[must_use]
     pub(super) fn duplicate(path: Path, key: &str) -> Self {
         let expected = format!("{DUPLICATE}`{key}`");
@@ -47,26 +47,26 @@ impl Fault {
         Fault { path, at_key: false, expected, found: None, hint }
     }
 
-    /// Whether it is a key given twice.
+    /// Whether the fault is a duplicate key.
     pub(super) fn is_duplicate(&self) -> bool {
         self.expected.starts_with(DUPLICATE)
     }
 
-    /// The same with the value that was found.
+    /// Adds the value that was found.
     #[must_use]
     pub fn got(mut self, found: impl ToString) -> Self {
         self.found = Some(found.to_string());
         self
     }
 
-    /// The same with a hint.
+    /// Adds a hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
-    /// The same, placed at the key instead of its value.
+    /// Places the fault at the key instead of its value.
     #[must_use]
     pub fn at_key(mut self) -> Self {
         self.at_key = true;
@@ -74,17 +74,17 @@ impl Fault {
     }
 }
 
-/// All faults of a document so far.
+/// All faults found in a document so far.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Faults(pub Vec<Fault>);
 
 impl Faults {
-    /// Adds one.
+    /// Adds a fault.
     pub fn add(&mut self, fault: Fault) {
         self.0.push(fault);
     }
 
-    /// `Some` where there is a value; a fault that names the missing key where there is none.
+    /// Returns the value if it is present; otherwise adds a fault for the missing key.
     pub fn require<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
         if value.is_none() {
             self.add(Fault::new(place, format!("missing key `{key}`")));
@@ -92,7 +92,8 @@ impl Faults {
         value.as_ref()
     }
 
-    /// One of a few words; unknown ones are a fault that lists them and suggests the nearest.
+    /// Returns the value of a keyword. An unknown keyword is a fault that lists the known ones and suggests the
+    /// nearest.
     pub fn one_of<T: Copy>(&mut self, found: &str, place: &Place<'_>, words: &[(&str, T)]) -> Option<T> {
         if let Some((_, value)) = words.iter().find(|(word, _)| *word == found) {
             return Some(*value);
@@ -107,12 +108,12 @@ impl Faults {
         None
     }
 
-    /// Adds the fault of a key that the format has and this version does not support.
+    /// Adds a fault for a key of the format that this version does not support.
     pub fn unavailable(&mut self, place: &Place<'_>, what: &str) {
         self.add(Fault::new(place, format!("{what} is not available in this version")).at_key());
     }
 
-    /// Whether numbers increase strictly; a fault of the first that does not where they do not.
+    /// Whether numbers increase strictly. If not, a fault is added for the first number that does not increase.
     pub fn increasing(&mut self, numbers: &[f64], place: &Place<'_>) -> bool {
         let descent = numbers.windows(2).position(|pair| pair[1] <= pair[0]);
         if let Some(first) = descent {
@@ -140,8 +141,9 @@ pub fn alternatives(words: &[&str]) -> String {
     }
 }
 
-/// The known word that a misspelt word most probably stands for: one that begins with it, or the one with the fewest
-/// edits, at most 1 to 3 by its length; none where there is no such word.
+/// The known word that a misspelt word most probably means: a word that begins with it, or otherwise the one with the
+/// smallest edit distance. The maximum distance is 1 to 3, depending on the length of the word; `None` if there is no
+/// such word.
 #[must_use]
 pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
     let allowed = match word.chars().count() {
@@ -163,7 +165,7 @@ pub fn nearest<'w>(word: &str, known: &[&'w str]) -> Option<&'w str> {
         .map(|(_, candidate)| candidate)
 }
 
-/// Edits between two words: insertions, deletions, substitutions, and exchanges of two neighbours.
+/// Edit distance between two words: insertions, deletions, substitutions, and transpositions of adjacent characters.
 fn distance(a: &str, b: &str) -> usize {
     let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
     let mut before: Vec<usize> = Vec::new();

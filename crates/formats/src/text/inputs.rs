@@ -1,4 +1,4 @@
-//! Input files: read once, remembered with their hashes.
+//! Input files: each is read once and stored with its hash.
 
 use std::path::{Path, PathBuf};
 
@@ -10,9 +10,9 @@ use super::source::Source;
 /// One input file of a job.
 #[derive(Clone, Debug)]
 pub struct Input {
-    /// As named by the user or by the file that refers to it.
+    /// Name used by the user or by the file that refers to it.
     pub name: String,
-    /// Its name in messages.
+    /// Name used in messages.
     pub display_name: String,
     /// SHA-256 of its bytes, in hexadecimal.
     pub sha256: String,
@@ -29,13 +29,13 @@ impl Input {
     /// Its text.
     ///
     /// # Errors
-    /// Bytes that are not UTF-8, placed in it.
+    /// Bytes that are not UTF-8, with their place.
     pub fn source(&self) -> Result<Source, Box<Diagnostic>> {
         Source::from_bytes(self.display_name.clone(), self.bytes.clone())
     }
 }
 
-/// The input files of a job; names are relative to the folder of the first.
+/// The input files of a job. Names are relative to the folder of the first file.
 #[derive(Clone, Debug, Default)]
 pub struct Inputs {
     folder: PathBuf,
@@ -43,7 +43,7 @@ pub struct Inputs {
 }
 
 impl Inputs {
-    /// Starts with the file that the user named.
+    /// Opens the file that the user named.
     ///
     /// # Errors
     /// A file that cannot be read or is not text.
@@ -53,7 +53,7 @@ impl Inputs {
         Ok((inputs, source))
     }
 
-    /// Starts with the file that the user named, of any bytes: the first of [`Inputs::all`].
+    /// Opens the file that the user named, which need not be text. It is the first of [`Inputs::all`].
     ///
     /// # Errors
     /// A file that cannot be read.
@@ -65,10 +65,10 @@ impl Inputs {
         Ok(Inputs { folder, read: vec![first] })
     }
 
-    /// Reads a file that another one refers to, or takes it from memory where it was read before.
+    /// Reads a file to which another one refers, or returns the stored contents if it has been read before.
     ///
     /// # Errors
-    /// Why it cannot be read, in words.
+    /// The reason why it cannot be read, as text.
     pub fn open_referenced(&mut self, name: &str) -> Result<&Input, String> {
         let index = match self.read.iter().position(|input| input.name == name) {
             Some(index) => index,
@@ -86,7 +86,7 @@ impl Inputs {
         self.read.iter().find(|input| input.name == name)
     }
 
-    /// All files read, in the order of reading.
+    /// All files read, in the order in which they were read.
     #[must_use]
     pub fn all(&self) -> &[Input] {
         &self.read

@@ -1,38 +1,38 @@
-//! The grammar of JSON (RFC 8259): from a text to its tree.
+//! Parser of JSON (RFC 8259): converts a text to its tree.
 //!
-//! A recursive descent over the bytes. At the first error, the values that are still open are returned as far as they
-//! have been read and marked as incomplete, together with the error, so that what stands before it can be checked too.
-//! Numbers and strings are read, and errors worded and placed, as `serde_json` does it; a test compares the two.
+//! The parser is a recursive descent over the bytes. At the first error it returns the values read so far, with open
+//! lists and objects marked as incomplete, and the error, so that the text before the error can be checked too.
+//! Numbers and strings are converted, and errors are worded and located, as in `serde_json`; a test compares the two.
 
 use std::borrow::Cow;
 
 use super::place::{Path, Step};
 use super::tree::{TreeMember, TreeNode, Value};
 
-/// Number of lists and objects within each other that is refused.
+/// Nesting depth of lists and objects from which a text is rejected.
 const DEPTH: usize = 128;
 
-/// A text as a tree, as far as it is JSON.
+/// The result of parsing a text: its tree, up to the first syntax error.
 #[derive(Debug)]
 pub(super) struct Reading<'t> {
     /// The value of the text.
     pub root: TreeNode<'t>,
-    /// Why the text is not JSON.
+    /// The syntax error, if the text is not JSON.
     pub error: Option<SyntaxError>,
 }
 
-/// Where and why a text is not JSON.
+/// A syntax error and its place.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct SyntaxError {
     /// What is wrong, in the words of `serde_json`.
     pub message: &'static str,
     /// Byte offset.
     pub offset: usize,
-    /// The value that breaks off.
+    /// Path of the incomplete value.
     pub path: Path,
 }
 
-/// Reads a text.
+/// Parses a text.
 pub(super) fn read(text: &str) -> Reading<'_> {
     let mut parser = Parser { text, bytes: text.as_bytes(), at: 0, depth: 0, error: None };
     let root = parser.value();
@@ -50,7 +50,7 @@ struct Parser<'t> {
     bytes: &'t [u8],
     /// Offset of the next byte.
     at: usize,
-    /// Lists and objects that are open.
+    /// Number of open lists and objects.
     depth: usize,
     error: Option<SyntaxError>,
 }
@@ -72,7 +72,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// An error at the byte read last.
+    /// An error at the byte that was read last.
     fn behind(&self, message: &'static str) -> SyntaxError {
         self.error_before(self.at, message)
     }
@@ -82,7 +82,7 @@ impl<'t> Parser<'t> {
         self.error_before((self.at + 1).min(self.bytes.len()), message)
     }
 
-    /// An error at the byte before `end`, but within the line of `end`.
+    /// An error at the byte before `end`, but in the same line as `end`.
     fn error_before(&self, end: usize, message: &'static str) -> SyntaxError {
         let begins_line = end == 0 || self.bytes[end - 1] == b'\n';
         let offset = if begins_line { end } else { end - 1 };
@@ -115,7 +115,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// A list or an object, of which `empty` has nothing yet.
+    /// Parses a list or an object. `empty` is its value without items or members.
     fn nested(
         &mut self,
         start: usize,
@@ -136,7 +136,7 @@ impl<'t> Parser<'t> {
         TreeNode { start, end: if self.error.is_some() { 0 } else { self.at }, value }
     }
 
-    /// The error of a value that stands at `step` of the list or object that is being read.
+    /// Returns the pending error, if any, after adding `step` at the beginning of its path.
     #[cold]
     fn within(&mut self, step: Step) -> Result<(), SyntaxError> {
         let Some(mut error) = self.error.take() else { return Ok(()) };
@@ -144,7 +144,7 @@ impl<'t> Parser<'t> {
         Err(error)
     }
 
-    /// The items of a list and its closing bracket.
+    /// Parses the items of a list and its closing bracket.
     fn list(&mut self) -> (Value<'t>, Result<(), SyntaxError>) {
         let mut items = Vec::new();
         let filled = self.fill_list(&mut items);
@@ -179,7 +179,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The members of an object and its closing brace.
+    /// Parses the members of an object and its closing brace.
     fn object(&mut self) -> (Value<'t>, Result<(), SyntaxError>) {
         let mut members = Vec::new();
         let filled = self.fill_object(&mut members);
@@ -212,7 +212,7 @@ impl<'t> Parser<'t> {
             let start = self.at;
             self.at += 1;
             let key = self.string()?;
-            // a key whose value is missing is known to be there all the same
+            // a key whose value is missing is recorded as present
             members.push(TreeMember {
                 start,
                 key,
@@ -282,7 +282,7 @@ impl<'t> Parser<'t> {
             is_integer = false;
             self.exponent(start)?;
         }
-        // what no integer of 64 bits can hold, and -0, are read as floating-point numbers
+        // numbers that exceed an integer of 64 bits, and -0, are read as floating-point numbers
         if is_integer && let Ok(value) = integer.parse::<u64>() {
             if !is_negative {
                 return Ok(Value::Unsigned(value));
@@ -297,7 +297,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The exponent of the number that begins at `start`.
+    /// Parses the exponent of the number that begins at `start`.
     fn exponent(&mut self, start: usize) -> Result<(), SyntaxError> {
         let is_zero = !self.bytes[start..self.at].iter().any(|byte| matches!(byte, b'1'..=b'9'));
         self.at += 1;
@@ -322,7 +322,7 @@ impl<'t> Parser<'t> {
         Ok(())
     }
 
-    /// The rest of a string whose opening quote has been read.
+    /// Parses the remainder of a string after its opening quote.
     fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
         let mut copied: Option<String> = None;
         let mut from = self.at;
@@ -358,7 +358,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// The character that an escape stands for, whose backslash has been read.
+    /// Parses an escape sequence after its backslash and returns the character.
     fn escape(&mut self) -> Result<char, SyntaxError> {
         Ok(match self.next() {
             None => return Err(self.behind("EOF while parsing a string")),
@@ -375,7 +375,8 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// The character of one or two `\uXXXX`, of which the first `\u` has been read; two are a pair of surrogates.
+    /// Parses one or two `\uXXXX` sequences after the first `\u` and returns the character. Two sequences are a
+    /// surrogate pair.
     fn unicode_escape(&mut self) -> Result<char, SyntaxError> {
         let first = self.four_digits()?;
         if let Some(character) = char::from_u32(first) {

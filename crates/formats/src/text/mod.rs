@@ -1,8 +1,8 @@
-//! Input files: their bytes, their text as a located tree, and what is wrong with them.
+//! Input files: their bytes, their text as a located tree, and their faults.
 //!
-//! A text is read into a tree of values that know their bytes (`tree`, by the grammar in `json`), and the types of a
-//! format are converted from the tree (`convert`). What is wrong is a [`fault::Fault`] by its path, and a
-//! [`diagnostic::Diagnostic`] with line and column once it has been found in the text ([`source`]).
+//! A text is parsed into a tree of values with their byte ranges (`tree`, parsed by `json`), and the tree is
+//! converted to the types of a format (`convert`). An error is first a [`fault::Fault`], which has a path. It becomes
+//! a [`diagnostic::Diagnostic`] with line and column when its place in the text is determined ([`source`]).
 
 pub(crate) mod convert;
 pub mod diagnostic;

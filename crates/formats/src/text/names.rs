@@ -1,4 +1,4 @@
-//! Names that a file gives to its items, and uses of these names.
+//! Names that a file assigns to its items, and references to these names.
 
 use super::fault::{Fault, Faults, nearest};
 use super::place::Place;
@@ -8,8 +8,8 @@ pub fn names<T>(all: &[T], name: impl Fn(&T) -> &str) -> Vec<(&str, usize)> {
     all.iter().enumerate().map(|(index, item)| (name(item), index)).collect()
 }
 
-/// Index of the item of that name; a fault that lists the known names where there is none. `what` says what the name
-/// stands for, such as "body".
+/// Index of the item with that name. An unknown name is a fault that lists the known names. `what` is the kind of
+/// item, such as "body".
 pub fn resolve(
     name: &str,
     known: &[(&str, usize)],
@@ -35,7 +35,8 @@ pub fn resolve(
     found
 }
 
-/// Checks that a name consists of letters, digits, spaces, `_` and `-`: names become parts of column and file names.
+/// Checks that a name consists of letters, digits, spaces, `_` and `-`, because names become parts of column and file
+/// names.
 pub fn check_name(name: &str, place: &Place<'_>, faults: &mut Faults) {
     let fits = name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
     if name.trim() != name || name.is_empty() || !fits {

@@ -1,12 +1,12 @@
-//! Numbers as people read them.
+//! Numbers in a form that is easy to read.
 
-/// `value` to `digits` significant digits (1 at least).
+/// Rounds `value` to `digits` significant digits (at least 1).
 #[must_use]
 pub fn rounded(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1)).parse().unwrap_or(value)
 }
 
-/// A number as people write it: without exponent from 1e-5 to 1e15, with one otherwise.
+/// A number as text: without exponent from 1e-5 to 1e15, with an exponent otherwise.
 #[must_use]
 pub fn number(value: f64) -> String {
     let plain = value == 0.0 || (1e-5..1e15).contains(&value.abs());

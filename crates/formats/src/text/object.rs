@@ -1,13 +1,13 @@
-//! Structs that are read from objects only.
+//! Deserialization of structs from objects only.
 //!
-//! serde's derived structs also take lists, by position; in a file that is a mistake.
+//! The structs derived by serde also accept lists, by position. In an input file that is a mistake.
 
 use serde::de::{Deserializer, Visitor};
 use serde::forward_to_deserialize_any;
 
 /// A deserializer that accepts objects only.
 pub struct ObjectOnly<D>(
-    /// What it is read from.
+    /// The underlying deserializer.
     pub D,
 );
 
@@ -24,7 +24,7 @@ impl<'de, D: Deserializer<'de>> Deserializer<'de> for ObjectOnly<D> {
     }
 }
 
-/// Implements `Deserialize` by the function that `#[serde(remote = "Self")]` derives, but from objects only.
+/// Implements `Deserialize` by the function that `#[serde(remote = "Self")]` derives, and accepts objects only.
 #[macro_export]
 macro_rules! objects {
     ($($name:ident),+ $(,)?) => {

@@ -5,9 +5,9 @@ use std::fmt;
 /// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Step {
-    /// Into the member of an object.
+    /// Step to the member of an object.
     Key(String),
-    /// Into the item of a list, counted from 0.
+    /// Step to the item of a list, counted from 0.
     Index(usize),
 }
 
@@ -37,7 +37,8 @@ fn is_plain(key: &str) -> bool {
     !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-')
 }
 
-/// A place in a document that is being read: a chain of steps on the stack, made into a [`Path`] only for a fault.
+/// A place in a document that is being read. It is a chain of steps on the stack and is converted to a [`Path`] only
+/// for a fault.
 ///
 /// ```
 /// use formats::text::place::Place;

@@ -1,4 +1,4 @@
-//! The text of an input file: read into a located tree, converted from it, and searched for the places of faults.
+//! The text of an input file: it is parsed into a located tree and converted, and faults are located in it.
 
 use serde::de::DeserializeOwned;
 
@@ -10,7 +10,7 @@ use super::place::{Path, Place, Step};
 use super::tree::{TreeNode, Value};
 use super::wording::syntax;
 
-/// An input file's name, as users know it, and its text.
+/// The name of an input file, as the user knows it, and its text.
 ///
 /// ```
 /// use formats::text::fault::{Fault, Faults};
@@ -28,14 +28,14 @@ use super::wording::syntax;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Source {
-    /// As it appears in messages.
+    /// Name used in messages.
     pub name: String,
     /// The whole text.
     pub text: String,
 }
 
 impl Source {
-    /// Takes the bytes of a file.
+    /// Makes a source of the bytes of a file.
     ///
     /// # Errors
     /// Bytes that are not UTF-8, with their line and column.
@@ -69,12 +69,12 @@ impl Source {
     /// Converts the text to `T`, the contents of a file of this format.
     ///
     /// # Errors
-    /// The first error of syntax or type, placed; another `format`, where that explains it.
+    /// The first syntax or type error, with its place; or a different `format`, if that explains the error.
     pub fn parse<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
         self.tree().convert(format)
     }
 
-    /// Places faults in the text, in the text's order.
+    /// Locates faults in the text and returns them in the order of the text.
     #[must_use]
     pub fn diagnose(&self, faults: &Faults) -> Vec<Diagnostic> {
         self.tree().diagnose(faults)
@@ -86,7 +86,7 @@ impl Source {
 pub struct Tree<'s> {
     source: &'s Source,
     root: TreeNode<'s>,
-    /// Why the text is not JSON.
+    /// The syntax error, if the text is not JSON.
     error: Option<SyntaxError>,
 }
 
@@ -100,7 +100,7 @@ impl<'s> Tree<'s> {
     /// Converts the tree to `T`, the contents of a file of this format.
     ///
     /// # Errors
-    /// The first error of syntax or type, placed; another `format`, where that explains it.
+    /// The first syntax or type error, with its place; or a different `format`, if that explains the error.
     pub fn convert<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
         let (value, faults) = convert(&self.root);
         let first = match (faults.first(), &self.error, value) {
@@ -110,13 +110,13 @@ impl<'s> Tree<'s> {
                 None => self.other_format(format).unwrap_or_else(|| self.located(first)),
             },
             (None, Some(SyntaxError { message, offset, path }), _) => self.not_json(message, *offset, path),
-            // a value without faults comes from every whole text
+            // every complete text without faults results in a value
             (None, None, None) => Diagnostic::of_file(&self.source.name, "cannot be read"),
         };
         Err(Box::new(first))
     }
 
-    /// What to say of a file whose `format` is another one.
+    /// The diagnostic for a file whose `format` is a different one.
     fn other_format(&self, format: &str) -> Option<Diagnostic> {
         let found = self.root.member("format")?.value.as_text()?;
         let mut faults = Faults::default();
@@ -141,14 +141,14 @@ impl<'s> Tree<'s> {
         self.diagnostic(fault, &fault.path, Some(*offset))
     }
 
-    /// Places faults in the text, in the text's order.
+    /// Locates faults in the text and returns them in the order of the text.
     #[must_use]
     pub fn diagnose(&self, faults: &Faults) -> Vec<Diagnostic> {
         sorted(faults.0.iter().map(|fault| self.place(fault, &fault.path)).collect())
     }
 
-    /// Places faults of the document that the object at `compare[index]`, merged into this one, gave:
-    /// in that object where it has the path, in the rest of the document otherwise.
+    /// Locates faults of the document that results from merging the object at `compare[index]` into this one. A fault
+    /// is located in that object if it contains the path, and in the remainder of the document otherwise.
     #[must_use]
     pub fn diagnose_merged(&self, index: usize, faults: &Faults) -> Vec<Diagnostic> {
         let entry = [Step::Key("compare".to_owned()), Step::Index(index)];
@@ -161,9 +161,9 @@ impl<'s> Tree<'s> {
         sorted(faults.0.iter().map(place).collect())
     }
 
-    /// A fault at the byte where `path` leads, as far as the text has it.
+    /// Locates a fault at the byte of `path`, or of the last part of the path that exists in the text.
     fn place(&self, fault: &Fault, path: &Path) -> Diagnostic {
-        // of a text that is no JSON, such as a table, no place is known
+        // in a text that is not JSON, such as a table, no place can be determined
         let hit = self.error.is_none().then(|| self.root.find(path));
         let offset = hit.map(|hit| match hit.node.second_of_a_key().filter(|_| fault.is_duplicate()) {
             Some(second) => second.start,
@@ -186,7 +186,7 @@ impl<'s> Tree<'s> {
         }
     }
 
-    /// Keys given twice in the value at `key` and anywhere within it.
+    /// Duplicate keys in the value at `key` and anywhere within it.
     #[must_use]
     pub fn duplicates_below(&self, key: &str) -> Faults {
         let mut faults = Faults::default();

@@ -1,4 +1,4 @@
-//! A JSON text as a tree of values that know where they stand in it.
+//! A JSON text as a tree of values with their positions in the text.
 
 use std::borrow::Cow;
 
@@ -9,30 +9,30 @@ use super::place::{Path, Step};
 pub struct TreeNode<'t> {
     /// Byte offset of its first byte.
     pub start: usize,
-    /// Byte offset behind its last byte; 0 where the text breaks off within the value.
+    /// Byte offset after its last byte; 0 if the text is truncated within the value.
     pub end: usize,
-    /// What it is.
+    /// Its content.
     pub value: Value<'t>,
 }
 
-/// What a value is.
+/// The content of a value.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value<'t> {
     /// `null`.
     Null,
     /// `true` or `false`.
     Bool(bool),
-    /// A number without sign, point and exponent that an unsigned integer of 64 bits can hold.
+    /// A number without sign, decimal point and exponent in the range of an unsigned integer of 64 bits.
     Unsigned(u64),
-    /// A negative number without point and exponent that an integer of 64 bits can hold.
+    /// A negative number without decimal point and exponent in the range of an integer of 64 bits.
     Signed(i64),
-    /// Any other number, correctly rounded to double precision; it is finite.
+    /// Any other number, correctly rounded to double precision and finite.
     Float(f64),
-    /// A string, without its escapes.
+    /// A string, with its escapes resolved.
     Text(Cow<'t, str>),
     /// The items of a list.
     List(Vec<TreeNode<'t>>),
-    /// The members of an object in the order of the text; a key may stand there twice.
+    /// The members of an object in the order of the text; keys may be duplicate.
     Object(Vec<TreeMember<'t>>),
 }
 
@@ -41,31 +41,31 @@ pub enum Value<'t> {
 pub struct TreeMember<'t> {
     /// Byte offset of its key.
     pub start: usize,
-    /// Its key, without escapes.
+    /// Its key, with escapes resolved.
     pub key: Cow<'t, str>,
     /// Its value.
     pub value: TreeNode<'t>,
 }
 
-/// How far a path leads into a tree.
+/// The result of following a path in a tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hit<'n, 't> {
-    /// The last value on the path that the tree has.
+    /// The last value on the path that exists in the tree.
     pub node: &'n TreeNode<'t>,
-    /// Byte offset of that value's key where it is a member, of the value itself otherwise.
+    /// Byte offset of the key of that value if it is a member, otherwise of the value itself.
     pub key: usize,
-    /// Whether the tree has the whole path.
+    /// Whether the whole path exists in the tree.
     pub is_whole: bool,
 }
 
 impl<'t> TreeNode<'t> {
-    /// Whether the text has the value from its first byte to its last.
+    /// Whether the text contains the complete value.
     #[must_use]
     pub const fn is_whole(&self) -> bool {
         self.end > self.start
     }
 
-    /// The string, where the value is one.
+    /// The string, if the value is one.
     #[must_use]
     pub fn as_text(&self) -> Option<&str> {
         match &self.value {
@@ -74,7 +74,7 @@ impl<'t> TreeNode<'t> {
         }
     }
 
-    /// The member of that name, where the value is an object that has it; the last of several.
+    /// The member with that name, if the value is an object that contains it; the last one of duplicates.
     #[must_use]
     pub fn member(&self, key: &str) -> Option<&TreeMember<'t>> {
         match &self.value {
@@ -83,7 +83,7 @@ impl<'t> TreeNode<'t> {
         }
     }
 
-    /// The items, where the value is a list; none where it is not.
+    /// The items, if the value is a list; otherwise empty.
     #[must_use]
     pub fn items(&self) -> &[TreeNode<'t>] {
         match &self.value {
@@ -92,7 +92,7 @@ impl<'t> TreeNode<'t> {
         }
     }
 
-    /// The first member whose key stands before it in the same object, where the value is an object that has one.
+    /// The first duplicate member, if the value is an object that contains one.
     #[must_use]
     pub fn second_of_a_key(&self) -> Option<&TreeMember<'t>> {
         let Value::Object(members) = &self.value else { return None };
@@ -100,7 +100,7 @@ impl<'t> TreeNode<'t> {
         members.iter().find(|member| !seen.insert(&member.key))
     }
 
-    /// The same without a member.
+    /// A copy without one member.
     #[must_use]
     pub fn without(&self, key: &str) -> TreeNode<'t> {
         let mut node = self.clone();
@@ -110,7 +110,7 @@ impl<'t> TreeNode<'t> {
         node
     }
 
-    /// Follows a path as far as the tree has it.
+    /// Follows a path as far as it exists in the tree.
     pub(super) fn find(&self, path: &Path) -> Hit<'_, 't> {
         let mut hit = Hit { node: self, key: self.start, is_whole: true };
         for step in &path.0 {
@@ -126,8 +126,8 @@ impl<'t> TreeNode<'t> {
         hit
     }
 
-    /// Merges changes into this value (RFC 7386): objects member by member, `null` removes a member, everything else
-    /// replaces the value. An object that is changed stands where its changes stand.
+    /// Merges changes into this value (RFC 7386). Objects are merged member by member, `null` removes a member, and
+    /// everything else replaces the value. An object that is changed takes the position of its changes.
     pub fn merge(&mut self, changes: TreeNode<'t>) {
         let Value::Object(changed) = changes.value else {
             *self = changes;
@@ -145,7 +145,7 @@ impl<'t> TreeNode<'t> {
                 (None, Value::Null) => {}
                 (Some(old), _) => members[old].value.merge(change.value),
                 (None, _) => {
-                    // merged into nothing, so that a `null` below it is not taken over
+                    // the change is merged into an empty value, so that a `null` below it is dropped
                     let (start, end) = (change.value.start, change.value.end);
                     let mut value = TreeNode { start, end, value: Value::Null };
                     value.merge(change.value);

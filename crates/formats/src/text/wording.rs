@@ -1,14 +1,14 @@
-//! What serde and `serde_json` say is wrong, in the words of this program.
+//! Translates the messages of serde and `serde_json` to the wording of this program.
 
 use super::fault::{Fault, nearest};
 use super::place::{Path, Step};
 
-/// Whether serde's message is one of a key given twice.
+/// Whether a message of serde reports a duplicate key.
 pub(super) fn is_duplicate(message: &str) -> bool {
     message.starts_with("duplicate field ")
 }
 
-/// serde's message about the value at `path`: of the wrong type, or the value of an unknown key.
+/// Converts a message of serde about the value at `path`: it has the wrong type, or its key is unknown.
 pub(super) fn type_fault(path: Path, message: &str) -> Fault {
     let mut fault = Fault { path, at_key: false, expected: message.to_owned(), found: None, hint: None };
     if let Some(rest) = message.strip_prefix("unknown field `")
@@ -45,7 +45,7 @@ pub(super) fn type_fault(path: Path, message: &str) -> Fault {
     fault
 }
 
-/// Examples of values whose type is often mistaken, by their key.
+/// Examples of values whose type is often wrong, by their key.
 const EXAMPLES: [(&str, &str); 11] = [
     ("position", "rows [time, value], such as [[0, 4]]"),
     ("speed", "rows [time, value], such as [[0, 4]]"),
@@ -91,7 +91,7 @@ fn plain_found(found: &str) -> String {
     }
 }
 
-/// What is to be said of a text that is not JSON, and what to do about it.
+/// The message and the hint for a text that is not JSON.
 pub(super) fn syntax(message: &str, text: &str) -> (String, Option<String>) {
     if text.trim().is_empty() {
         return ("the file is empty".to_owned(), Some("a JSON object is needed".to_owned()));

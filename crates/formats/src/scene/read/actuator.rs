@@ -1,4 +1,4 @@
-//! Loads and drives of a scene, and the wheels that drives and brakes act on.
+//! Loads and drives of a scene, and checks of the wheels on which drives and brakes act.
 
 use super::schedule::read_schedule;
 use crate::check::Check;
@@ -51,7 +51,7 @@ fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'
     Some(Load { body, dof: freedom, value: value? })
 }
 
-/// Reads the drive of a motion; none where its table of speeds is missing or wrong.
+/// Reads the drive of a motion; none if its table of speeds is missing or invalid.
 pub(super) fn read_drive(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'_>) -> Option<Drive> {
     let gain = check.required_positive(
         motion.gain,
@@ -68,7 +68,7 @@ pub(super) fn read_drive(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'
     Some(Drive { speed, gain, max_force })
 }
 
-/// Checks that drives and brakes have wheels to act on.
+/// Checks that drives and brakes have wheels on which they can act.
 pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
     let root = Place::root();
     let kinds = root.key("wheels");
@@ -113,7 +113,7 @@ pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
     }
 }
 
-/// A fault of the brake of body `name`, placed at the motion or the first event that applies it.
+/// A fault of the brake of body `name`, located at the motion or the first event that applies it.
 fn brake_fault(raw: &RawScene, name: &String, expected: String) -> Fault {
     let root = Place::root();
     let (motions, events) = (root.key("motions"), root.key("events"));

@@ -1,4 +1,4 @@
-//! Bodies of a scene, and how they move along their rails.
+//! Bodies of a scene and their motion along their rails.
 
 use sim::{MotionKind, Profile};
 
@@ -182,7 +182,7 @@ pub(super) fn read_motions(
     }
 }
 
-/// The words of `kind`.
+/// The keywords of `kind`.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Kind {
     Prescribed,

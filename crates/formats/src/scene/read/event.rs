@@ -1,4 +1,4 @@
-//! Events: actions that are taken when a quantity of the run passes a value.
+//! Events: actions that are carried out when a quantity of the run crosses a value.
 
 use sim::{Action, Channel, Compare, Condition, Rule};
 
@@ -14,7 +14,7 @@ use crate::text::names::{check_name, names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Gives a brake that never comes on by itself to free bodies that only events brake.
+/// Adds a brake that is not applied by time to free bodies that only events brake.
 pub(super) fn fit_brakes(raw: &[RawEvent], bodies: &mut [Body]) {
     for body in bodies.iter_mut().filter(|body| body.brake.is_none() && body.motion.is_free()) {
         if raw.iter().any(|event| event.brakes(&body.name)) {
@@ -23,7 +23,7 @@ pub(super) fn fit_brakes(raw: &[RawEvent], bodies: &mut [Body]) {
     }
 }
 
-/// Reads the events of a scene whose bodies, trucks, ropes and stops are known.
+/// Reads the events of a scene whose bodies, trucks, ropes and stops have already been read.
 pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -> Vec<Event> {
     if raw.is_empty() {
         return Vec::new();
@@ -58,8 +58,8 @@ pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -
     events
 }
 
-/// Compares an event with those before it: its name must be free, none of them may end the run before its condition can
-/// be met, and actions on the same condition must not contradict each other.
+/// Compares an event with the previous ones. Its name must be unique, no previous event may end the run before its
+/// condition can be met, and actions with the same condition must not contradict each other.
 fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Check<'_>) {
     if before.iter().any(|other| other.name == event.name) {
         let expected = format!("the name \"{}\" is taken by another event", event.name);
@@ -84,7 +84,7 @@ fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Che
     }
 }
 
-/// Whether two actions at one instant leave open what is meant.
+/// Whether two simultaneous actions contradict each other.
 fn contradict(a: &Action, b: &Action) -> bool {
     match (a, b) {
         (Action::Brake { body: a, on: x }, Action::Brake { body: b, on: y }) => a == b && x != y,
@@ -96,7 +96,7 @@ fn contradict(a: &Action, b: &Action) -> bool {
     }
 }
 
-/// The time from which a condition on time alone is met.
+/// The time from which a condition that depends on time alone is met.
 fn time_of(condition: &Condition) -> Option<f64> {
     let rises = matches!(condition.compare, Compare::AtLeast | Compare::Above);
     (rises && matches!(condition.terms[..], [(Channel::Time, _)])).then_some(condition.level)
@@ -146,7 +146,7 @@ fn read_condition(
     Some(condition)
 }
 
-/// Why a condition can never be met, or is met from the start, as far as that follows from the scene.
+/// The reason why a condition can never be met, or is met from the start, if this follows from the scene.
 fn why_useless(condition: &Condition, quantity: &Quantity, scene: &Scene) -> Option<String> {
     let rises = matches!(condition.compare, Compare::AtLeast | Compare::Above);
     let level = condition.level;
@@ -183,7 +183,7 @@ fn why_useless(condition: &Condition, quantity: &Quantity, scene: &Scene) -> Opt
     }
 }
 
-/// Why a condition on x of body `b` at `level`, or on its speed where there is no level, can never be met.
+/// The reason why a condition on x of body `b` at `level`, or on its speed if there is no level, can never be met.
 fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) -> Option<String> {
     let body = &scene.bodies[b];
     if body.pinned.is_some() || body.in_space {
@@ -204,7 +204,7 @@ fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) ->
         .then(|| format!("can never be met: the wheels hold x between {} and {}", number(low), number(high)))
 }
 
-/// The actions of an event, and their description.
+/// Reads the actions of an event and their description.
 fn read_actions(
     raw: &RawDo,
     scene: &Scene,
@@ -286,7 +286,7 @@ fn body(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> 
     resolve(name, &known, "body", place, check.faults)
 }
 
-/// A body that has a drive.
+/// Finds a body that has a drive.
 fn driven(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Option<usize> {
     let b = body(name, place, scene, check)?;
     if !matches!(scene.bodies[b].motion, BodyMotion::Driven(_)) {
@@ -297,7 +297,7 @@ fn driven(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -
     Some(b)
 }
 
-/// The rope of that name, or all ropes that carry the body of that name.
+/// Finds the rope with that name, or all ropes that carry the body with that name.
 fn dropped(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Vec<usize> {
     if let Some(rope) = scene.ropes.iter().position(|rope| rope.name == name) {
         return vec![rope];

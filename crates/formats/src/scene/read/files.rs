@@ -1,4 +1,4 @@
-//! Files that a scene names.
+//! Files to which a scene refers.
 
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
@@ -6,20 +6,20 @@ use crate::text::fault::Fault;
 use crate::text::inputs::{Input, Inputs};
 use crate::text::place::Place;
 
-/// The files of a scene, and what is wrong in them.
+/// The files of a scene and their faults.
 pub(in crate::scene) struct Files<'i> {
     inputs: &'i mut Inputs,
-    /// What is wrong, once each.
+    /// The faults, each once.
     pub wrong: Vec<Diagnostic>,
 }
 
 impl<'i> Files<'i> {
-    /// With nothing wrong so far.
+    /// Starts without faults.
     pub fn of(inputs: &'i mut Inputs) -> Self {
         Files { inputs, wrong: Vec::new() }
     }
 
-    /// What `read` makes of the file named at a place; `None` where there is no such file or something is wrong in it.
+    /// Applies `read` to the file named at a place; `None` if the file does not exist or has faults.
     pub fn read<'c, T>(
         &mut self,
         name: &str,

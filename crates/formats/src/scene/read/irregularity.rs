@@ -35,7 +35,7 @@ const KINDS: [(&str, Kind); 5] = [
 const DIRECTIONS: [(&str, Axis); 2] = [("vertical", Axis::Vertical), ("lateral", Axis::Lateral)];
 
 impl Kind {
-    /// Keys beside `rail`, `direction` and `kind`.
+    /// Keys in addition to `rail`, `direction` and `kind`.
     fn keys(self) -> &'static [&'static str] {
         match self {
             Kind::Step => &["x", "height"],
@@ -46,7 +46,7 @@ impl Kind {
     }
 }
 
-/// The sum of all irregularities of each rail; empty where there are none.
+/// Reads the sum of all irregularities of each rail; empty if there are none.
 pub(super) fn read(
     raw: &[RawIrregularity],
     rails: &[RailOutline],
@@ -89,7 +89,7 @@ pub(super) fn read(
     sums
 }
 
-/// Refuses keys that belong to other kinds; whether there are any.
+/// Rejects keys that belong to other kinds and returns whether there are any.
 fn refuse_foreign_keys(raw: &RawIrregularity, kind: Kind, at: &Place<'_>, check: &mut Check<'_>) -> bool {
     let given = [
         ("x", raw.x.is_some()),
@@ -120,7 +120,7 @@ fn table(axis: Axis, rows: &[[f64; 2]]) -> Result<Irregularity, sim::Error> {
     if axis == Axis::Lateral { Irregularity::new(&[], rows) } else { Irregularity::new(rows, &[]) }
 }
 
-/// A step, a joint or a dip.
+/// Reads a step, a joint or a dip.
 fn local(
     raw: &RawIrregularity,
     kind: Kind,
@@ -143,7 +143,7 @@ fn local(
     Some(match kind {
         Kind::Joint => table(axis, &[[x - half, 0.0], [x, -size], [x + half, 0.0]]),
         Kind::Dip => {
-            // -size (1 + cos)/2 about x is a constant, and a sinusoid that makes the sum zero at both ends
+            // the dip -size (1 + cos)/2 about x is the sum of a constant and a sinusoid, and is zero at both ends
             let (from, to) = (x - half, x + half);
             let low = -0.5 * size;
             let level = table(axis, &[[from, 0.0], [from, low], [to, low], [to, 0.0]]);

@@ -1,4 +1,4 @@
-//! How a scene is integrated: `stepper` and `step`.
+//! Time integration of a scene: `stepper` and `step`.
 
 use sim::{Method, Stepping};
 
@@ -11,7 +11,8 @@ use crate::text::fault::{Fault, Faults};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Gauss needs a fixed step: its steps are equal, or energy is not kept.
+/// Reads the method and the step. The Gauss method requires a fixed step, because it conserves energy only with equal
+/// steps.
 pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Stepping {
     let place = root.key("stepper");
     let word = raw.stepper.as_ref().and_then(|word| check.faults.one_of(word, &place, &STEPPERS));
@@ -25,7 +26,7 @@ pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> S
     Stepping { method, step }
 }
 
-/// Refuses a method that does not suit a scene in which nothing else is wrong.
+/// Rejects a method that is not applicable to a scene without other faults.
 pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     let method = scene.stepping.method;
     if scene.analysis == Analysis::QuasiStatic || matches!(method, Method::Auto | Method::Sdirk4) {

@@ -1,4 +1,5 @@
-//! From a scene as written to a checked scene: one file for each kind of member, `scene` over all of them.
+//! Conversion of a scene as written to a checked scene: one module for each kind of member, and `scene` for the
+//! whole.
 
 mod actuator;
 mod body;

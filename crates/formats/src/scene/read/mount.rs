@@ -1,4 +1,4 @@
-//! Structures that bodies carry.
+//! Structures carried by bodies.
 
 use crate::check::Check;
 use crate::scene::raw::RawStructure;
@@ -51,7 +51,7 @@ pub(super) fn read(
     }
 }
 
-/// Which degrees of freedom of a body may change; all of them where it is pinned.
+/// The degrees of freedom of a body that can change: all of them if it is pinned.
 fn moves(bodies: &[Body], b: usize) -> [bool; 6] {
     let body = &bodies[b];
     let mut moves = body.free;
@@ -59,9 +59,9 @@ fn moves(bodies: &[Body], b: usize) -> [bool; 6] {
     if body.pinned.is_some() { [true; 6] } else { moves }
 }
 
-/// Refuses specs whose rails are not level.
+/// Rejects specs whose rails are not horizontal.
 fn refuse(spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) {
-    // a spec whose numbers make no model is refused where it is solved
+    // a spec from which no model can be built is rejected where it is solved
     let Ok((model, rails)) = spec.model() else { return };
     if rails.iter().any(|rail| rail.axis[1] != 0.0 || model.up != [0.0, 1.0, 0.0]) {
         check
@@ -70,8 +70,8 @@ fn refuse(spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) {
     }
 }
 
-/// Refuses carried bodies for which there are no equations of motion: a body on two carriers, on a body that is carried
-/// itself, or on a structure that it carries; and loads on carried bodies.
+/// Rejects carried bodies for which there are no equations of motion: a body on two carriers, on a body that is
+/// itself carried, or on a structure that it carries. Loads on carried bodies are rejected too.
 pub(super) fn check(scene: &Scene, faults: &mut Faults) {
     let root = Place::root();
     let (trucks, loads) = (root.key("trucks"), root.key("loads"));

@@ -1,4 +1,4 @@
-//! What a run writes beside the motion: the scene's member `output`.
+//! Output of a run in addition to the motion: the member `output` of a scene.
 
 use practice::Repetition;
 

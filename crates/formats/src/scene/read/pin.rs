@@ -1,4 +1,4 @@
-//! Bodies that are pinned to other bodies: trees of carriages, equalisers and bogies with mass.
+//! Bodies that are pinned to other bodies, such as trees of carriages, equalisers and bogies with mass.
 
 use crate::check::Check;
 use crate::scene::raw::RawBody;

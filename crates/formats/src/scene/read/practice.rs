@@ -1,4 +1,4 @@
-//! The member `practice`: what the codes of crane engineers need beside the scene itself.
+//! The member `practice`: input of the crane design codes that is not part of the motion.
 
 use practice::aist::CraneKind;
 use practice::factor::{DriveOnset, HoistingClass, Release};
@@ -13,14 +13,14 @@ use crate::text::names::{names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Words of the hoisting classes.
+/// Keywords of the hoisting classes.
 const HOISTING: [(&str, HoistingClass); 4] = [
     ("HC1", HoistingClass::Hc1),
     ("HC2", HoistingClass::Hc2),
     ("HC3", HoistingClass::Hc3),
     ("HC4", HoistingClass::Hc4),
 ];
-/// Words of how drives come on.
+/// Keywords of the onset of drive forces.
 const DRIVES: [(&str, DriveOnset); 4] = [
     ("steady", DriveOnset::Steady),
     ("smooth", DriveOnset::Smooth),
@@ -28,13 +28,13 @@ const DRIVES: [(&str, DriveOnset); 4] = [
     ("backlash", DriveOnset::Backlash),
 ];
 
-/// Words of how fast a payload is released.
+/// Keywords of the rate at which a payload is released.
 const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Release::Rapid)];
 
-/// Words of what guides a crane.
+/// Keywords of the guidance of a crane.
 const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
 
-/// Words of kinds of cranes.
+/// Keywords of the kinds of cranes.
 const KINDS: [(&str, CraneKind); 7] = [
     ("mill", CraneKind::Mill),
     ("ladle", CraneKind::Ladle),
@@ -45,7 +45,7 @@ const KINDS: [(&str, CraneKind); 7] = [
     ("stacker", CraneKind::Stacker),
 ];
 
-/// Reads the member of a scene whose bodies, trucks and ropes are known.
+/// Reads the member of a scene whose bodies, trucks and ropes have already been read.
 pub(super) fn read(
     raw: &Option<RawPractice>,
     scene: &Scene,
@@ -120,7 +120,7 @@ pub(super) fn read(
     })
 }
 
-/// The only body that carries structures; where none does, the only one on rails.
+/// The only body that carries structures or, if there is none, the only body on rails.
 fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
     let mut found: Vec<usize> =
         scene.structures.iter().filter_map(|structure| Some(structure.carrier?.body)).collect();

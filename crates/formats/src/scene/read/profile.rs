@@ -8,7 +8,8 @@ use crate::text::fault::{Fault, nearest, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Rows (x, value) of a profile in the scene's unit of length, given in the scene or in columns of a file.
+/// Reads the rows (x, value) of a profile, from the scene or from columns of a file, in the unit of length of the
+/// scene.
 pub(super) fn profile(
     raw: &RawIrregularity,
     at: &Place<'_>,
@@ -68,7 +69,7 @@ fn read_file(
     rows.flatten()
 }
 
-/// Indices of the columns of x and of the value: those that are named, otherwise the first two.
+/// Indices of the columns of x and of the value: the named columns, otherwise the first two.
 fn select_columns(
     raw: &RawIrregularity,
     columns: &CsvColumns<'_>,

@@ -1,4 +1,4 @@
-//! Rails by their names: among all rails of a scene, and among those of one structure.
+//! References to rails by name, among all rails of a scene or among those of one structure.
 
 use crate::check::Check;
 use crate::scene::values::scene::SceneRail;
@@ -16,13 +16,13 @@ pub(super) fn rail_named(
 ) -> Option<usize> {
     let known = names(rails, |rail| &rail.name);
     if known.is_empty() {
-        // the structures have been faulted already
+        // the faults of the structures have already been reported
         return None;
     }
     resolve(name, &known, "rail, \"structure.rail\"", place, faults)
 }
 
-/// Index of the rail named at `at` among those of its structure; the only one where none is named.
+/// Index of the rail named at `at` among the rails of its structure; the only rail if none is named.
 pub(super) fn rail_among(
     given: Option<&String>,
     rails: &[RailOutline],

@@ -1,4 +1,4 @@
-//! From a scene as written to a checked scene.
+//! Conversion of a scene as written to a checked scene.
 
 use super::files::Files;
 use super::rail::rail_named;
@@ -24,14 +24,14 @@ const ACCURACY: f64 = 1e-4;
 /// Default number of rows of a history.
 const ROWS: f64 = 1000.0;
 
-/// Largest number of rows of a history.
+/// Maximum number of rows of a history.
 const MOST_ROWS: f64 = 1e7;
 
-/// Checks a scene; what is wrong in it goes to `faults`, what is wrong in files it names, to `files`.
+/// Checks a scene. Faults of the scene are added to `faults`, and faults of the files to which it refers to `files`.
 ///
-/// Members are read in the order of their references: structures and their rails, bodies, what is pinned or carried,
-/// wheels, ropes, trucks, then what acts on them. A member that is wrong is replaced by a default or left out, so that
-/// the others can be checked; checks over several members run only where all of them are there.
+/// Members are read in the order of their references: structures and their rails, bodies, pinned and carried bodies,
+/// wheels, ropes, trucks, and then the actions on them. An invalid member is replaced by a default or omitted, so
+/// that the others can be checked. Checks that involve several members are skipped unless all of them are valid.
 pub(in crate::scene) fn read(
     raw: &RawScene,
     file: &str,
@@ -96,7 +96,7 @@ pub(in crate::scene) fn read(
     units.map(|_| scene)
 }
 
-/// Bodies, with the rails they name where `rails`, those of all structures, are known.
+/// Reads the bodies and, if the rails of all structures are known (`rails`), their references to rails.
 fn read_bodies(
     raw: &RawScene,
     gravity: Option<f64>,
@@ -135,7 +135,7 @@ fn read_wheels(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Vec<W
     wheels
 }
 
-/// Reads what acts on bodies and trucks, and checks what involves several members.
+/// Reads the actions on bodies and trucks, and carries out the checks that involve several members.
 fn read_actions(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut Check<'_>) {
     let all_trucks = scene.trucks.len() == raw.trucks.len();
     if all_trucks {
@@ -280,7 +280,7 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
     scene.trucks = trucks;
 }
 
-/// Checks that every wheel is on its rail at the start and, where the travel is prescribed, until the end.
+/// Checks that every wheel is on its rail at the start and, if the travel is prescribed, until the end.
 fn check_travel(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     let trucks = root.key("trucks");
     let motions = root.key("motions");
@@ -320,7 +320,7 @@ fn check_travel(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Fa
     }
 }
 
-/// Time and position at which a body's origin leaves a range, as far as that follows from its motion.
+/// Time and position at which the origin of a body leaves a range, if this follows from its motion.
 fn leaves(body: &Body, range: [f64; 2], end: f64) -> Option<(f64, f64)> {
     match &body.motion {
         BodyMotion::Prescribed(travel) => travel.leaves(range, end),

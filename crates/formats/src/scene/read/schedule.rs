@@ -1,4 +1,4 @@
-//! Tables of a value over time.
+//! Tables of a value as a function of time.
 
 use sim::Schedule;
 
@@ -7,7 +7,7 @@ use crate::text::fault::Fault;
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// A piecewise function of time from rows (time, value), in the scene's units.
+/// Reads a piecewise function of time from rows (time, value), in the units of the scene.
 pub(super) fn read_schedule(
     table: &[[f64; 2]],
     place: &Place<'_>,
@@ -18,7 +18,7 @@ pub(super) fn read_schedule(
     Schedule::new(&rows).map_err(|error| check.faults.add(Fault::new(place, error.to_string()))).ok()
 }
 
-/// Rows (time, value) in the scene's units; none where the times do not increase.
+/// Reads rows (time, value) in the units of the scene; none if the times do not increase.
 pub(super) fn read_rows(
     table: &[[f64; 2]],
     place: &Place<'_>,

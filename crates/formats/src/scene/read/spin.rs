@@ -1,4 +1,4 @@
-//! Wheels whose spin a motion prescribes.
+//! Wheels whose spin is prescribed by a motion.
 
 use sim::{MotionKind, Profile};
 
@@ -13,15 +13,15 @@ use crate::text::names::{names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// The word of `dof`.
+/// Value of `dof` for a spin.
 pub(super) const SPIN: &str = "spin";
 
-/// Whether a motion is one of a wheel's spin.
+/// Whether a motion prescribes the spin of a wheel.
 pub(super) fn is_spin(motion: &RawMotion) -> bool {
     motion.dof.as_deref() == Some(SPIN)
 }
 
-/// The motions of spins of a scene whose trucks are known.
+/// Reads the prescribed spins of a scene whose trucks have already been read.
 pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) -> Vec<Spin> {
     let root = Place::root();
     let list = root.key("motions");

@@ -12,7 +12,7 @@ use crate::text::names::{check_name, names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Reads the stops of a scene whose bodies and trucks are known.
+/// Reads the stops of a scene whose bodies and trucks have already been read.
 pub(super) fn read_all(raw: &[RawStop], scene: &Scene, check: &mut Check<'_>) -> Vec<Stop> {
     let root = Place::root();
     let list = root.key("stops");
@@ -94,8 +94,8 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
     Some(Stop { name, axis, against: None, place, rail, stiffness, damping, points: meetings })
 }
 
-/// A buffer between a point of one body and the body named `other`, which it meets after `gap`: the body that bears it,
-/// its place from that body's origin, and the side.
+/// Reads a buffer between a point of one body and the body `other`, with an initial distance `gap`. Returns the body
+/// that carries it, its position relative to the origin of that body, and the side.
 fn buffer(
     raw: &RawStop,
     (body, point): (usize, [f64; 3]),
@@ -126,7 +126,8 @@ fn buffer(
     Some((against, apart + side * gap, side))
 }
 
-/// What meets the stop at `x` of a rail: of one body, or of all that move on the rail, the wheel that is nearest to it.
+/// The points that make contact with the stop at `x` of a rail: the nearest wheel of one body, or of every body that
+/// moves on the rail.
 fn on_rail(
     raw: &RawStop,
     [body, rail]: [Option<Option<usize>>; 2],
@@ -188,8 +189,8 @@ fn on_rail(
     Some(meetings)
 }
 
-/// Wheels of the tree of body `b` on a rail where they touch it: their bodies, treads from those bodies' origins, and x
-/// at the start.
+/// Wheels on a rail that belong to the tree of body `b`: their bodies, the positions of their treads relative to the
+/// origins of these bodies, and x at the start.
 fn treads(scene: &Scene, b: usize, rail: Option<usize>) -> Vec<(usize, [f64; 3], f64)> {
     let below = |truck: &&Truck| {
         let mut at = truck.body;

@@ -1,4 +1,4 @@
-//! Structures of a scene: their origin, and how the simulation models them.
+//! Structures of a scene: their source of influence coefficients, and their models in the simulation.
 
 use std::sync::Arc;
 
@@ -16,10 +16,10 @@ use crate::text::fault::{Fault, nearest};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Smallest tolerance: runs cannot be compared more accurately.
+/// Smallest permitted tolerance, which is the accuracy to which runs can be compared.
 const SMALLEST_TOLERANCE: f64 = 1e-7;
 
-/// The foundations that a scene can ask for.
+/// Foundations that a scene can specify.
 #[derive(Clone, Copy)]
 enum FoundationWord {
     Rigid,
@@ -31,7 +31,7 @@ enum FoundationWord {
     Auto,
 }
 
-/// Reads a structure; `others` are the names of the scene's other structures.
+/// Reads a structure. `others` are the names of the other structures of the scene.
 pub(super) fn read(
     name: &str,
     others: &[&str],
@@ -142,12 +142,12 @@ fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) ->
     check.faults.one_of(word, &place, &words).unwrap_or(FoundationWord::Auto)
 }
 
-/// Words of which couplings are taken into account.
+/// Keywords of the couplings that are taken into account.
 const COUPLINGS: [(&str, Couplings); 3] =
     [("all", Couplings::All), ("within rails", Couplings::WithinRails), ("none", Couplings::None)];
 
-/// Couplings can be neglected where a structure has no degrees of freedom of its own; natural modes move all rails
-/// together.
+/// Reads the couplings. They can be neglected only if a structure has no degrees of freedom of its own, because
+/// natural modes move all rails together.
 fn read_couplings(
     raw: &RawStructure,
     word: FoundationWord,
@@ -166,7 +166,7 @@ fn read_couplings(
     couplings
 }
 
-/// Whether a structure is compliant along its rails.
+/// Reads whether a structure is compliant in the longitudinal direction.
 fn read_longitudinal(
     raw: &RawStructure,
     word: FoundationWord,
@@ -189,7 +189,7 @@ fn read_longitudinal(
     longitudinal
 }
 
-/// Relative error that the choice of a foundation may cause.
+/// Reads the relative error permitted for the choice of a foundation.
 fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
     let (place, given) = (at.key("tolerance"), raw.tolerance.unwrap_or(TOLERANCE));
     let tolerance = check.positive(given, &place, Dimension::NUMBER, "a relative error, such as 1e-3");
@@ -200,7 +200,7 @@ fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> 
     tolerance
 }
 
-/// Damping ratio of the natural modes; the numbers of modes and elements must not be 0.
+/// Reads the damping ratio of the natural modes. The numbers of modes and elements must not be 0.
 fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
     for (key, count) in [("modes", raw.modes), ("elements", raw.elements)] {
         if count == Some(0) {

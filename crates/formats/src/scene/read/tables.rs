@@ -1,4 +1,4 @@
-//! Influence tables of a file as the origin of a structure.
+//! Influence tables of a file as the source of the influence coefficients of a structure.
 
 use std::sync::Arc;
 
@@ -14,7 +14,7 @@ use crate::text::inputs::Input;
 use crate::text::place::Place;
 use crate::units::{Dimension, Scale, Units};
 
-/// Reads the tables that `raw` names from `input` and converts them to the units of the scene.
+/// Reads the tables selected by `raw` from `input` and converts them to the units of the scene.
 pub(super) fn read(
     raw: &RawTables,
     input: &Input,
@@ -33,7 +33,7 @@ pub(super) fn read(
         .map(|tables| Origin::Tables { file: input.name.clone(), tables: Arc::new(tables) }))
 }
 
-/// The tables of a set that `raw` names.
+/// The tables of a set that are selected by `raw`.
 fn pair(set: &TableSet, raw: &RawTables, at: &Place<'_>, check: &mut Check<'_>) -> Option<TablePair> {
     let scale = Scale { from: set.units, to: check.scale.to };
     let vertical = table(set, raw.vertical.as_ref(), &at.key("vertical"), check);

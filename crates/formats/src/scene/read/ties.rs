@@ -12,10 +12,10 @@ use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
-/// Default number of elements between two ties where there is mass.
+/// Default number of elements between two ties if rail or ties have mass.
 const ELEMENTS: usize = 2;
 
-/// The member `ties`, which the foundation "ties" needs; `range` where the ground carries it.
+/// Reads the member `ties`, which the foundation "ties" requires. `range` is required if the ground carries the rail.
 pub(super) fn read(raw: &RawStructure, needed: bool, at: &Place<'_>, check: &mut Check<'_>) -> Option<Ties> {
     if raw.ties.is_none() && needed {
         check.faults.require(&raw.ties, at, "ties");
@@ -66,7 +66,7 @@ fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<
     CrossSection { e, g, area, iy, iz, j, mass: mass.unwrap_or(0.0), ..CrossSection::default() }
 }
 
-/// A rail on ties over the ground.
+/// Builds a rail on ties on the ground.
 pub(super) fn on_ground(
     name: &str,
     raw: &RawStructure,
@@ -88,7 +88,7 @@ pub(super) fn on_ground(
     }
 }
 
-/// A rail on ties over the rails of a structure.
+/// Builds rails on ties on the rails of a structure.
 pub(super) fn on_structure(
     origin: Origin,
     raw: &RawStructure,
@@ -108,7 +108,7 @@ pub(super) fn on_structure(
     }
 }
 
-/// Some where nothing is wrong so far: ties are placed by numbers that have been checked.
+/// Returns `Some` if there are no faults so far, because ties can only be positioned with valid numbers.
 fn is_right(check: &Check<'_>) -> Option<()> {
     check.faults.0.is_empty().then_some(())
 }
@@ -125,7 +125,7 @@ fn refuse(refusal: TiesError, at: &Place<'_>, check: &mut Check<'_>) -> Option<O
     None
 }
 
-/// How a rail on ties is simulated; without mass there are no modes to damp.
+/// The simulation model of a rail on ties. Without mass there are no modes and hence no modal damping.
 pub(super) fn foundation(
     raw: &RawStructure,
     ties: Option<&Ties>,

@@ -1,4 +1,4 @@
-//! Trucks: which wheels carry a body, where, on which rail.
+//! Trucks: the wheels that carry a body, their positions and their rail.
 
 use super::rail::rail_named;
 use crate::check::Check;
@@ -37,7 +37,7 @@ pub(super) fn read(
     Some(Truck { name, body, rail: rail?, wheel: wheel?, at: position, tree })
 }
 
-/// Index of the item that the truck names under a key; where it names none, of the only item there is.
+/// Index of the item that the truck names under a key or, if it names none, of the only existing item.
 fn named_or_only(
     name: &Option<String>,
     known: &[(&str, usize)],
@@ -65,7 +65,7 @@ fn read_rail(
         (Some(name), ..) => rail_named(name, rails, &at.key("rail"), check.faults),
         (None, Some([only]), _) => Some(*only),
         (None, _, [_]) => Some(0),
-        // without any rail the structures have been faulted already
+        // if there is no rail, the faults of the structures have already been reported
         (None, _, []) => None,
         (None, ..) => {
             let known: Vec<&str> = rails.iter().map(|rail| rail.name.as_str()).collect();
@@ -96,7 +96,7 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
     nodes.collect()
 }
 
-/// Fractions of an equaliser's load that its wheels carry.
+/// Fractions of the load of an equaliser that its wheels carry.
 fn fractions(below: &[(f64, f64)]) -> String {
     below.iter().map(|(_, share)| format!("1/{}", number(1.0 / share))).collect::<Vec<_>>().join(", ")
 }

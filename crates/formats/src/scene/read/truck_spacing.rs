@@ -1,4 +1,5 @@
-//! The distance across the track of two trucks of one body must be that of the rails on which they run.
+//! Check that the lateral distance between two trucks of a body equals the distance between the rails on which they
+//! run.
 
 use fea::{Model, Rail};
 
@@ -9,15 +10,16 @@ use crate::text::fault::{Fault, Faults, number};
 use crate::text::place::Place;
 use crate::vector::{cross, dot, unit};
 
-/// Tolerance of the distance between trucks, as a fraction of the distance between their rails: it allows for wheel
-/// treads, worn rails and rounded drawings.
+/// Tolerance of the distance between trucks, as a fraction of the distance between their rails. It allows for the
+/// width of wheel treads, worn rails and rounded dimensions.
 const DEFAULT_TOLERANCE: f64 = 0.1;
 
-/// Refuses trucks that do not stand on their rails, below bodies that can roll or yaw. Whether there are none.
+/// Rejects trucks that are not positioned on their rails, for bodies that can roll or yaw. Returns whether there are
+/// none.
 ///
-/// For each body the first of its trucks is the reference. The distance across the track from it to every other truck,
-/// from the positions `at` and the pins between bodies, is compared with the distance between the two rails, from the
-/// model of their spec.
+/// For each body the first of its trucks is the reference. The lateral distance from it to every other truck,
+/// computed from the positions `at` and the pins between bodies, is compared with the distance between the two rails
+/// in the model of their spec.
 pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
     let before = faults.0.len();
     let root = Place::root();
@@ -58,8 +60,8 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
     faults.0.len() == before
 }
 
-/// Distance from the first rail to the second, positive to the right, length; none where they belong to different
-/// structures, or to one without a spec.
+/// Distance from the first rail to the second, positive to the right, length; none if they belong to different
+/// structures or to a structure without a spec.
 fn rail_distance(scene: &Scene, one: usize, other: usize) -> Option<f64> {
     let [first, second] = [one, other].map(|rail| &scene.rails[rail]);
     let structure = &scene.structures[first.structure];
@@ -73,7 +75,7 @@ fn rail_distance(scene: &Scene, one: usize, other: usize) -> Option<f64> {
     let along = dot(u, v);
     let right = unit(cross(u, model.up))?;
     let distance = position_along(&model, b, right)? - position_along(&model, a, right)?;
-    // rails that are not parallel have no distance
+    // the distance is undefined for rails that are not parallel
     (along > 1.0 - 1e-6 && distance != 0.0).then_some(distance)
 }
 

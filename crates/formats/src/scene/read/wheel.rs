@@ -1,4 +1,4 @@
-//! Wheels: radius, contact laws, friction, spin.
+//! Wheel types: radius, contact laws, friction, spin.
 
 use crate::check::Check;
 use crate::scene::raw::{RawFriction, RawLateral, RawVertical, RawWheel};

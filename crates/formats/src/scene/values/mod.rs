@@ -1,4 +1,4 @@
-//! What a scene holds: plain values, checked, in the scene's units, names resolved to indices.
+//! The content of a checked scene: plain values in the units of the scene, with names resolved to indices.
 
 pub mod actuator;
 pub mod body;

@@ -1,23 +1,24 @@
-//! What a run writes beside the motion.
+//! Output of a run in addition to the motion.
 
 use practice::Repetition;
 
-/// Which quantities of one kind are written as columns.
+/// Selection of the quantities of one kind that are written as columns.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub enum ColumnSelection {
-    /// All of them where there are few.
+    /// All of them if their number is small.
     #[default]
     Few,
     /// All of them.
     All,
     /// None.
     None,
-    /// Those with these names, or with names that continue one of these after a dot.
+    /// Those with these names, or with names that consist of one of these followed by a dot and a suffix.
     Names(Vec<String>),
 }
 
 impl ColumnSelection {
-    /// Whether the quantity `name` is selected, where `has_few` says whether there are few of its kind.
+    /// Whether the quantity `name` is selected. `few` specifies whether the number of quantities of its kind is
+    /// small.
     #[must_use]
     pub fn selects(&self, name: &str, few: bool) -> bool {
         match self {
@@ -29,38 +30,38 @@ impl ColumnSelection {
     }
 }
 
-/// Whether `name` is `own`, or continues it after a dot.
+/// Whether `name` is `own`, or `own` followed by a dot and a suffix.
 pub(in crate::scene) fn belongs(name: &str, own: &str) -> bool {
     name.strip_prefix(own).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
 }
 
-/// What a run writes beside the motion.
+/// Output of a run in addition to the motion.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Output {
     /// Reactions of the ground.
     pub reactions: ColumnSelection,
-    /// Internal forces at the sections that specs name.
+    /// Internal forces at the sections named in specs.
     pub sections: ColumnSelection,
-    /// Stresses at the points that specs give with sections.
+    /// Stresses at the points that specs define for sections.
     pub stresses: ColumnSelection,
-    /// How fatigue is assessed from them.
+    /// Parameters of the fatigue assessment from these stresses.
     pub fatigue: Fatigue,
-    /// Whether they include the effects of the structures' own weight.
+    /// Whether reactions, internal forces and stresses include the effects of the self-weight of the structures.
     pub dead_load: bool,
-    /// Ends of the spans whose deflections are assessed, where the scene gives them: index of the rail, coordinates.
+    /// Ends of the spans whose deflections are assessed, if the scene specifies them: index of the rail, coordinates.
     pub spans: Vec<(usize, Vec<f64>)>,
 }
 
-/// How fatigue is assessed from stress histories.
+/// Parameters of the fatigue assessment from stress histories.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fatigue {
     /// Partial factor gamma_Ff on the stress ranges.
     pub loads: f64,
     /// Partial factor gamma_Mf on the fatigue strength.
     pub material: f64,
-    /// Whether the history occurs once or repeats itself.
+    /// Whether the history occurs once or is repeated.
     pub history: Repetition,
-    /// Number of runs in the design life; none: not known.
+    /// Number of runs in the design life; none if it is unknown.
     pub crossings: Option<f64>,
 }
 

@@ -1,34 +1,34 @@
-//! What the codes of crane engineers need beside the scene itself.
+//! Input of the crane design codes that is not part of the motion.
 
 use practice::aist::CraneKind;
 use practice::factor::{DriveOnset, HoistingClass, Release};
 use practice::skew::Guide;
 
-/// Properties of a crane that codes need and its scene does not give.
+/// Properties of a crane that the codes require in addition to the rest of the scene.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Practice {
     /// Index of the body that runs on two rails.
     pub crane: usize,
-    /// Its rails, as indices into the scene's.
+    /// Its rails, as indices into the rails of the scene.
     pub rails: [usize; 2],
-    /// The body that runs on it, if there is one.
+    /// The body that runs on the crane, if there is one.
     pub trolley: Option<usize>,
-    /// Bodies that hang from either.
+    /// Bodies that hang from the crane or the trolley.
     pub loads: Vec<usize>,
-    /// Row of TR-13's table.
+    /// Row of the table in TR-13.
     pub kind: CraneKind,
-    /// HoistingClass class; none: not given.
+    /// Hoisting class; none if it is not specified.
     pub hoisting: Option<HoistingClass>,
-    /// How its drive forces set in.
+    /// Onset of the drive forces.
     pub drives: DriveOnset,
-    /// How fast a payload is released.
+    /// How rapidly a payload is released.
     pub release: Release,
-    /// What guides it.
+    /// How the crane is guided.
     pub guide: Guide,
-    /// Least distance of the hook from a rail, length; none: that of the run.
+    /// Smallest distance of the hook from a rail, length; none if that of the run applies.
     pub approach: Option<f64>,
     /// Width of the rail head, length.
     pub rail_head: Option<f64>,
-    /// Rated speeds of bridge, trolley and hoist, length / time; none: those that the scene prescribes.
+    /// Rated speeds of bridge, trolley and hoist, length / time; none if those that the scene prescribes apply.
     pub speeds: [Option<f64>; 3],
 }

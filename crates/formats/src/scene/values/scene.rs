@@ -1,4 +1,4 @@
-//! A scene, checked: the whole of it.
+//! A checked scene.
 
 use sim::Method;
 
@@ -11,10 +11,10 @@ use super::truck::Truck;
 use super::wheel::WheelKind;
 use crate::units::Units;
 
-/// The word of the format, with its version.
+/// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-scene/1";
 
-/// A scene, checked, with names resolved to indices.
+/// A checked scene, with names resolved to indices.
 ///
 /// All numbers are in [`Scene::units`], times in seconds.
 ///
@@ -31,19 +31,19 @@ pub const FORMAT: &str = "girderway-scene/1";
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Scene {
-    /// Its name; that of the file where the scene gives none.
+    /// Its name; by default the name of the file.
     pub name: String,
     /// Units of all its numbers.
     pub units: Units,
     /// Acceleration of gravity, length / time^2, acting downwards; not negative.
     pub gravity: f64,
-    /// What is computed.
+    /// Type of the analysis.
     pub analysis: Analysis,
     /// Structures, which carry rails.
     pub structures: Vec<Structure>,
     /// All rails of all structures, in order.
     pub rails: Vec<SceneRail>,
-    /// Bodies, which run on them or hang from each other.
+    /// Bodies that run on rails, are pinned to each other, or hang from ropes.
     pub bodies: Vec<Body>,
     /// Kinds of wheels.
     pub wheels: Vec<WheelKind>,
@@ -63,9 +63,9 @@ pub struct Scene {
     pub end: f64,
     /// Time between two rows of the history, s.
     pub dt: f64,
-    /// What is written beside the motion.
+    /// Output in addition to the motion.
     pub output: Output,
-    /// What the codes of crane engineers need; none: they are not applied.
+    /// Input of the crane design codes; none if the codes are not applied.
     pub practice: Option<Practice>,
     /// Relative error tolerance of the time steps.
     pub accuracy: f64,
@@ -73,12 +73,12 @@ pub struct Scene {
     pub stepping: sim::Stepping,
 }
 
-/// What is computed.
+/// Type of an analysis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Analysis {
     /// Equations of motion.
     Dynamic,
-    /// Static equilibrium at every position of the travel.
+    /// Static equilibrium at every position along the travel.
     QuasiStatic,
 }
 
@@ -96,14 +96,14 @@ pub struct SceneRail {
 }
 
 impl Scene {
-    /// Whether some wheel has flanges, which push its rail sideways.
+    /// Whether some wheel has flanges, which load its rail laterally.
     #[must_use]
     pub fn has_flanges(&self) -> bool {
         self.trucks.iter().any(|truck| self.wheels[truck.wheel].lateral.is_some())
     }
 }
 
-/// End stops on the rails of a crane that the crane itself meets.
+/// End stops on the rails of a crane that limit the travel of the crane itself.
 pub fn end_stops<'s>(scene: &'s Scene, practice: &'s Practice) -> impl Iterator<Item = &'s Stop> {
     scene.stops.iter().filter(|stop| {
         let is_rail = stop.rail.is_some_and(|rail| practice.rails.contains(&rail));
@@ -111,14 +111,14 @@ pub fn end_stops<'s>(scene: &'s Scene, practice: &'s Practice) -> impl Iterator<
     })
 }
 
-/// The body at the root of the tree of pins that a body is in (itself where it is not pinned), and the position of the
-/// body's origin relative to that of the root.
+/// The root body of the tree of pins that contains a body (the body itself if it is not pinned), and the position of
+/// the origin of the body relative to that of the root.
 #[must_use]
 pub fn root_body(scene: &Scene, body: usize) -> (usize, [f64; 3]) {
     seat_of(&scene.bodies, body).unwrap_or((body, [0.0; 3]))
 }
 
-/// Mean position across the track, length, of the trucks on one rail below a body and the bodies pinned to it; 0 where
+/// Mean lateral position, length, of the trucks on one rail that support a body and the bodies pinned to it; 0 if
 /// there are none.
 #[must_use]
 pub fn mean_lateral_position(scene: &Scene, body: usize, rail: usize) -> f64 {
@@ -130,7 +130,7 @@ pub fn mean_lateral_position(scene: &Scene, body: usize, rail: usize) -> f64 {
     if count > 0.0 { sum / count } else { 0.0 }
 }
 
-/// Names of the methods of integration.
+/// Keywords of the methods of integration.
 pub const STEPPERS: [(&str, Method); 6] = [
     ("auto", Method::Auto),
     ("sdirk4", Method::Sdirk4),
@@ -140,7 +140,7 @@ pub const STEPPERS: [(&str, Method); 6] = [
     ("gauss3", Method::Gauss3),
 ];
 
-/// Name of a method of integration.
+/// Keyword of a method of integration.
 #[must_use]
 pub fn stepper_word(method: Method) -> &'static str {
     STEPPERS.iter().find(|(_, known)| *known == method).map_or("", |(word, _)| *word)

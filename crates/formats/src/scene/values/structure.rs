@@ -1,4 +1,4 @@
-//! Structures: what carries the rails, and how the simulation sees it.
+//! Structures, which carry the rails, and their models in the simulation.
 
 use std::sync::Arc;
 
@@ -6,61 +6,61 @@ use splines::{Axis, Couplings};
 
 use crate::spec::{GIRDER_RAIL, RailOutline, Spec};
 
-/// Something that carries rails.
+/// A structure that carries rails.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Structure {
     /// Its name.
     pub name: String,
-    /// Where its influence coefficients come from.
+    /// Source of its influence coefficients.
     pub origin: Origin,
     /// Its rails.
     pub rails: Vec<RailOutline>,
-    /// How the simulation models its compliance.
+    /// Model of its compliance in the simulation.
     pub foundation: Foundation,
-    /// Whether the scene leaves the foundation to the run ("auto"); then `foundation` is the default.
+    /// Whether the foundation is chosen by the run ("auto"). In this case `foundation` is the default.
     pub auto: bool,
-    /// Damping ratio of its natural modes, from 0 to below 1.
+    /// Damping ratio of its natural modes, at least 0 and below 1.
     pub damping: f64,
-    /// How its influence table is interpolated.
+    /// Interpolation of its influence table.
     pub interpolation: TableInterpolation,
-    /// Which couplings between its wheels are taken into account.
+    /// Couplings between its wheels that are taken into account.
     pub couplings: Couplings,
-    /// Relative error that the choice of the foundation may cause.
+    /// Relative error permitted for the choice of the foundation.
     pub tolerance: f64,
-    /// Places whose displacement is recorded.
+    /// Points whose displacement is recorded.
     pub gauges: Vec<Gauge>,
-    /// Whether friction, drives and brakes load it along its rails.
+    /// Whether friction, drives and brakes load it in the longitudinal direction.
     pub longitudinal: bool,
-    /// Irregularities of its unloaded rails, one for each rail; empty where all are straight.
+    /// Irregularities of its unloaded rails, one for each rail; empty if all rails are straight.
     pub irregularities: Vec<sim::Irregularity>,
-    /// The body that carries it; none: the ground.
+    /// The body that carries it; none if the ground does.
     pub carrier: Option<CarriedBy>,
 }
 
-/// What carries a structure.
+/// The body that carries a structure.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CarriedBy {
     /// Index of the body.
     pub body: usize,
-    /// Position of the spec's origin relative to the body's, length.
+    /// Position of the origin of the spec relative to that of the body, length.
     pub at: [f64; 3],
-    /// Which degrees of freedom x, y, z, roll, yaw, pitch of the body's origin may change.
+    /// Which of the degrees of freedom x, y, z, roll, yaw, pitch of the origin of the body can change.
     pub may_move: [bool; 6],
 }
 
-/// Where influence coefficients come from.
+/// Source of influence coefficients.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Origin {
     /// A beam spec, in the scene's units.
     Spec {
-        /// The file, as the scene names it.
+        /// The file, as named in the scene.
         file: String,
         /// Its contents.
         spec: Arc<Spec>,
     },
     /// SPLINE tables of an ADAMS data set, in the scene's units.
     Tables {
-        /// The file, as the scene names it.
+        /// The file, as named in the scene.
         file: String,
         /// Stations and values of the tables.
         tables: Arc<TablePair>,
@@ -89,11 +89,11 @@ pub struct TablePair {
     pub stations: Vec<f64>,
     /// `vertical[i][j]`: vertical deflection at station i per unit vertical load at station j, length / force.
     pub vertical: Option<Vec<Vec<f64>>>,
-    /// The same, laterally.
+    /// The same for the lateral direction.
     pub lateral: Option<Vec<Vec<f64>>>,
 }
 
-/// Model of a structure's compliance under wheels.
+/// Model of the compliance of a structure under wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Foundation {
     /// Rigid.
@@ -102,9 +102,9 @@ pub enum Foundation {
     Parts {
         /// Number of parts.
         count: usize,
-        /// How a wheel passes from one part to the next.
+        /// Transition of a wheel from one part to the next.
         handover: Handover,
-        /// Damping ratio of each natural mode, where the parts have mass.
+        /// Damping ratio of each natural mode, if the parts have mass.
         damping: f64,
     },
     /// Its influence coefficients, without mass.
@@ -125,9 +125,9 @@ pub enum Foundation {
     },
     /// A rail on elastic ties.
     Ties {
-        /// Whether it has mass and moves in natural modes.
+        /// Whether it has mass and its motion is represented by natural modes.
         has_mass: bool,
-        /// Number of modes; none: all modes of the mesh.
+        /// Number of modes; none for all modes of the mesh.
         modes: Option<usize>,
         /// Damping ratio of each mode.
         damping: f64,
@@ -136,17 +136,17 @@ pub enum Foundation {
     },
 }
 
-/// How a wheel passes from one rigid part to the next.
+/// Transition of a wheel from one rigid part to the next.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Handover {
-    /// One contact, whose part is blended by STEP over a length about the joint.
+    /// One contact, whose assignment to the parts is blended by STEP over a length about the joint.
     Blend {
-        /// Length of the blend; none: from centre to centre of the parts.
+        /// Length of the blend; none for the distance between the centres of the parts.
         length: Option<f64>,
     },
     /// One unilateral force for each part, faded by STEP over a length about the joint.
     PerPart {
-        /// Length of the fading; none: from centre to centre of the parts.
+        /// Length of the fading; none for the distance between the centres of the parts.
         length: Option<f64>,
     },
 }
@@ -154,18 +154,18 @@ pub enum Handover {
 /// Interpolation of an influence table between its stations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TableInterpolation {
-    /// The exact surface of the beams.
+    /// The exact compliance of the beams.
     Exact,
-    /// Natural cubic splines along both directions.
+    /// Natural cubic splines in both directions.
     Natural,
-    /// AKISPL along the position of the load, linear along that of the deflection.
+    /// AKISPL over the position of the load, linear over the position of the deflection.
     Akispl,
-    /// CUBSPL along the position of the load, linear along that of the deflection.
+    /// CUBSPL over the position of the load, linear over the position of the deflection.
     Cubspl,
 }
 
 impl TableInterpolation {
-    /// The interpolations by their words in scenes.
+    /// The interpolations and their keywords in scenes.
     pub const WORDS: [(&'static str, TableInterpolation); 4] = [
         ("exact", TableInterpolation::Exact),
         ("natural", TableInterpolation::Natural),
@@ -173,7 +173,7 @@ impl TableInterpolation {
         ("cubspl", TableInterpolation::Cubspl),
     ];
 
-    /// Its word in scenes.
+    /// Its keyword in scenes.
     #[must_use]
     pub fn word(self) -> &'static str {
         TableInterpolation::WORDS.iter().find(|(_, reading)| *reading == self).map_or("", |(word, _)| *word)
@@ -181,7 +181,7 @@ impl TableInterpolation {
 }
 
 impl Foundation {
-    /// Its word in scenes.
+    /// Its keyword in scenes.
     #[must_use]
     pub const fn word(&self) -> &'static str {
         match self {
@@ -207,7 +207,7 @@ pub const ELEMENTS: usize = 8;
 /// Default number of parts of a chain.
 pub const DEFAULT_PARTS: usize = 2;
 
-/// A place whose displacement a run records as `<structure>.<name>`.
+/// A point whose displacement a run records as `<structure>.<name>`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gauge {
     /// Its name.

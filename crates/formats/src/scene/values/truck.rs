@@ -1,19 +1,19 @@
-//! Trucks: which wheels carry a body, where, on which rail.
+//! Trucks: the wheels that carry a body, their positions and their rail.
 
 /// Wheels under a body on one rail.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truck {
-    /// Its name; `<body>.truck<n>` where the scene gives none.
+    /// Its name; by default `<body>.truck<n>`.
     pub name: String,
     /// Index of its body.
     pub body: usize,
     /// Index of its rail in the scene's list.
     pub rail: usize,
-    /// Index of its kind of wheel in the scene's list.
+    /// Index of its wheel type in the list of the scene.
     pub wheel: usize,
-    /// Position of its origin relative to the body's, in the rail frame, length.
+    /// Position of its origin relative to that of the body, in the rail frame, length.
     pub at: [f64; 3],
-    /// Wheels and equalisers on which the body rests, in the order of the file.
+    /// Wheels and equalisers that support the body, in the order of the file.
     pub tree: Vec<Node>,
 }
 
@@ -27,7 +27,7 @@ pub enum Node {
 }
 
 impl Node {
-    /// Offset along the rail of the wheel, or of the equaliser's pin, which is the mean of its ends.
+    /// Longitudinal offset of the wheel, or of the pin of the equaliser, which is the mean of its ends.
     #[must_use]
     pub fn offset(&self) -> f64 {
         match self {
@@ -36,7 +36,7 @@ impl Node {
         }
     }
 
-    /// Offsets of the wheels below, with the fraction of this node's load that each carries.
+    /// Offsets of the wheels below this node, with the fraction of its load that each wheel carries.
     #[must_use]
     pub fn wheels(&self) -> Vec<(f64, f64)> {
         match self {
@@ -50,7 +50,7 @@ impl Node {
 }
 
 impl Truck {
-    /// Offsets along the rail of all wheels from the body's origin, in the order of the file.
+    /// Longitudinal offsets of all wheels from the origin of the body, in the order of the file.
     #[must_use]
     pub fn wheel_offsets(&self) -> Vec<f64> {
         self.tree.iter().flat_map(Node::wheels).map(|(offset, _)| self.at[0] + offset).collect()

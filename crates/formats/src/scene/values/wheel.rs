@@ -1,6 +1,6 @@
-//! Kinds of wheels: radius, contact laws, friction, spin.
+//! Wheel types: radius, contact laws, friction, spin.
 
-/// A kind of wheel, shared by trucks.
+/// A wheel type, which several trucks can share.
 #[derive(Clone, Debug, PartialEq)]
 pub struct WheelKind {
     /// Its name.
@@ -9,13 +9,13 @@ pub struct WheelKind {
     pub radius: f64,
     /// Vertical contact of the tread.
     pub vertical: TreadContact,
-    /// Contact of the flange; none: the wheel never touches sideways.
+    /// Contact of the flange; none if the wheel has no lateral contact.
     pub lateral: Option<FlangeContact>,
-    /// Friction along the rail; none: the wheel rolls without traction.
+    /// Longitudinal friction; none if the wheel rolls without tangential force.
     pub friction: Option<Friction>,
-    /// Moment of inertia about the axle, mass length^2; none: the spin follows from rolling without slip.
+    /// Moment of inertia about the axle, mass length^2; none if the spin follows from rolling without slip.
     pub spin_inertia: Option<f64>,
-    /// Whether the drive of its body acts on it; its friction limits the drive.
+    /// Whether the drive of its body acts on it. Friction limits the drive force.
     pub driven: bool,
     /// Whether the brake of its body acts on it.
     pub braked: bool,
@@ -30,32 +30,32 @@ pub struct TreadContact {
     pub k: f64,
     /// Damping, force per speed.
     pub c: f64,
-    /// Which velocity the damper acts on.
+    /// Velocity on which the damper acts.
     pub damper: DamperVelocity,
-    /// Whether the contact can pull.
+    /// Whether the contact can transmit tension.
     pub bilateral: bool,
 }
 
 /// Law of a vertical contact.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum NormalForceLaw {
-    /// N = k p + c dp/dt of the penetration p.
+    /// N = k p + c dp/dt for the penetration p.
     Linear,
     /// IMPACT of ADAMS: N = k p^exponent + STEP(p, 0, 0, depth, c) dp/dt.
     Impact {
         /// Exponent of the penetration, at least 1.
         exponent: f64,
-        /// Penetration at which the damping reaches c, length.
+        /// Penetration at which the damping coefficient becomes c, length.
         depth: f64,
     },
 }
 
-/// The velocity that the damper of a contact acts on.
+/// The velocity on which the damper of a contact acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DamperVelocity {
-    /// That of the wheel relative to the rail.
+    /// Velocity of the wheel relative to the rail.
     Rail,
-    /// That of the wheel in space.
+    /// Absolute velocity of the wheel.
     Ground,
 }
 
@@ -64,14 +64,14 @@ pub enum DamperVelocity {
 pub struct FlangeContact {
     /// Stiffness, force / length.
     pub k: f64,
-    /// Clearance to either side, length, not negative.
+    /// Clearance on either side, length, not negative.
     pub clearance: f64,
-    /// Heights of the wheel's centre over the rail between which the flange force fades to zero; none: it is released
-    /// when the tread lifts off.
+    /// Heights of the wheel centre above the rail between which the flange force decreases to zero; none if it is
+    /// released when the tread lifts off.
     pub release: Option<[f64; 2]>,
 }
 
-/// How friction grows with the sliding speed s.
+/// Dependence of friction on the sliding speed s.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FrictionLaw {
     /// STEP(s, -slip, -1, slip, 1).
@@ -80,10 +80,10 @@ pub enum FrictionLaw {
     Coulomb,
 }
 
-/// Friction along the rail.
+/// Longitudinal friction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Friction {
-    /// Law of the sliding speed.
+    /// Dependence on the sliding speed.
     pub law: FrictionLaw,
     /// Coefficient of friction, above 0.
     pub mu: f64,

@@ -1,4 +1,4 @@
-//! The text of a file as rows of cells, each with its place.
+//! Splits the text of a file into rows of cells with their positions.
 
 use crate::text::diagnostic::Diagnostic;
 use crate::text::source::Source;
@@ -22,8 +22,9 @@ pub(super) struct Cell {
 }
 
 impl<'s> Sheet<'s> {
-    /// Splits a file into rows and cells. The separator is the first of semicolon, tab and comma that the first row
-    /// contains, else blanks. A row that begins with `#`, `%` or `!` is a comment. Cells may be in double quotes.
+    /// Splits a file into rows and cells. The separator is the first of semicolon, tab and comma that occurs in the
+    /// first row; if none occurs, cells are separated by blanks. A row that begins with `#`, `%` or `!` is a comment.
+    /// Cells may be enclosed in double quotes.
     pub fn of(source: &'s Source) -> Result<Sheet<'s>, Box<Diagnostic>> {
         let text = source.text.trim_start_matches('\u{feff}').replace("\r\n", "\n").replace('\r', "\n");
         let mut separator = None;
@@ -72,7 +73,7 @@ impl<'s> Sheet<'s> {
         })
     }
 
-    /// The finite number of a cell; `None` where it has none.
+    /// The finite number of a cell; `None` if the cell is not a finite number.
     pub fn maybe_number(&self, cell: &Cell) -> Option<f64> {
         let comma = self.decimal_comma && cell.text.matches(',').count() == 1 && !cell.text.contains('.');
         if comma {

@@ -5,7 +5,7 @@ use crate::tables::defect::disorder;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::source::Source;
 
-/// Rows of a file, with the names of its columns where the first row has names.
+/// Rows of a file, with the names of its columns if the first row is a header.
 pub struct CsvColumns<'s> {
     sheet: Sheet<'s>,
     names: Vec<String>,
@@ -26,7 +26,7 @@ impl<'s> CsvColumns<'s> {
         Ok(CsvColumns { sheet, names, first: usize::from(named) })
     }
 
-    /// Names of the columns; none where the file has no header.
+    /// Names of the columns; empty if the file has no header.
     pub fn names(&self) -> &[String] {
         &self.names
     }
@@ -34,8 +34,8 @@ impl<'s> CsvColumns<'s> {
     /// The numbers of two columns, by their indices.
     ///
     /// # Errors
-    /// Every cell that is missing or not a finite number; no row below the header; an x below the one before it, or a
-    /// third row at one x.
+    /// Every cell that is missing or not a finite number; no row below the header; an x smaller than the previous
+    /// one; a third row with the same x.
     pub fn rows(&self, columns: [usize; 2]) -> Result<Vec<[f64; 2]>, Vec<Diagnostic>> {
         let (mut rows, mut faults) = (Vec::new(), Vec::new());
         for row in &self.sheet.rows[self.first..] {
@@ -56,7 +56,7 @@ impl<'s> CsvColumns<'s> {
         if faults.is_empty() { Ok(rows) } else { Err(faults) }
     }
 
-    /// The number of a row in a column.
+    /// The number in one column of a row.
     fn number(&self, row: &[Cell], column: usize) -> Result<f64, Box<Diagnostic>> {
         match row.get(column) {
             Some(cell) => self.sheet.number(cell),

@@ -1,4 +1,4 @@
-//! Tables with one value per line, under a header that names the columns.
+//! Tables with one value per line, below a header with the names of the columns.
 
 use super::Sheet;
 use super::cells::Cell;
@@ -22,7 +22,7 @@ pub(super) struct Header {
 const KNOWN: [&str; 5] = ["id", "name", "z", "x", "value"];
 
 impl Header {
-    /// The header in the first row; `None` where it has no column `value`.
+    /// The header in the first row; `None` if it has no column `value`.
     pub fn of(sheet: &Sheet<'_>) -> Result<Option<Header>, Vec<Diagnostic>> {
         let head: Vec<(String, Option<&str>)> =
             sheet.rows[0].iter().map(|cell| name_and_unit(&cell.text)).collect();
@@ -44,7 +44,7 @@ impl Header {
         };
         let unit = |column: usize| head[column].1;
         let units = unit(x).zip(unit(value)).map(|(length, value)| {
-            // the first word of ft/lbf is the length, the second the force
+            // the text between the brackets contains the length first and the force second, as in ft/lbf
             let units = Units::parse(value);
             units.filter(|units| Length::of_word(length) == Some(units.length))
         });
@@ -109,7 +109,7 @@ pub(super) fn read(sheet: &Sheet<'_>, header: &Header) -> Result<Vec<Draft>, Vec
     groups.into_iter().map(|group| draft(sheet, header, group).map_err(|fault| vec![*fault])).collect()
 }
 
-/// Number and name of the table of a row, and the row.
+/// Number and name of the table of a row, followed by the row.
 type Named<'s> = (Option<u32>, Option<String>, Entry<'s>);
 
 fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Named<'s>, Box<Diagnostic>> {
@@ -136,7 +136,7 @@ fn entry<'s>(sheet: &Sheet<'_>, header: &Header, row: &'s [Cell]) -> Result<Name
     Ok((id, name, Entry { z, x: number(header.x)?, value: number(header.value)?, row }))
 }
 
-/// The table of a group: its rows sorted by z, then x. Every z must have values at the same x.
+/// The table of a group, with its rows sorted by z, then x. Every z must have values at the same x.
 fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Draft, Box<Diagnostic>> {
     let cell = |entry: &Entry<'_>, column: usize| entry.row.get(column).unwrap_or(&entry.row[0]).clone();
     let one_curve = group.entries.iter().all(|entry| entry.z.is_none());
@@ -145,7 +145,7 @@ fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Dra
         return Err(sheet.fault(&cell(entry, z), "must have a z, as the other rows of the table").into());
     }
     let z_of = |entry: &Entry<'_>| entry.z.unwrap_or(0.0);
-    // -0 and 0 are the same place: partial_cmp calls them equal
+    // -0 and 0 are the same coordinate, and partial_cmp treats them as equal
     let order = |a: &Entry<'_>, b: &Entry<'_>| {
         let z = z_of(a).partial_cmp(&z_of(b)).unwrap_or(std::cmp::Ordering::Equal);
         z.then(a.x.partial_cmp(&b.x).unwrap_or(std::cmp::Ordering::Equal))

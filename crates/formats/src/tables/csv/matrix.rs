@@ -6,7 +6,7 @@ use crate::tables::defect::{self, Part};
 use crate::tables::parsed::Draft;
 use crate::text::diagnostic::Diagnostic;
 
-/// Reads the one table of the file. The corner is empty, text or left out; it may be 0 where x and z are the same
+/// Reads the single table of the file. The corner is empty, text or missing. It may be 0 if x and z are the same
 /// stations.
 pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
     let (head, body) = (&sheet.rows[0], &sheet.rows[1..]);
@@ -26,7 +26,7 @@ pub(super) fn read(sheet: &Sheet<'_>) -> Result<Draft, Vec<Diagnostic>> {
         z.push(sheet.number(&row[0]).map_err(one)?);
         values.push(numbers(&row[1..]).map_err(one)?);
     }
-    // any other number in the corner may be the first value of a matrix without x and z
+    // a different number in the corner may be the first value of a matrix without x and z
     let corner = if cornerless { None } else { sheet.maybe_number(&head[0]) };
     if corner.is_some_and(|corner| corner != 0.0 || x != z) {
         let mut fault = sheet.fault(&head[0], "the corner must be empty or text");

@@ -1,4 +1,4 @@
-//! Tables as rows of cells: one value per line, or a matrix with x above and z to the left.
+//! Tables as rows of cells: one value per line, or a matrix with x in the first row and z in the first column.
 
 mod cells;
 mod columns;
@@ -19,7 +19,7 @@ use cells::Sheet;
 
 pub use columns::CsvColumns;
 
-/// The text: one value per line under a header with the units, and the products in comments above it.
+/// The text: comments with the products, a header with the units, and one value per line.
 pub(super) fn write(set: &TableSet) -> String {
     let mut writer = WriterBuilder::new().from_writer(Vec::new());
     let length = set.units.label(Dimension::LENGTH);
@@ -49,7 +49,8 @@ pub(super) fn write(set: &TableSet) -> String {
     comments + &String::from_utf8_lossy(&body)
 }
 
-/// Reads either layout: where the header has a column `value` it is one value per line, else a matrix.
+/// Reads either layout. If the header has a column `value`, the file has one value per line; otherwise it is a
+/// matrix.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     let sheet = Sheet::of(source).map_err(|error| vec![*error])?;
     let (drafts, given) = match long::Header::of(&sheet)? {

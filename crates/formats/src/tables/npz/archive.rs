@@ -9,10 +9,10 @@ use zip::{CompressionMethod, ZipArchive, ZipWriter};
 use super::array::{Array, Refusal};
 use crate::text::diagnostic::Diagnostic;
 
-/// Most bytes that are read of all arrays together.
+/// Maximum total size of the arrays that are read, in bytes.
 const MAX_BYTES: u64 = 1 << 30;
 
-/// The arrays of an archive in its order, by name without `.npy`.
+/// The arrays of an archive in the order of the archive, each with its name without `.npy`.
 pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box<Diagnostic>> {
     let refuse = |error: ZipError| {
         let mut fault = Diagnostic::of_file(file, "must be a zip archive of arrays");
@@ -62,7 +62,8 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
     Ok(out)
 }
 
-/// The bytes of an archive. It is not compressed and all its dates are the same, so that equal arrays give equal bytes.
+/// The bytes of an archive. It is not compressed and all its dates are the same, so that equal arrays result in equal
+/// bytes.
 pub(super) fn write(arrays: &[(String, Vec<u8>)]) -> Result<Vec<u8>, ZipError> {
     let mut writer = ZipWriter::new(Cursor::new(Vec::new()));
     let options = SimpleFileOptions::default()

@@ -1,4 +1,4 @@
-//! An array: its shape, and numbers or words.
+//! An array: its shape, and its items, which are numbers or strings.
 
 use super::header::{self, Header};
 
@@ -21,19 +21,19 @@ pub(super) enum Data {
 pub(super) enum Refusal {
     /// They are not an array.
     NoArray,
-    /// A type that is neither real numbers nor words.
+    /// An item type that is neither a real number nor a string.
     Kind(String),
-    /// Data of another size than the shape says.
+    /// The size of the data does not match the shape.
     Size { expected: usize, found: usize },
 }
 
 impl Array {
-    /// An array of words of one dimension.
+    /// A one-dimensional array of strings.
     pub fn words(list: &[String]) -> Array {
         Array { shape: vec![list.len()], data: Data::Words(list.to_vec()) }
     }
 
-    /// An array of numbers of one dimension.
+    /// A one-dimensional array of numbers.
     pub fn line(list: &[f64]) -> Array {
         Array { shape: vec![list.len()], data: Data::Numbers(list.to_vec()) }
     }
@@ -57,7 +57,7 @@ impl Array {
         Ok(Array { data, shape: header.shape.clone() }.c_order(&header))
     }
 
-    /// The same array in C order, of one whose items are in the order of its header.
+    /// Converts an array whose items are in the order of its header to C order.
     fn c_order(self, header: &Header) -> Array {
         if !header.fortran || self.shape.len() < 2 {
             return self;
@@ -70,8 +70,8 @@ impl Array {
         Array { shape, data }
     }
 
-    /// The bytes of an `.npy` file: numbers as 64-bit integers where `whole`, else as doubles; words in four bytes per
-    /// character.
+    /// The bytes of an `.npy` file. Numbers are written as 64-bit integers if `whole`, otherwise as doubles; strings
+    /// are written with four bytes per character.
     pub fn bytes(&self, whole: bool) -> Vec<u8> {
         match &self.data {
             Data::Numbers(list) if whole => {
@@ -97,7 +97,7 @@ impl Array {
     }
 }
 
-/// Items in Fortran order (first index fastest) in C order (last index fastest).
+/// Reorders items from Fortran order (first index fastest) to C order (last index fastest).
 fn reordered<T: Clone>(shape: &[usize], list: &[T]) -> Vec<T> {
     let mut strides = Vec::with_capacity(shape.len());
     let mut step = 1;
@@ -117,7 +117,7 @@ fn reordered<T: Clone>(shape: &[usize], list: &[T]) -> Vec<T> {
     (0..list.len()).map(|k| list[place(k)].clone()).collect()
 }
 
-/// Type of the items, as `descr` of the header says it.
+/// Type of the items, from `descr` of the header.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Float {
@@ -132,7 +132,7 @@ enum Kind {
         size: usize,
         big: bool,
     },
-    /// `wide`: four bytes per character, else one.
+    /// `wide`: four bytes per character, otherwise one.
     Words {
         count: usize,
         big: bool,
@@ -161,7 +161,7 @@ impl Kind {
         }
     }
 
-    /// Bytes of an item.
+    /// Size of an item in bytes.
     fn size(self) -> usize {
         match self {
             Kind::Float { size, .. } | Kind::Signed { size, .. } | Kind::Unsigned { size, .. } => size,

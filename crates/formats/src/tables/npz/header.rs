@@ -10,7 +10,7 @@ pub(super) struct Header {
     pub shape: Vec<usize>,
 }
 
-/// Header and data of the bytes of an array; `None` where they are not an array.
+/// Splits the bytes of an array into header and data; `None` if they are not an array.
 ///
 /// # Source
 /// NumPy, `numpy.lib.format`, versions 1 to 3.
@@ -62,7 +62,7 @@ fn parse(text: &str) -> Option<Header> {
     Some(Header { descr: descr?, fortran: fortran?, shape: shape? })
 }
 
-/// A text in quotation marks at the beginning, and the rest after it.
+/// A string in quotation marks at the beginning of the text, and the remaining text.
 fn quoted(text: &str) -> Option<(&str, &str)> {
     let mark = text.chars().next().filter(|c| matches!(c, '\'' | '"'))?;
     text[1..].split_once(mark)

@@ -3,7 +3,7 @@
 use crate::grid::GridBlock;
 use crate::tables::set::adams_name;
 
-/// Names of arrays that are not tables.
+/// Reserved names of arrays that are not tables.
 pub(super) const META: [&str; 14] = [
     "name",
     "units",
@@ -21,12 +21,12 @@ pub(super) const META: [&str; 14] = [
     "expressions",
 ];
 
-/// Keys that are taken.
+/// Keys that are already in use.
 #[derive(Default)]
 pub(super) struct Keys(Vec<String>);
 
 impl Keys {
-    /// Takes a free key: `preferred`, or else that with a number after it.
+    /// Reserves and returns an unused key: `preferred`, or `preferred` with a number appended.
     pub fn take(&mut self, preferred: &str) -> String {
         let mut key = adams_name(preferred);
         let mut count = 1;
@@ -39,7 +39,7 @@ impl Keys {
     }
 }
 
-/// Whether an array that belongs to one key would have the name of the other key or of one of its arrays.
+/// Whether the name of an array of one key would equal the other key or the name of one of its arrays.
 fn clash(a: &str, b: &str) -> bool {
     let belongs = |a: &str, b: &str| {
         b.strip_prefix(a).is_some_and(|end| ["", "_x", "_z", "_ids", "_names", "_terms"].contains(&end))
@@ -47,8 +47,8 @@ fn clash(a: &str, b: &str) -> bool {
     belongs(a, b) || belongs(b, a)
 }
 
-/// The preferred key of a table: its quantity where there is one rail, quantity and rails where there are several, its
-/// name where these are not known.
+/// The preferred key of a table: its quantity if there is one rail, quantity and rails if there are several, and its
+/// name if these are unknown.
 pub(super) fn preferred(
     name: &str,
     quantity: Option<GridBlock>,

@@ -3,9 +3,9 @@
 //! | array | content |
 //! |---|---|
 //! | `name`, `units` | name of the structure; words of the units of length, force and time |
-//! | `stations` | x and z of every plain table; where they differ, `K_x` and `K_z` of table K |
+//! | `stations` | x and z of every plain table; if they differ, `K_x` and `K_z` of table K |
 //! | `tables`, `ids`, `names` | keys K of the plain tables, their numbers and names |
-//! | `quantity`, `rail`, `load_rail` | those of the plain tables, where known |
+//! | `quantity`, `rail`, `load_rail` | quantities and rails of the plain tables, if known |
 //! | K | a table: a row for each z, a column for each x |
 //! | `curves` | keys C of the tables of one curve |
 //! | C | curves: a row for each station, a column for each curve |

@@ -1,10 +1,10 @@
-//! The arrays of a file, with checks of type and length.
+//! The arrays of a file, with checks of types and lengths.
 
 use super::array::{Array, Data};
 use crate::grid::GridBlock;
 use crate::text::diagnostic::Diagnostic;
 
-/// Quantity and rails (of deflection, of load) of a table, where they are known.
+/// Quantity and rails (of deflection and of load) of a table, if known.
 pub(super) type Relation = (Option<GridBlock>, Option<[String; 2]>);
 
 /// The arrays of a file.
@@ -14,17 +14,17 @@ pub(super) struct Pack<'f> {
 }
 
 impl Pack<'_> {
-    /// A diagnostic at an array, or an item of it.
+    /// A diagnostic for an array, or for an item of it.
     pub fn fault(&self, path: &str, expected: impl Into<String>) -> Diagnostic {
         Diagnostic { path: path.to_owned(), ..Diagnostic::of_file(self.file, expected) }
     }
 
-    /// The array of this name.
+    /// The array with this name.
     pub fn find(&self, name: &str) -> Option<&Array> {
         self.arrays.iter().find(|(known, _)| known == name).map(|(_, array)| array)
     }
 
-    /// Words of an array, where it is there.
+    /// Strings of an array, if it exists.
     pub fn words(&self, name: &str) -> Result<Option<Vec<String>>, Box<Diagnostic>> {
         match self.find(name).map(|array| &array.data) {
             None => Ok(None),
@@ -36,7 +36,7 @@ impl Pack<'_> {
         }
     }
 
-    /// Numbers of an array of one dimension, where it is there.
+    /// Numbers of a one-dimensional array, if it exists.
     pub fn line(&self, name: &str) -> Result<Option<&[f64]>, Box<Diagnostic>> {
         let Some(array) = self.find(name) else { return Ok(None) };
         match (&array.data, array.shape.as_slice()) {
@@ -48,12 +48,12 @@ impl Pack<'_> {
         }
     }
 
-    /// A diagnostic with what was found.
+    /// A diagnostic with the value that was found.
     pub fn got(&self, path: &str, expected: &str, found: impl ToString) -> Box<Diagnostic> {
         Box::new(Diagnostic { found: Some(found.to_string()), ..self.fault(path, expected) })
     }
 
-    /// Words of an array, where it is there; they must be `count`.
+    /// Strings of an array, if it exists; their number must be `count`.
     pub fn matched(&self, name: &str, count: usize) -> Result<Option<Vec<String>>, Box<Diagnostic>> {
         let words = self.words(name)?;
         match &words {
@@ -64,7 +64,7 @@ impl Pack<'_> {
         }
     }
 
-    /// Numbers of `count` tables, where the array is there.
+    /// Numbers of `count` tables, if the array exists.
     pub fn ids(&self, name: &str, count: usize) -> Result<Option<Vec<u32>>, Box<Diagnostic>> {
         let Some(list) = self.line(name)? else { return Ok(None) };
         if list.len() != count {
@@ -74,13 +74,13 @@ impl Pack<'_> {
         ids.collect::<Result<Vec<u32>, _>>().map(Some)
     }
 
-    /// The number of a table: a whole number above 0.
+    /// The number of a table, which must be a whole number above 0.
     pub fn id(&self, path: &str, value: f64) -> Result<u32, Box<Diagnostic>> {
         let whole = value.fract() == 0.0 && (1.0..=f64::from(u32::MAX)).contains(&value);
         if whole { Ok(value as u32) } else { Err(self.got(path, "must be a whole number above 0", value)) }
     }
 
-    /// Quantities and rails of `count` keys, from the arrays whose names begin with `before`.
+    /// Quantities and rails of `count` keys, from the arrays whose names have the prefix `before`.
     pub fn relations(&self, before: &str, count: usize) -> Result<Vec<Relation>, Box<Diagnostic>> {
         let named = |name: &str| self.matched(&format!("{before}{name}"), count);
         let (quantities, rails, loads) = (named("quantity")?, named("rail")?, named("load_rail")?);
@@ -102,7 +102,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    /// x or z of a table (`side` is "x" or "z"), and the name of the array they are in.
+    /// x or z of a table (`side` is "x" or "z"), and the name of the array that contains them.
     pub fn stations(&self, key: &str, side: &str) -> Result<(String, Vec<f64>), Box<Diagnostic>> {
         for name in [format!("{key}_{side}"), side.to_owned(), "stations".to_owned()] {
             if let Some(list) = self.line(&name)? {

@@ -1,4 +1,4 @@
-//! Reading the tables of an archive of arrays.
+//! Reads the tables of an archive of arrays.
 
 use super::archive;
 use super::array::Data;
@@ -11,8 +11,8 @@ use crate::tables::set::Product;
 use crate::text::diagnostic::Diagnostic;
 use crate::units::Units;
 
-/// Reads an archive of ours, or of arrays as users of NumPy write them: there every matrix is a table with the name of
-/// its array K, and its stations are `K_x` and `K_z`, or `x` and `z`, or `stations` for both.
+/// Reads an archive written by this program or by a user of NumPy. In the latter every matrix is a table with the
+/// name of its array K, and its stations are `K_x` and `K_z`, or `x` and `z`, or `stations` for both.
 pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Diagnostic>> {
     let one = |fault: Box<Diagnostic>| vec![*fault];
     let arrays = archive::read(file, bytes).map_err(one)?;
@@ -54,7 +54,7 @@ pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Di
 }
 
 impl Pack<'_> {
-    /// The tables over load and deflection: those that `tables` lists, or every matrix.
+    /// The tables over load and deflection: those listed in `tables`, or every matrix.
     fn tables(&self) -> Result<Vec<Draft>, Box<Diagnostic>> {
         let listed = self.words("tables")?;
         let ours = listed.is_some() || self.find("curves").is_some();
@@ -95,7 +95,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    /// Names of the arrays that are tables, in a file that does not list them.
+    /// Names of the arrays that are tables, for a file that does not list them.
     fn matrices(&self) -> Result<Vec<String>, Box<Diagnostic>> {
         let mut out = Vec::new();
         for (name, array) in &self.arrays {
@@ -115,8 +115,8 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    /// A defect of the table `key` as a diagnostic; `x` and `z` are the arrays of its stations, and `summary` says whether
-    /// the table has one dimension.
+    /// Converts a defect of the table `key` to a diagnostic. `x` and `z` are the arrays of its stations; `line`
+    /// specifies whether the table has one dimension.
     fn located(&self, defect: Defect, key: &str, [x, z]: [&str; 2], line: bool) -> Diagnostic {
         let path = match defect.part {
             Part::Xs => x.to_owned(),
@@ -132,7 +132,7 @@ impl Pack<'_> {
         Diagnostic { found: defect.found, hint: defect.hint.map(str::to_owned), ..fault }
     }
 
-    /// The tables of one curve: columns of the arrays that `curves` lists.
+    /// The tables of one curve: columns of the arrays listed in `curves`.
     fn curves(&self) -> Result<Vec<Draft>, Box<Diagnostic>> {
         let Some(keys) = self.words("curves")? else { return Ok(Vec::new()) };
         let relations = self.relations("curves_", keys.len())?;
@@ -175,7 +175,7 @@ impl Pack<'_> {
         Ok(out)
     }
 
-    /// The products of the factored form, whose terms must be curves over the same x.
+    /// The products of the factored form. Their terms must be curves with the same x.
     fn products(&self, drafts: &[Draft]) -> Result<Vec<Product>, Box<Diagnostic>> {
         let Some(keys) = self.words("products")? else { return Ok(Vec::new()) };
         let names = self.matched("products_names", keys.len())?;

@@ -1,4 +1,4 @@
-//! Writing tables as an archive of arrays.
+//! Writes tables as an archive of arrays.
 
 use zip::result::ZipError;
 
@@ -8,7 +8,7 @@ use super::keys::{Keys, preferred};
 use crate::grid::GridBlock;
 use crate::tables::set::{Product, Table, TableSet};
 
-/// The bytes of the archive; equal tables give equal bytes.
+/// The bytes of the archive. Equal tables result in equal bytes.
 pub(in crate::tables) fn write(set: &TableSet) -> Result<Vec<u8>, ZipError> {
     let mut out = Out(Vec::new());
     let mut keys = Keys::default();
@@ -49,7 +49,7 @@ impl Out {
         self.whole(name, vec![list.len()], list);
     }
 
-    /// Adds the arrays `quantity`, `rail` and `load_rail`, their names after `before`, where some table has them.
+    /// Adds the arrays `quantity`, `rail` and `load_rail`, with the prefix `before`, if some table has them.
     fn relations<'t>(
         &mut self,
         before: &str,
@@ -71,7 +71,7 @@ impl Out {
     }
 }
 
-/// Adds the tables over load and deflection, with common stations where they are equal to the last bit.
+/// Adds the tables over load and deflection. They have common stations if these are exactly equal.
 fn plain_tables(out: &mut Out, keys: &mut Keys, tables: &[&Table], one_rail: bool) {
     let Some(first) = tables.first() else { return };
     let names: Vec<String> = tables
@@ -106,7 +106,7 @@ fn same_bits(a: &[f64], b: &[f64]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(|(a, b)| a.to_bits() == b.to_bits())
 }
 
-/// Adds the curves: consecutive ones of the same stations, quantity and rails are columns of one array.
+/// Adds the curves. Consecutive curves with the same stations, quantity and rails become the columns of one array.
 fn stacks(out: &mut Out, keys: &mut Keys, curves: &[&Table], one_rail: bool) {
     let alike = |a: &&Table, b: &&Table| {
         same_bits(a.curves.x(), b.curves.x()) && a.quantity == b.quantity && a.rails == b.rails
