@@ -284,7 +284,7 @@ impl From<DirectionArg> for GridBlock {
     }
 }
 
-/// A positive number.
+/// Parses a positive number below 1e60.
 fn positive(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if value > 0.0 && value < 1e60 { Ok(value) } else { Err("must be positive, below 1e60".to_owned()) }
@@ -436,7 +436,7 @@ pub struct FeaArgs {
     pub modes: Option<u32>,
 }
 
-/// A number between 0 and 1.
+/// Parses a number between 0 and 1, both excluded.
 fn share(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must lie between 0 and 1".to_owned()) }

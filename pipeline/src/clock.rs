@@ -1,10 +1,10 @@
-//! Where the time of a job goes.
+//! Measurement of the time that each stage of a command takes.
 
 use std::time::Instant;
 
 use serde_json::{Map, Value, json};
 
-/// Seconds spent in each stage, in order.
+/// Clock that records the duration of each stage of a command, in order.
 pub struct StageClock {
     started: Instant,
     last: Instant,
@@ -18,21 +18,21 @@ impl Default for StageClock {
 }
 
 impl StageClock {
-    /// A clock that starts now.
+    /// Creates a clock that starts now.
     #[must_use]
     pub fn new() -> StageClock {
         let now = Instant::now();
         StageClock { started: now, last: now, stages: Vec::new() }
     }
 
-    /// Books the time since the last lap to `stage`.
+    /// Records the time since the previous lap as the duration of `stage`.
     pub fn lap(&mut self, stage: &'static str) {
         let now = Instant::now();
         self.stages.push((stage, (now - self.last).as_secs_f64()));
         self.last = now;
     }
 
-    /// Seconds by stage, and in all.
+    /// Durations of the stages and their total as JSON, s.
     #[must_use]
     pub fn json(&self) -> Value {
         let mut stages: Map<String, Value> =

@@ -1,4 +1,4 @@
-//! How a command ends.
+//! Exit statuses and failures of commands.
 
 use std::process::ExitCode;
 
@@ -9,18 +9,19 @@ use formats::text::diagnostic::Diagnostic;
 /// Exit status of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
-    /// Done.
+    /// The command succeeded.
     Done,
     /// A comparison failed, or nothing could be compared.
     Differs,
-    /// Usage, input or I/O.
+    /// The usage or the input is invalid, or a file cannot be read or written.
     Input,
-    /// The results cannot be trusted: mechanism, certified error above the tolerance, step too small.
+    /// The results cannot be trusted: the structure is a mechanism, the certified error exceeds the tolerance, or the
+    /// time step became too small.
     Untrusted,
 }
 
 impl Exit {
-    /// The number the shell sees.
+    /// Exit status as a number.
     #[must_use]
     pub const fn status(self) -> u8 {
         match self {
@@ -38,19 +39,19 @@ impl From<Exit> for ExitCode {
     }
 }
 
-/// Why a command gave no result.
+/// Reason why a command has failed.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Failure {
-    /// Something is wrong with the input, or a file cannot be read or written.
+    /// The input is invalid, or a file cannot be read or written.
     Input(Vec<Diagnostic>),
     /// Nothing could be compared, or a comparison failed.
     Differs(String),
-    /// The numbers cannot be trusted.
+    /// The results cannot be trusted.
     Untrusted(String),
 }
 
 impl Failure {
-    /// The exit status it leads to.
+    /// The exit status that belongs to the failure.
     #[must_use]
     pub const fn exit(&self) -> Exit {
         match self {
@@ -60,12 +61,12 @@ impl Failure {
         }
     }
 
-    /// Results that cannot be trusted, for the reason that a library returns.
+    /// Converts the error of a library to the failure [`Failure::Untrusted`].
     pub(crate) fn untrusted(error: impl std::fmt::Display) -> Failure {
         Failure::Untrusted(error.to_string())
     }
 
-    /// What standard error shows: a line for each error, or one JSON object.
+    /// Text for standard error: a line for each error, or one JSON object.
     #[must_use]
     pub fn report(&self, json: bool) -> String {
         if json {

@@ -1,7 +1,8 @@
-//! The command line of girderway: arguments, output folders, progress, exit statuses, and the comparison with other codes.
+//! The command line of girderway: arguments, output folders, progress, exit statuses, and the comparison with other
+//! codes.
 //!
-//! The work itself is done by the libraries: `formats` reads, `foundations` and `results` compute, `deck`, `report` and
-//! `study` show.
+//! The libraries perform the work itself: `formats` reads files, `foundations` and `results` compute, and `deck`,
+//! `report` and `study` produce the output.
 //!
 //! Wings, lowest first: cli, clock, exit, progress, manifest, output, crosscheck, commands
 

@@ -11,7 +11,7 @@ use girderway::commands;
 use girderway::exit::{Exit, Failure};
 
 fn main() -> ExitCode {
-    // an error of the program itself is reported in one line below, without a backtrace
+    // a panic is reported in one line below, without a backtrace
     panic::set_hook(Box::new(|_| {}));
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
@@ -43,10 +43,10 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
     }
 }
 
-/// Writes help to standard output and wrong usage to standard error, as JSON with --json.
+/// Writes help to standard output, and errors of usage to standard error, as JSON if --json is present.
 fn usage(error: &clap::Error) -> Exit {
     if !error.use_stderr() {
-        // a reader who has gone away has seen enough
+        // an error of writing is ignored: the reader of standard output may have closed it
         let _ = error.print();
         return Exit::Done;
     }
@@ -61,7 +61,7 @@ fn usage(error: &clap::Error) -> Exit {
 }
 
 fn tell(failure: &Failure, json: bool) -> Exit {
-    // where standard error is closed there is nobody to tell
+    // an error of writing is ignored: standard error may be closed
     let _ = std::io::stderr().write_all(failure.report(json).as_bytes());
     failure.exit()
 }

@@ -8,18 +8,18 @@ use formats::text::inputs::Inputs;
 /// Name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
 
-/// Inputs, settings and outputs of a run; it is written last.
+/// Inputs, settings and outputs of a run. The manifest is written after all other files.
 #[derive(Clone, Debug, Serialize)]
 pub struct Manifest {
     format: &'static str,
     program: &'static str,
     version: &'static str,
-    /// The command.
+    /// Name of the command.
     pub command: String,
-    /// Settings that the result depends on.
+    /// Settings on which the result depends.
     pub settings: Value,
     inputs: Vec<InputEntry>,
-    /// Files written, by name.
+    /// The files written, in the order of their names.
     pub outputs: Vec<OutputEntry>,
 }
 
@@ -35,16 +35,16 @@ struct InputEntry {
 pub struct OutputEntry {
     /// Its name in the folder.
     pub name: String,
-    /// Its size; left out where it may differ between equal runs.
+    /// Size in bytes; `None` if it may differ between equal runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub bytes: Option<usize>,
-    /// SHA-256 in hexadecimal; left out where it may differ between equal runs.
+    /// SHA-256 in hexadecimal; `None` if it may differ between equal runs.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sha256: Option<String>,
 }
 
 impl Manifest {
-    /// The manifest of a command that read these files under these settings.
+    /// Creates the manifest of a command from its inputs and settings.
     #[must_use]
     pub fn new(command: &str, inputs: &Inputs, settings: Value) -> Manifest {
         let entry = |input: &formats::text::inputs::Input| InputEntry {
@@ -63,10 +63,10 @@ impl Manifest {
         }
     }
 
-    /// Its text.
+    /// The manifest as JSON text.
     #[must_use]
     pub fn text(&self) -> String {
-        // plain strings and numbers: always JSON
+        // serialization cannot fail, because all values are strings and numbers
         let mut text = serde_json::to_string_pretty(self).unwrap_or_default();
         text.push('\n');
         text

@@ -1,4 +1,4 @@
-//! Output files: whole or not at all.
+//! Atomic writing of output files and output folders.
 
 use std::fs;
 use std::io::{self, Write};
@@ -13,27 +13,27 @@ use crate::progress::Progress;
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::sha256;
 
-/// Writes a file whole or not at all: into a temporary file beside it, to the disk, then under its name.
+/// Writes a file atomically: writes a temporary file in the same folder, flushes it to the disk and renames it.
 ///
 /// # Errors
-/// What the file system refuses, naming the file.
+/// An operation of the file system fails; the error contains the name of the file.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     put(path, bytes).map_err(|error| cannot_write(path, &error))
 }
 
-/// The same for a file that must not be there yet.
+/// Writes a file atomically, but fails if it exists already.
 ///
 /// # Errors
-/// A file of that name exists; the file system refuses an operation, with the name of the file.
+/// The file exists already, or an operation of the file system fails; the error contains the name of the file.
 pub fn write_new(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let new = |file: NamedTempFile| file.persist_noclobber(path);
     put_by(path, bytes, new).map_err(|error| cannot_write(path, &error))
 }
 
-/// Makes a folder, and those above it.
+/// Creates a folder and its missing parent folders.
 ///
 /// # Errors
-/// What the file system refuses, naming the folder.
+/// An operation of the file system fails; the error contains the name of the folder.
 pub fn make(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))
 }
@@ -56,7 +56,7 @@ fn put_by(
     sync(&folder)
 }
 
-/// A temporary file is its owner's alone; a result is as readable as any new file.
+/// Makes a file readable for all users. Temporary files are created readable for their owner only.
 #[cfg(unix)]
 fn readable(file: &fs::File) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
@@ -68,7 +68,7 @@ fn readable(_file: &fs::File) -> io::Result<()> {
     Ok(())
 }
 
-/// Makes renames in a folder last, where the system can.
+/// Flushes renames in a folder to the disk, on systems that support it.
 fn sync(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
 }
@@ -90,16 +90,16 @@ fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}")).into()
 }
 
-/// JSON as files and standard output show it: indented, with a newline at its end.
+/// Formats JSON for files and standard output: indented, with a newline at the end.
 #[must_use]
 pub(crate) fn json(value: &Value) -> String {
     format!("{value:#}\n")
 }
 
-/// Writes to standard output; a reader who has gone away is no error.
+/// Writes to standard output. A closed pipe is not an error.
 ///
 /// # Errors
-/// What the file system refuses.
+/// Standard output cannot be written.
 pub fn print(text: &str) -> Result<(), Failure> {
     print_bytes(text.as_bytes())
 }
@@ -114,18 +114,18 @@ fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     }
 }
 
-/// Writes `text` to the given file, with a message, or to standard output.
+/// Writes `text` to the named file, with a message, or to standard output if `path` is `None`.
 ///
 /// # Errors
-/// What the file system refuses, naming the file.
+/// An operation of the file system fails; the error contains the name of the file.
 pub fn deliver(path: Option<&Path>, text: &str, progress: &Progress) -> Result<(), Failure> {
     deliver_bytes(path, text.as_bytes(), progress)
 }
 
-/// The same for bytes of any kind.
+/// Writes `bytes` to the named file, with a message, or to standard output if `path` is `None`.
 ///
 /// # Errors
-/// What the file system refuses, naming the file.
+/// An operation of the file system fails; the error contains the name of the file.
 pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> Result<(), Failure> {
     let Some(path) = path else { return print_bytes(bytes) };
     write(path, bytes)?;
@@ -133,7 +133,7 @@ pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> 
     Ok(())
 }
 
-/// An output folder in the making: nothing touches the disk before [`OutputFolder::commit`].
+/// Contents of an output folder, which are kept in memory until [`OutputFolder::commit`] writes them.
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,
@@ -141,10 +141,10 @@ pub struct OutputFolder {
 }
 
 impl OutputFolder {
-    /// A folder to be at `path`.
+    /// Creates an empty output folder in memory for the path `path`.
     ///
     /// # Errors
-    /// A path at which no folder can be created; this is checked before any work is done.
+    /// No folder can be created at `path` because part of it is a file.
     pub fn new(path: &Path) -> Result<OutputFolder, Failure> {
         let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
         if let Some(part) = there.filter(|part| !part.is_dir()) {
@@ -154,12 +154,12 @@ impl OutputFolder {
         Ok(OutputFolder { path: path.to_path_buf(), files: Vec::new() })
     }
 
-    /// Adds a file by its name in the folder, such as `plots/path.svg`; a name used before is replaced.
+    /// Adds a file under its name in the folder, such as `plots/path.svg`, and replaces an earlier one of this name.
     pub fn add(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
         self.put(name, bytes.into(), true);
     }
 
-    /// Adds a file whose bytes may differ between equal runs: its hash stays out of the manifest.
+    /// Adds a file whose contents may differ between equal runs; the manifest does not contain its size and hash.
     pub fn add_varying(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
         self.put(name, bytes.into(), false);
     }
@@ -171,12 +171,12 @@ impl OutputFolder {
 
     /// Writes all files and then `manifest.json`, which lists them.
     ///
-    /// All of them are on the disk under temporary names before the first takes its place; an older manifest goes
-    /// before that, so a manifest never speaks of files of another run. Files that the older manifest lists,
-    /// that this run has not and that nobody has changed since, are taken away.
+    /// All files are first written to the disk under temporary names. Then an older manifest is removed, the files
+    /// are renamed, and the new manifest is written, so that a manifest never lists files of another run. Files that
+    /// the older manifest lists are removed if this run does not write them and they have not been changed since.
     ///
     /// # Errors
-    /// What the file system refuses, naming the file.
+    /// An operation of the file system fails; the error contains the name of the file.
     pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Failure> {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
         for (name, bytes, fixed) in &self.files {
@@ -231,7 +231,7 @@ impl OutputFolder {
         put(&manifest_path, manifest.text().as_bytes()).map_err(fail(&manifest_path))
     }
 
-    /// Removes files of an older run that have not been changed since.
+    /// Removes files of an older run that have not been changed since and that this run does not write.
     fn clear(&self, older: Option<&Value>) {
         let listed = older.and_then(|manifest| manifest.get("outputs")).and_then(Value::as_array);
         for entry in listed.into_iter().flatten() {
@@ -246,7 +246,7 @@ impl OutputFolder {
             let unchanged =
                 fs::read(&path).is_ok_and(|bytes| Some(sha256(&bytes).as_str()) == text("sha256"));
             if unchanged {
-                // a file that will not go stays; the manifest no longer lists it
+                // a file that cannot be removed remains, but the new manifest does not list it
                 let _ = fs::remove_file(&path);
             }
         }

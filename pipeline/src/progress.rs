@@ -1,4 +1,4 @@
-//! What a user sees while a command works: messages and, on a terminal, bars; all on standard error.
+//! Progress messages and, on a terminal, progress bars; both are written to standard error.
 
 use std::io::{IsTerminal, Write};
 use std::time::Duration;
@@ -9,7 +9,7 @@ use study::{Observer, Steps};
 
 use crate::cli::Global;
 
-/// Messages and bars on standard error.
+/// Output of messages and progress bars to standard error.
 #[derive(Clone, Copy, Debug)]
 pub struct Progress {
     speaks: bool,
@@ -17,22 +17,22 @@ pub struct Progress {
 }
 
 impl Progress {
-    /// As the flags ask: silent with `--quiet` and with `--json`.
+    /// Creates the output according to the flags: it is silent with `--quiet` and with `--json`.
     #[must_use]
     pub fn new(global: Global) -> Progress {
         let speaks = !global.quiet && !global.json;
         Progress { speaks, draws: speaks && std::io::stderr().is_terminal() }
     }
 
-    /// One line.
+    /// Writes a line.
     pub fn say(&self, message: &str) {
         if self.speaks {
-            // where standard error is closed there is nobody to tell
+            // an error of writing is ignored: standard error may be closed
             let _ = writeln!(std::io::stderr(), "{message}");
         }
     }
 
-    /// A stage that shows while it lasts on a terminal, and nowhere else; gone when dropped or finished.
+    /// Shows a stage on a terminal until the returned value is dropped.
     #[must_use]
     pub fn stage(&self, message: &str) -> Bar {
         let bar = self.hidden_or(ProgressBar::new_spinner());
@@ -43,7 +43,7 @@ impl Progress {
         Bar(bar)
     }
 
-    /// A bar of `length` steps on a terminal, nothing elsewhere; gone when dropped or finished.
+    /// Shows a bar of `length` steps on a terminal until the returned value is dropped.
     #[must_use]
     pub fn bar(&self, message: &str, length: u64) -> Bar {
         let bar = self.hidden_or(ProgressBar::new(length));
@@ -62,7 +62,7 @@ impl Progress {
     }
 }
 
-/// A bar or a stage on the terminal.
+/// A progress bar or a stage on the terminal.
 #[derive(Debug)]
 pub struct Bar(ProgressBar);
 

@@ -1,48 +1,48 @@
-//! Errors and warnings of readers, with their places in files.
+//! Errors and warnings of the import, with their positions in files.
 
 use formats::text::diagnostic::Diagnostic;
 
-/// A place in one of the files of a model; `line` and `column` count from 1.
+/// A position in one of the files of a model; `line` and `column` count from 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub struct FilePlace {
     /// Index of the file among [`ImportFindings::files`].
     pub file: usize,
-    /// Line; 0 where the finding is about the whole file.
+    /// Line; 0 if the finding concerns the whole file.
     pub line: usize,
     /// Column in characters.
     pub column: usize,
 }
 
-/// An error or a warning about a place.
+/// An error or a warning at a position of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ImportFinding {
-    /// Its place.
+    /// Its position.
     pub at: FilePlace,
     /// The card or field that it concerns, such as `CBAR 12: GA`; may be empty.
     pub about: String,
-    /// What was expected, or what the reader has done.
+    /// The requirement that is not met, or the action of the reader.
     pub expected: String,
-    /// What stands in the file.
+    /// The text or value in the file.
     pub found: Option<String>,
-    /// What the user can do.
+    /// Suggested correction.
     pub hint: Option<String>,
 }
 
 impl ImportFinding {
-    /// A finding at a place.
+    /// Creates a finding at a position.
     #[must_use]
     pub fn new(at: FilePlace, about: impl Into<String>, expected: impl Into<String>) -> ImportFinding {
         ImportFinding { at, about: about.into(), expected: expected.into(), found: None, hint: None }
     }
 
-    /// The same finding with what stands in the file.
+    /// Returns the finding with the text or value in the file.
     #[must_use]
     pub fn with_found(mut self, found: impl ToString) -> ImportFinding {
         self.found = Some(found.to_string());
         self
     }
 
-    /// The same finding with a hint.
+    /// Returns the finding with a hint.
     #[must_use]
     pub fn hint(mut self, hint: impl Into<String>) -> ImportFinding {
         self.hint = Some(hint.into());
@@ -50,7 +50,7 @@ impl ImportFinding {
     }
 }
 
-/// Errors and warnings so far, and the names of the files that were read.
+/// Collected errors and warnings, and the names of the files that were read.
 #[derive(Clone, Debug, Default)]
 pub struct ImportFindings {
     /// Names of the files read.
@@ -60,12 +60,12 @@ pub struct ImportFindings {
 }
 
 impl ImportFindings {
-    /// Adds an error: the model will be refused.
+    /// Adds an error; a model with errors is rejected.
     pub fn error(&mut self, finding: ImportFinding) {
         self.errors.push(finding);
     }
 
-    /// Adds a warning: the model is read, without this part or with a change.
+    /// Adds a warning; the model is imported without the part concerned, or with a change.
     pub fn warn(&mut self, finding: ImportFinding) {
         self.warnings.push(finding);
     }
@@ -76,13 +76,13 @@ impl ImportFindings {
         !self.errors.is_empty()
     }
 
-    /// The errors in the order of the files.
+    /// The errors in the order of their positions.
     #[must_use]
     pub fn errors(&self) -> Vec<Diagnostic> {
         self.placed(&self.errors)
     }
 
-    /// The warnings in the order of the files.
+    /// The warnings in the order of their positions.
     #[must_use]
     pub fn warnings(&self) -> Vec<Diagnostic> {
         self.placed(&self.warnings)

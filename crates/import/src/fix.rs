@@ -1,10 +1,10 @@
-//! Supports that the command line adds to a model.
+//! Supports that the user adds to a model on the command line.
 
 use std::str::FromStr;
 
 use super::structure::ImportedStructure;
 
-/// Degrees of freedom of a set of points to restrain, read from `SET=ux,uy,uz`.
+/// A request to restrain degrees of freedom of a set of points, parsed from `SET=ux,uy,uz`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SupportRequest {
     set: String,
@@ -29,7 +29,7 @@ impl FromStr for SupportRequest {
 /// Restrains the points of a set.
 ///
 /// # Errors
-/// A set that the structure does not have: message and hint.
+/// The structure does not have the set. The error consists of a message and a hint.
 pub fn restrain(asked: &SupportRequest, structure: &mut ImportedStructure) -> Result<(), [String; 2]> {
     let Some((_, set)) = structure.point_sets.iter().find(|(name, _)| *name == asked.set) else {
         let names: Vec<&str> = structure.point_sets.iter().take(20).map(|(name, _)| name.as_str()).collect();

@@ -1,7 +1,7 @@
-//! Models of other programs as beam specs.
+//! Import of models of other programs as beam specs.
 //!
-//! [`bdf`] reads NASTRAN bulk data, [`msh`] meshes of gmsh; both give an [`structure::ImportedStructure`], which
-//! [`write()`] turns into the text of a spec. [`import`] does all of it.
+//! [`bdf`] reads NASTRAN bulk data, and [`msh`] reads meshes of gmsh. Both return a [`structure::ImportedStructure`],
+//! from which [`write()`] produces the text of a spec. [`import`] performs all of these steps.
 //!
 //! # Example
 //! ```
@@ -49,43 +49,43 @@ use formats::text::inputs::read_error_message;
 use formats::text::source::Source;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
-/// What the user specifies about a model because its file does not.
+/// Properties of a model that the user specifies because its file does not contain them.
 #[derive(Clone, Debug, Default)]
 pub struct ImportOptions {
     /// Its unit of length.
     pub length: Option<Length>,
     /// Its unit of force.
     pub force: Option<Force>,
-    /// Direction up.
+    /// Upward direction in the axes of the model.
     pub up: Option<[f64; 3]>,
     /// Rails along its members.
     pub rails: Vec<rail::RailRequest>,
     /// Supports at its sets of points.
     pub fix: Vec<fix::SupportRequest>,
-    /// The sections file of a mesh.
+    /// The sections file that a mesh requires.
     pub sections: Option<Source>,
-    /// The SPC set of a deck.
+    /// The SPC set of a deck that supports the structure.
     pub spc: Option<u64>,
-    /// Names of cards of a deck that are ignored.
+    /// Names of the cards of a deck that are ignored.
     pub skip: Vec<String>,
 }
 
-/// A model as a beam spec, with warnings.
+/// A model converted to a beam spec, with warnings.
 #[derive(Clone, Debug)]
 pub struct Imported {
     /// The text of the beam spec.
     pub text: String,
-    /// The structure that it was written from.
+    /// The structure from which the text was written.
     pub structure: ImportedStructure,
-    /// What was ignored or changed.
+    /// Warnings about parts of the model that were ignored or changed.
     pub warnings: Vec<Diagnostic>,
 }
 
-/// Reads a model in the format of its file extension: `.bdf`, `.dat` and `.nas` are NASTRAN bulk data, `.msh` is a
-/// gmsh mesh. `open` reads the file and those that it includes.
+/// Reads a model and converts it to a beam spec. The file extension determines the format: `.bdf`, `.dat` and `.nas`
+/// are NASTRAN bulk data, `.msh` is a gmsh mesh. `open` reads the file and those that it includes.
 ///
 /// # Errors
-/// All errors of the model, with their places; a model with errors is refused as a whole.
+/// All errors of the model, with their positions. A model with errors is rejected as a whole.
 pub fn import(
     path: &Path,
     open: bdf::OpenFile<'_>,
@@ -152,13 +152,13 @@ fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> 
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
-/// An error of a flag of the command line, from message and hint.
+/// Creates the error of a flag of the command line from a message and a hint.
 fn refused(flag: &str, [expected, hint]: [String; 2]) -> Diagnostic {
     let wrong = Diagnostic::of_file("command line", format!("{flag} {expected}"));
     if hint.is_empty() { wrong } else { wrong.hint(hint) }
 }
 
-/// Reads the text as a beam spec. A spec without rails is accepted where no rail was requested.
+/// Checks that the text is a valid beam spec. A spec without rails is accepted if no rail was requested.
 fn check_spec(name: &str, text: &str, structure: &ImportedStructure) -> Result<(), Vec<Diagnostic>> {
     let source = Source { name: format!("{name}, as a beam spec"), text: text.to_owned() };
     let Err(mut wrong) = Spec::read(&source, None) else { return Ok(()) };
@@ -166,12 +166,12 @@ fn check_spec(name: &str, text: &str, structure: &ImportedStructure) -> Result<(
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
-/// The error of a file that cannot be read.
+/// Creates the error of a file that cannot be read.
 fn unreadable(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
     vec![Diagnostic::of_file(path.display().to_string(), read_error_message(error))]
 }
 
-/// Reads NASTRAN bulk data; their units come from the options.
+/// Reads NASTRAN bulk data; the options specify the units.
 fn read_deck(
     path: &Path,
     open: bdf::OpenFile<'_>,
@@ -197,7 +197,7 @@ fn read_deck(
         .map_err(|error| unreadable(path, &error))
 }
 
-/// Reads a gmsh mesh; its unit of length comes from the options, all others from the sections file.
+/// Reads a gmsh mesh; the options specify the unit of its coordinates, the sections file all other units.
 fn read_mesh(
     path: &Path,
     open: bdf::OpenFile<'_>,
@@ -239,7 +239,7 @@ fn read_mesh(
     let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
     let mut empty = ImportedStructure::empty(stem(&name), to);
     empty.up = options.up;
-    // a binary mesh is refused by its header, which is text
+    // a binary mesh is rejected when its header, which is text, is read
     let text = String::from_utf8_lossy(&bytes);
     Ok(msh::read(&text, factor, &sections, empty, findings))
 }

@@ -1,11 +1,12 @@
-//! Rails that the command line adds along members of a structure.
+//! Rails along members that the user adds to a structure on the command line.
 
 use std::str::FromStr;
 
 use super::structure::{ImportedRail, ImportedStructure};
 use formats::vector::{dot, length, minus, parallel, unit};
 
-/// The request of a rail, read from `NAME=12,23,30-35` or `NAME=SET`, then `/offset=X,Y,Z` and `/axis=X,Y,Z`.
+/// A request for a rail, parsed from `NAME=12,23,30-35` or `NAME=SET`, optionally followed by `/offset=X,Y,Z` and
+/// `/axis=X,Y,Z`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RailRequest {
     name: String,
@@ -16,16 +17,16 @@ pub struct RailRequest {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Item {
-    /// Elements by number, from the first to the last.
+    /// Range of element numbers, ends included.
     Elements([u64; 2]),
-    /// A set of cells.
+    /// Name of a set of members.
     Set(String),
 }
 
-/// Three numbers separated by commas.
+/// Reads three numbers separated by commas.
 ///
 /// # Errors
-/// Text that is not three finite numbers.
+/// The text does not consist of three finite numbers.
 pub fn triple(text: &str) -> Result<[f64; 3], String> {
     let numbers: Option<Vec<f64>> = text.split(',').map(|part| part.trim().parse().ok()).collect();
     match numbers.as_deref() {
@@ -79,12 +80,14 @@ impl Item {
 
 /// Builds a rail along members.
 ///
-/// Its axis is the given one or, by default, the horizontal part of the direction from the middle of the first member
-/// to that of the last (of a single member: from its end a to b). Its coordinate is 0 at the end of a member with the
-/// smallest coordinate, and its stations are at the points of the members.
+/// The axis of the rail is the requested one. By default it is the horizontal component of the direction from the
+/// middle of the first member to the middle of the last one, or, for a single member, from its end a to its end b.
+/// The origin is the member end with the smallest coordinate along the axis, and the stations are at the points of
+/// the members.
 ///
 /// # Errors
-/// Members that do not exist, no usable axis, or a member at right angles to the axis: message and hint.
+/// A member does not exist, the axis is along the upward direction, or a member is perpendicular to the axis. The
+/// error consists of a message and a hint.
 pub fn rail_along_members(
     asked: &RailRequest,
     up: [f64; 3],
@@ -132,7 +135,7 @@ pub fn rail_along_members(
     Ok(ImportedRail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
 }
 
-/// The part of a direction that is normal to `up`; `None` where it is less than a tenth of the whole.
+/// Component of a direction normal to `up`; `None` if its length is at most a tenth of that of the direction.
 fn horizontal(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
     let up = unit(up)?;
     let rise = dot(along, up);
@@ -140,7 +143,7 @@ fn horizontal(along: [f64; 3], up: [f64; 3]) -> Option<[f64; 3]> {
     (length(horizontal) > 0.1 * length(along)).then_some(horizontal)
 }
 
-/// The members of a rail in the order of the request, each once.
+/// Members of a rail in the order of the request, without duplicates.
 fn members(asked: &RailRequest, structure: &ImportedStructure) -> Result<Vec<usize>, [String; 2]> {
     let mut members: Vec<usize> = Vec::new();
     let mut named = vec![false; structure.members.len()];

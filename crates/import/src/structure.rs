@@ -1,13 +1,13 @@
-//! A structure as read from a model of any format, before it is written as a beam spec.
+//! Structure read from a model of any format, before it is written as a beam spec.
 
 use std::collections::BTreeMap;
 
 use formats::units::Units;
 
-/// A point with the name that its file gives it.
+/// A point with its name in the file of the model.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedPoint {
-    /// Name in the file, such as `GRID 101`; empty where there is none.
+    /// Name in the file, such as `GRID 101`; empty if the file has none.
     pub name: String,
     /// Coordinates.
     pub at: [f64; 3],
@@ -26,12 +26,12 @@ pub struct ImportedMaterial {
     pub density: Option<f64>,
 }
 
-/// A cross section; local y and z as in the beam spec.
+/// A cross section; the local y and z axes are those of the beam spec.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ImportedSection {
     /// Its name.
     pub name: String,
-    /// Its material by name.
+    /// Name of its material.
     pub material: String,
     /// Area.
     pub area: Option<f64>,
@@ -41,9 +41,9 @@ pub struct ImportedSection {
     pub iz: Option<f64>,
     /// Torsion constant.
     pub j: Option<f64>,
-    /// Effective shear area along y; absent = rigid in shear.
+    /// Effective shear area along y; `None` means rigid in shear.
     pub shear_y: Option<f64>,
-    /// Effective shear area along z; absent = rigid in shear.
+    /// Effective shear area along z; `None` means rigid in shear.
     pub shear_z: Option<f64>,
 }
 
@@ -56,13 +56,13 @@ pub struct ImportedMember {
     pub points: [usize; 2],
     /// Whether it has axial stiffness only.
     pub truss: bool,
-    /// Index of its section; of a tapered member that at end a.
+    /// Index of its section; for a tapered member, of the section at end a.
     pub section: usize,
-    /// Index of the section at end b of a tapered member.
+    /// Index of the section at end b of a tapered member; `None` if the member is uniform.
     pub section_b: Option<usize>,
-    /// Any vector in the half plane of local x and +y; absent = up.
+    /// Vector in the half plane of local x and +y; `None` means the upward direction.
     pub orientation: Option<[f64; 3]>,
-    /// Global vectors from the points to the flexible ends.
+    /// Rigid offsets from the points to the flexible ends, in global axes.
     pub offsets: [[f64; 3]; 2],
     /// Released local degrees of freedom at each end.
     pub releases: [[bool; 6]; 2],
@@ -86,9 +86,9 @@ pub struct ImportedMass {
     pub point: usize,
     /// Mass.
     pub mass: f64,
-    /// Inertias about the global axes through the centre of mass.
+    /// Moments of inertia about the centre of mass, in global axes.
     pub inertia: [f64; 3],
-    /// From the point to the centre of mass.
+    /// Vector from the point to the centre of mass.
     pub offset: [f64; 3],
 }
 
@@ -97,26 +97,26 @@ pub struct ImportedMass {
 pub struct ImportedRail {
     /// Its name.
     pub name: String,
-    /// Where its coordinate is 0.
+    /// Point at which its coordinate is 0.
     pub origin: [f64; 3],
     /// Direction of increasing coordinate.
     pub axis: [f64; 3],
-    /// Members in the order given.
+    /// Indices of its members in the order of the request.
     pub members: Vec<usize>,
-    /// From the members' flexible axes to the rail.
+    /// Offset from the flexible axes of the members to the rail.
     pub offset: [f64; 3],
-    /// Increasing coordinates.
+    /// Coordinates of its stations, increasing.
     pub stations: Vec<f64>,
 }
 
-/// Everything that a beam spec in the general form can describe.
+/// A structure with all data that a beam spec in the general form can describe.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedStructure {
     /// Its name.
     pub name: String,
-    /// Units of all numbers.
+    /// Units of all values.
     pub units: Units,
-    /// Direction up; absent = +y.
+    /// Upward direction; `None` means +y.
     pub up: Option<[f64; 3]>,
     /// Points.
     pub points: Vec<ImportedPoint>,
@@ -143,7 +143,7 @@ pub struct ImportedStructure {
 }
 
 impl ImportedStructure {
-    /// A structure with a name and units, and nothing else.
+    /// Creates a structure that has a name and units only.
     #[must_use]
     pub fn empty(name: String, units: Units) -> ImportedStructure {
         ImportedStructure {

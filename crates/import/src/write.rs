@@ -5,14 +5,14 @@ use serde_json::{Map, Value, json};
 use super::structure::{ImportedRail, ImportedSection, ImportedStructure};
 use formats::spec::{FORMAT, theory_word};
 
-/// Words of the degrees of freedom.
+/// Names of the degrees of freedom in a beam spec.
 const DOFS: [&str; 6] = ["ux", "uy", "uz", "rx", "ry", "rz"];
 
 /// Number of uniform parts that approximate a tapered member.
 pub const PARTS: usize = 32;
 
-/// The beam spec of a structure in the general form. Every number has the fewest digits from which its exact value is
-/// read again.
+/// Writes a structure as a beam spec in the general form. Every number has the fewest digits that reproduce its value
+/// exactly.
 #[must_use]
 pub fn write(structure: &ImportedStructure) -> String {
     let mut spec = Map::new();
@@ -73,7 +73,7 @@ fn empty(value: &Value) -> bool {
     value.as_array().is_some_and(Vec::is_empty) || value.as_object().is_some_and(Map::is_empty)
 }
 
-/// Columns of `cell_data`; those that hold defaults only are left out.
+/// Columns of `cell_data`; columns that contain default values only are omitted.
 fn cell_data(structure: &ImportedStructure) -> Value {
     let members = &structure.members;
     let mut data = Map::new();
@@ -166,7 +166,7 @@ fn rail_json(rail: &ImportedRail) -> Value {
     })
 }
 
-/// The object with one line for each key, and one for each item of long lists.
+/// Formats an object with one line for each key, and one line for each item of long lists.
 fn lines(spec: &Map<String, Value>) -> String {
     let long = ["points", "materials", "sections", "supports", "springs", "links", "masses"];
     let mut parts = Vec::new();

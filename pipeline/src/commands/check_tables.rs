@@ -1,4 +1,4 @@
-//! `girderway splines --check`: the errors of each reading of tables.
+//! `girderway splines --check`: errors of the methods of reading tables.
 
 use std::path::Path;
 
@@ -12,13 +12,13 @@ use study::table_quality::{
     TableQuality, TableQualitySettings, TableReadingMethod, TableSource, json, picture, text,
 };
 
-/// Reads the grid or the tables, writes the findings to standard output, and draws them where a file is named.
+/// Reads the grid or the tables, prints their errors to standard output, and writes them to a file if one is named.
 ///
-/// [`Exit::Differs`] where a table is not symmetric or not positive semi-definite beyond its digits, or a reading
-/// errs more than the tolerance.
+/// Returns [`Exit::Differs`] if a table is asymmetric or not positive semi-definite by more than its digits explain,
+/// or if the error of the tested reading exceeds the tolerance.
 ///
 /// # Errors
-/// What is wrong with the input; an ending without a format; a file that cannot be written.
+/// The input is invalid, the extension of the output file is unknown, or the file cannot be written.
 pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     let form = args.output.as_deref().map(form).transpose()?;
     let subject = TableSource::open(&args.grid)?;
@@ -91,7 +91,7 @@ fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failur
     Ok(stack(&pictures).file())
 }
 
-/// A surface that has no answer within a table.
+/// Creates the error of a table whose exact surface cannot be evaluated.
 fn refuse(subject: &TableSource, index: usize, error: &splines::Error) -> Failure {
     let item = &subject.items[index];
     let wrong = format!("SPLINE/{} cannot be checked: {error}", item.id);

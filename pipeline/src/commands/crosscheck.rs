@@ -1,4 +1,4 @@
-//! `girderway crosscheck`: the same structure in independent FE codes.
+//! `girderway crosscheck`: comparison of a structure with independent FE codes.
 
 use fea::{BeamTheory, Girder};
 use serde_json::{Value, json};
@@ -18,14 +18,14 @@ use formats::text::inputs::Inputs;
 use formats::text::source::Source;
 use formats::units::Dimension;
 
-/// Effective shear area of a solid rectangle by its area.
+/// Ratio of effective shear area to area of a solid rectangle.
 const RECTANGLE: f64 = 5.0 / 6.0;
 
-/// Solves the spec here and in every code that takes it, and compares all grids, entry by entry.
+/// Solves the spec with this program and with every code that supports it, and compares all grids entry by entry.
 ///
 /// # Errors
-/// What is wrong with the spec; a structure that does not stand; a Python environment that cannot be made; a
-/// difference; nothing that could be compared.
+/// The spec is invalid, the structure is a mechanism, the Python environment cannot be created, or a file cannot be
+/// written. Differences are not errors: they determine the exit status.
 pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let (inputs, source) = Inputs::open(&args.spec).map_err(|error| Failure::from(*error))?;
@@ -61,16 +61,16 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     Ok(if result.agrees() { Exit::Done } else { Exit::Differs })
 }
 
-/// A spec with its solution so far.
+/// A spec, its source and the environment of the other codes.
 struct Check<'a> {
     source: &'a Source,
-    /// The spec as the user wrote it, which the other codes read.
+    /// The spec as JSON, as the user wrote it; the other codes read it.
     raw: Value,
     spec: Spec,
     environment: Environment,
 }
 
-/// Grids of a spec between its stations.
+/// Influence grids of a spec at its stations.
 type Grids = Vec<(GridBlock, PlainGrid)>;
 
 impl<'a> Check<'a> {
@@ -97,7 +97,7 @@ impl<'a> Check<'a> {
         Ok(solved.grid.blocks.iter().map(|(quantity, values)| (*quantity, block(values))).collect())
     }
 
-    /// The comparison with one code, or why there is none.
+    /// Compares with one code. The inner error is the reason why this code does not support the structure.
     fn compare(&mut self, peer: Peer, progress: &Progress) -> Result<Result<PeerOutcome, String>, Failure> {
         let theory = peer.theory(self.spec.theory);
         let mut spec = self.spec.clone().with_theory(theory);
@@ -146,7 +146,7 @@ impl<'a> Check<'a> {
     }
 }
 
-/// Adds the shear areas of a solid rectangle to a girder that has none, with a message.
+/// Sets missing shear areas of a girder to those of a solid rectangle; returns a note if any was missing.
 fn sheared(spec: &mut Spec) -> Option<String> {
     let Form::Girder(girder) = &mut spec.form else { return None };
     let (area, _) = girder.area.zip(girder.g)?;
@@ -156,14 +156,14 @@ fn sheared(spec: &mut Spec) -> Option<String> {
     absent.then(|| "shear areas that the spec does not give are 5/6 A, those of a rectangle".to_owned())
 }
 
-/// A code or an environment that does not work is a matter of the machine.
+/// Creates the failure of another code or of its environment.
 fn broken(error: &Error) -> Failure {
     let hint =
         "the first use needs python3 (3.11 or newer, with venv) and PyPI; later ones need neither network";
     Diagnostic::of_file("python3", format!("nothing compared: {error}")).hint(hint).into()
 }
 
-/// Files of the output folder: the result for machines and people, and pictures of the differences.
+/// Adds the files of the output folder: the result as JSON and as text, and charts of the differences.
 fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Result<(), Failure> {
     folder.add("crosscheck.json", format!("{:#}\n", result.json()));
     folder.add("crosscheck.txt", result.table());
@@ -185,7 +185,7 @@ fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Resu
     Ok(())
 }
 
-/// A girder as plain stiffnesses.
+/// Converts a girder to products of moduli and section properties.
 fn stiffnesses(girder: &Girder) -> crosscheck::PlainGirder {
     let sheared = girder.theory == BeamTheory::Timoshenko;
     let shear = |area: Option<f64>| area.zip(girder.g).filter(|_| sheared).map(|(area, g)| g * area);

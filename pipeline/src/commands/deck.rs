@@ -11,10 +11,12 @@ use formats::scene::Document;
 use formats::text::diagnostic::Diagnostic;
 use foundations::{distinct_specs, solve_specs};
 
-/// Writes the data set to the file named, with its command file beside it, or to standard output.
+/// Writes the data set to the named file and its command file into the same folder, or the data set alone to
+/// standard output.
 ///
 /// # Errors
-/// Errors of the scene or its files; a foundation that a deck cannot have; a scene that cannot start.
+/// The scene or one of its files is invalid, a foundation cannot be represented in a deck, the scene has no initial
+/// state, or the deck differs from the simulator.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     if let Some(path) = &args.output
@@ -51,7 +53,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     for line in report.lines() {
         progress.say(&line);
     }
-    // where the data set goes to standard output, nothing else does
+    // if the data set is written to standard output, nothing else may be written there
     if global.json && args.output.is_some() {
         output::print(&output::json(&report.json()))?;
     }
@@ -66,7 +68,7 @@ fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "model".to_owned(), |stem| stem.to_string_lossy().into_owned())
 }
 
-/// The command file beside a data set.
+/// Path of the command file that belongs to a data set.
 fn command_file(path: &Path) -> PathBuf {
     path.with_extension("acf")
 }

@@ -1,4 +1,4 @@
-//! `girderway splines --form factored`: curves whose products make G.
+//! `girderway splines --form factored`: curves whose products sum to G.
 
 use serde_json::{Map, Value, json};
 use splines::{ExactSurface, Rank};
@@ -11,10 +11,10 @@ use formats::tables::{self, TableSet};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Input;
 
-/// The tables in factored form; their error is written to standard error and added to `summary`.
+/// Converts tables to the factored form. Its error is printed to standard error and added to `summary`.
 ///
 /// # Errors
-/// Tables without a factored form.
+/// The tables have no factored form.
 pub(super) fn factored(
     args: &SplinesArgs,
     set: &TableSet,

@@ -14,13 +14,13 @@ use formats::text::place::Place;
 use formats::text::source::Source;
 use results::warning;
 
-/// Unknowns from which the size of a system is worth a line.
+/// Number of unknowns from which the size of the system is reported.
 const LARGE: usize = 1000;
 
-/// Reads the spec, solves it, writes the grid to the file named or to standard output.
+/// Reads and solves the spec, and writes the grid to the named file or to standard output.
 ///
 /// # Errors
-/// What is wrong with the spec; a structure that does not stand; a file that cannot be written.
+/// The spec is invalid, the structure is a mechanism, or the file cannot be written.
 pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let (_, source) = Inputs::open(&args.spec)?;
@@ -60,7 +60,7 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Errors of natural modes: a spec without mass by the missing key, all others as errors of the solver.
+/// Converts an error of the modal analysis. For a spec without mass, the error refers to the missing key.
 fn refuse(spec: &Spec, source: &Source, error: &fea::Error) -> Failure {
     if *error != fea::Error::NoMass {
         return spec.locate_error(source, error).into();

@@ -1,4 +1,4 @@
-//! `girderway splines --reading --tolerance`: tables at the fewest stations that keep the tolerance.
+//! `girderway splines --reading --tolerance`: tables at the fewest stations that satisfy the tolerance.
 
 use serde_json::{Map, Value};
 use splines::{Axis, ExactSurface};
@@ -14,11 +14,11 @@ use formats::text::source::Source;
 use study::stations::{self, StationGoal};
 use study::table_quality::TableReadingMethod;
 
-/// The grid at the fewest stations that keep the tolerance; the stations are written to standard error and added to
-/// `summary`.
+/// Returns the grid at the fewest stations that satisfy the tolerance. The stations are printed to standard error and
+/// added to `summary`.
 ///
 /// # Errors
-/// A grid without its surface or without the requested directions; a tolerance that no number of stations keeps.
+/// The grid has no surface or not all requested directions, or no number of stations satisfies the tolerance.
 pub(super) fn chosen(
     args: &SplinesArgs,
     (manner, tolerance): (TableReadingMethod, f64),

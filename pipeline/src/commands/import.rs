@@ -7,11 +7,11 @@ use crate::progress::Progress;
 use formats::text::inputs::Inputs;
 use import::{ImportOptions, import};
 
-/// Reads the model, writes the beam spec to the file named or to standard output; what was left out is said on
-/// standard error.
+/// Reads the model and writes the beam spec to the named file or to standard output. Warnings, for example of
+/// omitted parts, are printed to standard error.
 ///
 /// # Errors
-/// What is wrong with the model or the flags; a file that cannot be written.
+/// The model or a flag is invalid, or the file cannot be written.
 pub fn run(args: &ImportArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let sections = match &args.sections {

@@ -10,7 +10,7 @@ use crate::output;
 use crate::progress::Progress;
 use formats::text::diagnostic::Diagnostic;
 
-/// Files by their names, the scene first.
+/// Names and contents of files; the scene is the first.
 type Files = &'static [(&'static str, &'static str)];
 
 macro_rules! files {
@@ -35,10 +35,10 @@ const fn files(starter: Starter) -> Files {
     }
 }
 
-/// Writes the files into the folder named; none of them where one is there already.
+/// Writes the files into the named folder. If any of them exists already, none is written.
 ///
 /// # Errors
-/// Files that exist already; a folder that cannot be created; an operation that the file system refuses.
+/// A file exists already, or the folder or a file cannot be written.
 pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let folder = args.folder.clone().unwrap_or_else(|| PathBuf::from("."));
@@ -71,7 +71,7 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// A file in a folder, without `./` before it.
+/// Path of a file in a folder, without a leading `./`.
 fn place(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { PathBuf::from(name) } else { folder.join(name) }
 }

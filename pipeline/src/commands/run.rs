@@ -24,19 +24,19 @@ use results::response::RunComparison;
 use results::threads::parallel_map;
 use results::{fatigue, run_error, summary, warning};
 
-/// The main job: from a scene to its output folder.
+/// Solves the structures of a scene, simulates it, and writes the output folder.
 ///
 /// # Errors
-/// What is wrong with the scene or the files it names; a structure that does not stand; a scene that cannot
-/// start; a file that cannot be written.
+/// The scene or one of its files is invalid, a structure is a mechanism, the scene has no initial state, a run is
+/// incomplete, or a file cannot be written.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     job("run", args, global, solve)
 }
 
-/// Where the structures' solutions come from: the document, and the output folder.
+/// Function that returns the solved structures of a document; the path is that of the output folder.
 type Source = fn(&Document, &Path, &Progress) -> Result<Vec<SolvedStructure>, Failure>;
 
-/// The common part of `run` and `sim`, on the structures that `structures` returns.
+/// Performs the common part of `run` and `sim` with the solved structures that `structures` returns.
 pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Source) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let mut clock = StageClock::new();
@@ -100,7 +100,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     finish(&outcomes, &summary, &written, &document, global, &progress)
 }
 
-/// Says how it went; the exit status is that of the worst run.
+/// Prints the results and warnings. Returns an error if a run is incomplete.
 fn finish(
     outcomes: &[CaseResult],
     summary: &Value,
@@ -138,13 +138,13 @@ fn finish(
     failed.map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
 }
 
-/// Solves every spec of every case once.
+/// Solves each distinct spec of the document once.
 fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
     let _stage = progress.stage("solving the structures");
     Ok(solve_specs(document, &distinct_specs(document))?)
 }
 
-/// An error that checked input should not cause; it is reported instead of hidden.
+/// Creates the failure of an error that should be impossible after the checks of the input.
 fn unexpected(error: impl std::fmt::Display) -> Failure {
     Failure::Untrusted(format!("the results cannot be shown: {error}"))
 }

@@ -6,10 +6,10 @@ use crate::output;
 use crate::progress::Progress;
 use formats::schema;
 
-/// Writes the schema to the file named or to standard output.
+/// Writes the schema to the named file or to standard output.
 ///
 /// # Errors
-/// A file that cannot be written.
+/// The file cannot be written.
 pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
     let schema = match args.format {
         SchemaArg::Beam => schema::beam(),

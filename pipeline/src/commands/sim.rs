@@ -1,4 +1,4 @@
-//! `girderway sim`: the simulation alone, on tables that an earlier `run` has left in the output folder.
+//! `girderway sim`: simulation with the tables that an earlier `run` wrote to the output folder.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -18,19 +18,19 @@ use formats::text::inputs::Inputs;
 use foundations::SolvedModel;
 use foundations::{SolvedStructure, distinct_specs};
 
-/// Simulates on the grids of the output folder, and writes the folder anew.
+/// Simulates with the grids of the output folder, and rewrites the folder.
 ///
 /// # Errors
-/// As [`super::run::run`]; tables that are missing, or made from other specs than the scene names now.
+/// The errors of [`super::run::run`]; the tables are missing, or belong to other specs than those of the scene.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     job("sim", args, global, load)
 }
 
-/// The grids and surfaces of the folder, one for each spec.
+/// Reads the grid and surface of each distinct spec from the output folder.
 fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
     let mut known: Vec<SolvedStructure> = Vec::new();
     for (name, file, spec) in distinct_specs(document) {
-        // ties belong to the scene, which may have changed
+        // a spec with pads is solved again because its pads depend on the scene, which may have changed
         if !spec.pads().is_empty() {
             let solved = foundations::solve(spec).map_err(Failure::untrusted)?;
             known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved });
@@ -43,7 +43,7 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedSt
     Ok(known)
 }
 
-/// The spec must be the one that the folder's tables were made from.
+/// Checks by its hash in the manifest that the spec is the one from which the tables were computed.
 fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failure> {
     let path = folder.join(MANIFEST);
     let refuse = |why: &str| {
@@ -63,7 +63,7 @@ fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failu
     }
 }
 
-/// Grid and exact surface from a grid file.
+/// Reads grid and exact surface from a grid file.
 fn solved(spec: &Spec, path: &Path) -> Result<SolvedModel, Failure> {
     let (_, source) = Inputs::open(path)?;
     let (grid, surface) = grid_file::read(&source)?;

@@ -1,4 +1,4 @@
-//! `girderway splines`: the tables of a grid, or of a file of tables, in another format.
+//! `girderway splines`: conversion of a grid, or of a file of tables, to tables in another format.
 
 use adams::SplineValues;
 use serde_json::{Map, Value, json};
@@ -20,12 +20,12 @@ use formats::text::place::Place;
 use formats::units::Units;
 use study::table_quality::TableReadingMethod;
 
-/// Reads a grid or tables, writes the tables in the format of the file's ending, as an ADAMS data set to
-/// standard output.
+/// Reads a grid or tables and writes tables, to a file in the format of its extension or to standard output as an
+/// ADAMS data set.
 ///
 /// # Errors
-/// What is wrong with the input; an ending without a format; tables without a factored form; a file that cannot
-/// be written.
+/// The input is invalid, the file extension is unknown, the tables have no factored form, or the file cannot be
+/// written.
 pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     if args.check {
         return check_tables::run(args, global);
@@ -74,7 +74,7 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     Ok(Exit::Done)
 }
 
-/// Refuses flags that do not go together.
+/// Rejects flags that cannot be combined.
 fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     let factored = args.form == Some(TableFormArg::Factored);
     let (wrong, hint) = if args.tolerance.is_some() && args.reading.is_none() && !factored {
@@ -89,7 +89,7 @@ fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     Err(Diagnostic::of_file("command line", wrong).hint(hint).into())
 }
 
-/// The tables of the input, and the exact surface of a grid that has one.
+/// The tables of the input, and the exact surface with its rails if the input is a grid that has one.
 type Given = (TableSet, Option<(ExactSurface, Vec<GridRail>)>);
 
 fn given(

@@ -1,4 +1,4 @@
-//! `girderway study`: accuracy against cost of a scene.
+//! `girderway study`: accuracy and cost of the settings of a scene.
 
 use std::path::PathBuf;
 
@@ -15,11 +15,11 @@ use foundations::{SolvedStructure, distinct_specs, solve_specs};
 use study::stability::{self, MapSubject, MapVerdict};
 use study::{self, SettingFamily, Study, StudyBudget, StudyPoint};
 
-/// Runs a scene on a ladder of settings, measures errors and times, and draws them.
+/// Runs a scene with a series of settings, measures errors and times, and draws charts of them.
 ///
 /// # Errors
-/// What is wrong with the scene or the files it names; references that do not tell what they are asked to: these are
-/// written all the same.
+/// The scene or one of its files is invalid, or a reference solution does not resolve the requested error. In the
+/// latter case the results are written before the error is returned.
 pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let mut document = Document::open(&args.scene)?;
@@ -79,7 +79,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     judge(&study, &budget)
 }
 
-/// Maps of where methods fail.
+/// Computes and writes maps of the parameters for which methods fail.
 fn stability(
     args: &Arguments,
     document: &Document,
@@ -125,7 +125,7 @@ fn stability(
     }
 }
 
-/// The scene itself, or the named comparison.
+/// Returns the scene itself, or the comparison with the requested label.
 fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
     let Some(label) = &args.case else {
         return Ok(Case { label: None, scene: document.scene().clone() });
@@ -145,7 +145,7 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
     }
 }
 
-/// Whether the references resolve the errors that the budget asks for.
+/// Checks that the reference solutions resolve the error that the budget requires.
 fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
     if let Some((against, why)) = study.failed_references.first() {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };

@@ -6,27 +6,27 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
-/// Pinned packages.
+/// Packages with pinned versions.
 pub const REQUIREMENTS: &str = include_str!("../../../fea/requirements.txt");
-/// Oldest Python for which the pinned packages exist.
+/// Oldest version of Python that the pinned packages support.
 const OLDEST: [u32; 2] = [3, 11];
-/// Written into an environment when it is complete.
+/// Name of the file that marks an environment as complete.
 const MARK: &str = "complete";
 
-/// The path of the environment and the packages that it is made of.
+/// Python interpreter and cache directory for the environment of the other codes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Environment {
-    /// The Python that makes the environment.
+    /// Interpreter that creates the environment.
     pub python: PathBuf,
-    /// Directory of environments, one for each set of requirements.
+    /// Directory that contains an environment for each set of requirements.
     pub cache: PathBuf,
 }
 
 impl Environment {
-    /// `python3` of the search path; environments in `$XDG_CACHE_HOME/girderway`, else `~/.cache/girderway`.
+    /// Uses `python3` of the search path, and `$XDG_CACHE_HOME/girderway` or else `~/.cache/girderway` as cache.
     ///
     /// # Errors
-    /// [`Error::NoCache`] where neither directory is known.
+    /// [`Error::NoCache`] if neither directory is known.
     pub fn of_user() -> Result<Self, Error> {
         let set = |name| std::env::var_os(name).filter(|v| !v.is_empty()).map(PathBuf::from);
         let cache = set("XDG_CACHE_HOME").filter(|p| p.is_absolute());
@@ -41,13 +41,13 @@ impl Environment {
         self.cache.join(name)
     }
 
-    /// The environment's Python; makes the environment first where there is none, telling `say`.
+    /// Returns the interpreter of the environment. Creates a missing environment, with a message to `say`.
     ///
-    /// It is built beside its place and moved there when it is complete, so that an interrupted or a second
-    /// process does no harm.
+    /// The environment is created in a temporary directory and renamed when it is complete, so that interrupted or
+    /// concurrent processes do not leave an incomplete one.
     ///
     /// # Errors
-    /// Where Python is missing or old, or the packages cannot be installed.
+    /// Python is missing or too old, or the packages cannot be installed.
     pub fn prepare(&self, say: &mut dyn FnMut(&str)) -> Result<PathBuf, Error> {
         let folder = self.folder();
         if complete(&folder) {
@@ -73,19 +73,19 @@ impl Environment {
         succeeded(&make, "make a Python environment (python3 -m venv)")?;
         let mut install = Command::new(program(&new));
         install.args(["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--quiet"]);
-        // The list is whole: nothing that is not pinned comes along.
+        // The list includes all dependencies, so that no unpinned package is installed.
         install.args(["--no-deps", "--only-binary", ":all:", "--requirement"]).arg(&requirements);
         succeeded(&start(&mut install)?, "install the packages with pip")?;
         let mark = new.join(MARK);
         fs::write(&mark, REQUIREMENTS).map_err(file(&mark))?;
 
         if folder.exists() && !complete(&folder) {
-            // Its Python is gone, for example after an upgrade of the system.
+            // Its interpreter no longer exists, for example after an upgrade of the system.
             fs::remove_dir_all(&folder).map_err(file(&folder))?;
         }
         match fs::rename(&new, &folder) {
             Ok(()) => Ok(program(&folder)),
-            // Another process was faster.
+            // Another process has created the environment in the meantime.
             Err(_) if complete(&folder) => Ok(program(&folder)),
             Err(source) => Err(Error::File { path: folder, source }),
         }
@@ -104,7 +104,7 @@ impl Environment {
     }
 }
 
-/// The environment was made to the end, and its Python is still there.
+/// Whether the environment was completed and its interpreter still exists.
 fn complete(folder: &Path) -> bool {
     folder.join(MARK).is_file() && program(folder).exists()
 }
@@ -121,7 +121,7 @@ fn succeeded(output: &Output, step: &'static str) -> Result<(), Error> {
     if output.status.success() { Ok(()) } else { Err(Error::Environment { step, output: tail(output) }) }
 }
 
-/// Last lines of what a process wrote.
+/// Last lines of the output of a process.
 pub(super) fn tail(output: &Output) -> String {
     let text = [&output.stdout[..], &output.stderr[..]].concat();
     let text = String::from_utf8_lossy(&text);

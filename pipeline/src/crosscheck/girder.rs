@@ -1,12 +1,13 @@
-//! A straight girder as plain numbers.
+//! Straight girder as the scripts of the other codes read it.
 
 use super::error::Error;
 use serde::Serialize;
 
 /// A straight uniform girder, continuous over its supports, in consistent units.
 ///
-/// Every support restrains vertical, lateral and twist, the first also longitudinal; slopes are free. Unknown
-/// stiffnesses leave out the grids that need them; absent shear stiffnesses mean a beam rigid in shear.
+/// Every support restrains vertical and lateral displacement and twist, the first one also longitudinal displacement;
+/// bending rotations are free. Grids that depend on an unknown stiffness are not computed. A beam without shear
+/// stiffness is rigid in shear.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct PlainGirder {
     /// Lengths between supports, first to last.
@@ -41,7 +42,7 @@ impl PlainGirder {
     /// Checks every number.
     ///
     /// # Errors
-    /// The first number that no model can be made of.
+    /// The first number that is not valid.
     pub fn check(&self) -> Result<(), Error> {
         if self.spans.is_empty() {
             return Err(Error::NoSpan);

@@ -1,7 +1,7 @@
-//! Grids as plain numbers, as other codes answer.
+//! Influence grids as plain numbers, as the other codes return them.
 
-/// A square grid: row deflection, column load.
+/// Square matrix of influence coefficients; rows are deflections, columns are loads.
 pub type PlainGrid = Vec<Vec<f64>>;
 
-/// Rail and coordinate of a station.
+/// Index of the rail and coordinate of a station.
 pub type Station = (usize, f64);

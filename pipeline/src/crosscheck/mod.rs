@@ -1,7 +1,7 @@
-//! The same structure in independent finite element codes, entry by entry.
+//! Comparison of influence grids with those of independent finite element codes, entry by entry.
 //!
-//! The other codes run in a Python environment that is made on first use; `fea/` in the repository holds the
-//! scripts and the pinned requirements.
+//! The other codes run in a Python environment that is created on first use. The directory `fea/` of the repository
+//! contains the scripts and the pinned requirements.
 
 pub mod environment;
 pub mod error;

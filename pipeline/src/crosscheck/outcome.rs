@@ -1,4 +1,4 @@
-//! Differences between codes.
+//! Results of comparisons with other codes.
 
 use super::grid::{PlainGrid, Station};
 use super::peer::{Peer, PeerMeasure};
@@ -13,24 +13,24 @@ pub struct BlockDifference {
     pub quantity: GridBlock,
     /// Number of entries compared.
     pub entries: usize,
-    /// What the difference is measured by, see [`PeerMeasure`].
+    /// Scale of the relative difference, see [`PeerMeasure`].
     pub scale: f64,
     /// Rails of the entry that differs most: deflection, load.
     pub rails: [usize; 2],
     /// Stations of the entry that differs most: deflection, load.
     pub at: [f64; 2],
-    /// That entry here.
+    /// Value of that entry in this program.
     pub ours: f64,
-    /// That entry in the other code.
+    /// Value of that entry in the other code.
     pub theirs: f64,
-    /// Difference by scale.
+    /// Difference divided by the scale.
     pub relative: f64,
-    /// Largest difference by scale in each row, the station of the deflection.
+    /// Largest relative difference in each row, which is the station of a deflection.
     pub profile: Vec<f64>,
 }
 
 impl BlockDifference {
-    /// No entry compared yet.
+    /// A difference of which no entry has been compared.
     pub(super) fn none(quantity: GridBlock) -> BlockDifference {
         BlockDifference {
             quantity,
@@ -55,26 +55,26 @@ pub struct PeerOutcome {
     pub code: String,
     /// Its finite elements.
     pub elements: String,
-    /// Theory of both sides, where it is not plain.
+    /// Beam theory of both codes, if it must be stated.
     pub theory: Option<&'static str>,
     /// Largest relative difference that counts as agreement.
     pub tolerance: f64,
-    /// One a compared grid.
+    /// Differences, one for each compared grid.
     pub differences: Vec<BlockDifference>,
-    /// Grids that only one side has.
+    /// Grids that only one of the codes has.
     pub skipped: Vec<GridBlock>,
     /// Stations compared.
     pub stations: Vec<Station>,
-    /// What a reader should know.
+    /// Notes on the comparison.
     pub notes: Vec<String>,
-    /// The other code's grids.
+    /// Grids of the other code.
     pub theirs: Vec<(GridBlock, PlainGrid)>,
-    /// Indices of the stations compared among all.
+    /// Indices of the compared stations among all stations.
     pub chosen: Vec<usize>,
 }
 
 impl PeerOutcome {
-    /// Something was compared, and all of it agrees.
+    /// Whether at least one grid was compared and all of them agree.
     pub fn agrees(&self) -> bool {
         !self.differences.is_empty() && self.differences.iter().all(|d| d.relative <= self.tolerance)
     }
@@ -141,7 +141,7 @@ impl PeerOutcome {
         text
     }
 
-    /// The result for machines.
+    /// The result as JSON.
     pub fn json(&self, rails: &[String]) -> Value {
         let name = |rail: usize| rails.get(rail).map_or("", String::as_str);
         let differences: Vec<Value> = self
@@ -177,18 +177,18 @@ pub struct PeerComparison {
     pub rails: Vec<String>,
     /// Codes that were compared.
     pub outcomes: Vec<PeerOutcome>,
-    /// Codes that were not, and why.
+    /// Codes that were not compared, with the reasons.
     pub absent: Vec<(Peer, String)>,
 }
 
 impl PeerComparison {
-    /// At least one code was compared, and all that were agree.
+    /// Whether at least one code was compared and all compared codes agree.
     pub fn agrees(&self) -> bool {
         let mut compared = self.outcomes.iter().filter(|o| !o.differences.is_empty()).peekable();
         compared.peek().is_some() && compared.all(PeerOutcome::agrees)
     }
 
-    /// The result as text: a table a code.
+    /// The result as text, with a table for each code.
     pub fn table(&self) -> String {
         let mut parts: Vec<String> = self.outcomes.iter().map(|outcome| outcome.table(&self.rails)).collect();
         let absent = |(peer, why): &(Peer, String)| format!("not compared with {}: {why}\n", peer.name());
@@ -200,7 +200,7 @@ impl PeerComparison {
         parts.join("\n")
     }
 
-    /// The result for machines.
+    /// The result as JSON.
     pub fn json(&self) -> Value {
         let outcomes: Vec<Value> = self.outcomes.iter().map(|outcome| outcome.json(&self.rails)).collect();
         let absent: Vec<Value> =

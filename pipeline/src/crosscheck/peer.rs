@@ -1,4 +1,4 @@
-//! The other codes, and the call of one of them.
+//! The other codes and their execution.
 
 use super::environment::{Environment, tail};
 use super::error::Error;
@@ -10,7 +10,7 @@ use std::io::Write;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-/// Scripts by file name; some import others.
+/// Names and contents of the scripts, some of which import others.
 const SCRIPTS: [(&str, &str); 5] = [
     ("scikit_fem_girder.py", include_str!("../../../fea/scikit_fem_girder.py")),
     ("gmsh_solid.py", include_str!("../../../fea/gmsh_solid.py")),
@@ -22,33 +22,34 @@ const SCRIPTS: [(&str, &str); 5] = [
 /// An independent code that solves the same structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Peer {
-    /// Beam elements of scikit-fem; straight girders.
+    /// Beam elements of scikit-fem, for straight girders only.
     ScikitFem,
-    /// Frames of OpenSees, both theories.
+    /// Frames of OpenSees, with both beam theories.
     OpenSees,
     /// Frames of PyNite, without shear deformation.
     PyNite,
-    /// A solid meshed by gmsh, solved by scikit-fem; straight girders of rectangular section.
+    /// A solid meshed by gmsh and solved by scikit-fem, for straight girders of rectangular section only.
     Solid,
 }
 
-/// What a difference is measured by.
+/// Scale relative to which a difference is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum PeerMeasure {
-    /// The largest entry of the grid; for a coupling the geometric mean of those of its two direct grids.
+    /// The largest entry of the grid; for a coupling block, the geometric mean of those of its two direct grids.
     Largest,
-    /// sqrt(G_ii G_jj) of the direct grids, at least [`FLOOR`] of its largest value.
+    /// sqrt(G_ii G_jj) of the direct grids, at least [`FLOOR`] times its largest value.
     Diagonal,
 }
 
-/// Least measure by its largest value under [`PeerMeasure::Diagonal`]: at supports the coefficients vanish.
+/// Lower bound of the scale under [`PeerMeasure::Diagonal`], relative to its largest value. It is needed because the
+/// coefficients vanish at supports.
 pub const FLOOR: f64 = 1e-3;
 
 impl Peer {
-    /// All codes, in the order in which they run.
+    /// All codes in the order of their execution.
     pub const ALL: [Peer; 4] = [Peer::ScikitFem, Peer::OpenSees, Peer::PyNite, Peer::Solid];
 
-    /// Its name for people and files.
+    /// Name in messages and file names.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -59,13 +60,13 @@ impl Peer {
         }
     }
 
-    /// Whether it solves the short form of a spec alone.
+    /// Whether the code solves the short form of a spec only.
     #[must_use]
     pub const fn straight(self) -> bool {
         matches!(self, Peer::ScikitFem | Peer::Solid)
     }
 
-    /// The theory under which both sides are compared, for a spec under `theory`.
+    /// Beam theory of the comparison for a spec with the beam theory `theory`.
     #[must_use]
     pub const fn theory(self, theory: BeamTheory) -> BeamTheory {
         match self {
@@ -75,7 +76,7 @@ impl Peer {
         }
     }
 
-    /// Largest difference that counts as agreement, where the answer states none.
+    /// Largest difference that counts as agreement, unless the answer of the script contains one.
     #[must_use]
     pub const fn tolerance(self) -> f64 {
         match self {
@@ -85,7 +86,7 @@ impl Peer {
         }
     }
 
-    /// What its differences are measured by.
+    /// Scale relative to which its differences are measured.
     #[must_use]
     pub const fn measure(self) -> PeerMeasure {
         match self {
@@ -103,10 +104,10 @@ impl Peer {
         }
     }
 
-    /// Asks the code: one JSON value in, its answer out.
+    /// Runs the script of the code: `question` is written to it as JSON, and its JSON answer is returned.
     ///
     /// # Errors
-    /// Python, its environment or the script fails; [`Error::Refused`] where the code does not solve the structure.
+    /// Python, its environment or the script fails; [`Error::Refused`] if the code does not solve the structure.
     pub fn ask(
         self,
         question: &impl Serialize,
@@ -127,7 +128,7 @@ impl Peer {
         let mut child = Command::new(&python)
             .args(["-E", "-s", "-B"])
             .arg(folder.path().join(self.script()))
-            // One thread: the systems are small, and the sums keep their order.
+            // The systems are small, and with one thread the order of summation is reproducible.
             .envs(["OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"].map(|name| (name, "1")))
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -136,7 +137,7 @@ impl Peer {
             .map_err(missing)?;
         let answer = |source| Error::Answer { code: self.name(), source };
         let question = serde_json::to_vec(question).map_err(answer)?;
-        // The script reads all before it writes; a script that died early is reported by its exit status.
+        // The script reads all input before it writes; a script that ends early is detected by its exit status.
         let written = child.stdin.take().map(|mut pipe| pipe.write_all(&question));
         let output = child.wait_with_output().map_err(missing)?;
         if !output.status.success() || !matches!(written, Some(Ok(()))) {
@@ -150,22 +151,22 @@ impl Peer {
     }
 }
 
-/// What a script answers.
+/// Answer of a script.
 #[derive(Clone, Debug, Default, Deserialize, PartialEq)]
 #[serde(deny_unknown_fields, default)]
 pub struct PeerAnswer {
-    /// Why there is no answer.
+    /// Reason why the code does not solve the structure.
     pub refused: Option<String>,
     /// Versions by package.
     pub versions: BTreeMap<String, String>,
     /// Finite elements used.
     pub elements: String,
-    /// Stations of the grids among those of the spec; all where absent.
+    /// Indices of the stations of the grids among those of the spec; `None` means all stations.
     pub stations: Option<Vec<usize>>,
-    /// Grids by name; absent where a stiffness is unknown.
+    /// Grids by name; `None` if a stiffness is unknown.
     pub influence: BTreeMap<String, Option<PlainGrid>>,
-    /// What a reader should know.
+    /// Notes on the answer.
     pub notes: Vec<String>,
-    /// Largest difference that the code's own modelling explains.
+    /// Largest difference that the modelling of the code explains.
     pub tolerance: Option<f64>,
 }

@@ -1,12 +1,12 @@
-//! Pictures of differences.
+//! Charts of differences.
 
 use super::outcome::PeerOutcome;
 use report::chart::{Chart, ChartAxis, Series, Style};
 
-/// Differences below this are drawn here: a logarithmic axis has no zero.
+/// Lower bound of drawn differences, because zero cannot be drawn on a logarithmic axis.
 const LEAST: f64 = 1e-17;
 
-/// The largest difference of each grid over the station of the deflection, one chart a rail.
+/// Charts of the largest difference of each grid over the station of the deflection, one for each rail.
 #[must_use]
 pub fn charts(outcome: &PeerOutcome, rails: &[String], unit: &str) -> Vec<Chart> {
     let of_rail = |(rail, name): (usize, &String)| {

@@ -1,4 +1,4 @@
-//! Asking another code and comparing.
+//! Execution of another code and comparison of its grids.
 
 use super::environment::Environment;
 use super::error::Error;
@@ -9,10 +9,10 @@ use super::peer::{FLOOR, Peer, PeerAnswer, PeerMeasure};
 use formats::grid::block::GridBlock;
 use serde::Serialize;
 
-/// Influence grids of a girder from scikit-fem.
+/// Computes the influence grids of a girder with scikit-fem.
 ///
 /// # Errors
-/// For an unusable girder, and where Python, its environment or the script fails.
+/// The girder is invalid, or Python, its environment or the script fails.
 pub fn influence(
     girder: &PlainGirder,
     environment: &Environment,
@@ -24,11 +24,11 @@ pub fn influence(
 
 /// Compares influence grids of a girder with those of scikit-fem, entry by entry.
 ///
-/// `ours` holds stations x stations grids; `tolerance` is relative to the largest entry of a grid. Where
-/// nothing can be compared, the outcome is empty and does not agree.
+/// `ours` contains grids of size stations x stations; `tolerance` is relative to the largest entry of a grid. If no
+/// grid can be compared, the outcome is empty and does not agree.
 ///
 /// # Errors
-/// As [`influence`]; [`Error::Shape`] and [`Error::NotFinite`] for grids that cannot be compared.
+/// The errors of [`influence`]; [`Error::Shape`] and [`Error::NotFinite`] for grids that cannot be compared.
 pub fn crosscheck(
     girder: &PlainGirder,
     ours: &[(GridBlock, PlainGrid)],
@@ -45,12 +45,12 @@ pub fn crosscheck(
 
 /// Runs a code and compares its grids with `ours`, entry by entry.
 ///
-/// `ours` holds grids between all `stations`; the code may answer for some of them. `question` is what its
-/// script reads.
+/// `ours` contains grids at all `stations`; the other code may return grids at some of them. `question` is the input
+/// of its script.
 ///
 /// # Errors
-/// As [`Peer::ask`]; [`Error::Shape`], [`Error::NotFinite`] and [`Error::Stations`] for grids that cannot be
-/// compared.
+/// The errors of [`Peer::ask`]; [`Error::Shape`], [`Error::NotFinite`] and [`Error::Stations`] for grids that cannot
+/// be compared.
 pub fn ask(
     peer: Peer,
     question: &impl Serialize,
@@ -96,7 +96,7 @@ pub fn ask(
     })
 }
 
-/// Grids between some of the stations.
+/// Restricts grids to some of their stations.
 #[must_use]
 pub fn part(grids: &[(GridBlock, PlainGrid)], chosen: &[usize]) -> Vec<(GridBlock, PlainGrid)> {
     let pick = |row: &Vec<f64>| chosen.iter().map(|j| row[*j]).collect();
@@ -121,7 +121,7 @@ fn check(grids: &[(GridBlock, PlainGrid)], stations: usize) -> Result<(), Error>
     Ok(())
 }
 
-/// What an entry of a grid is measured by.
+/// Scale of the relative difference of each entry of a grid: sqrt(`rows[i]` `columns[j]`), but at least `least`.
 struct Scale {
     rows: Vec<f64>,
     columns: Vec<f64>,
@@ -159,7 +159,7 @@ impl Scale {
     }
 }
 
-/// Differences of the grids that both sides have, and the quantities that only one has.
+/// Compares the grids that both codes have. Also returns the quantities that only one of them has.
 pub(super) fn compare(
     ours: &[(GridBlock, PlainGrid)],
     theirs: &[(GridBlock, PlainGrid)],
@@ -211,7 +211,7 @@ pub(super) fn compare(
     (differences, skipped)
 }
 
-/// The differences of other grids of this program from the answer of an outcome.
+/// Compares other grids of this program with the grids of the other code in `outcome`.
 #[must_use]
 pub fn again(outcome: &PeerOutcome, ours: &[(GridBlock, PlainGrid)]) -> Vec<BlockDifference> {
     compare(&part(ours, &outcome.chosen), &outcome.theirs, &outcome.stations, outcome.peer.measure()).0

@@ -1,30 +1,30 @@
-//! Cards: a name with its fields, from lines in small field, large field or free field format.
+//! Cards of bulk data: lines in small field, large field or free field format are joined to names with fields.
 
 use super::field::number;
 use super::line::BulkLine;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// A field of a card with its place.
+/// A field of a card with its position in the file.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CardField {
-    /// Where it begins.
+    /// Position at which it begins.
     pub at: FilePlace,
-    /// Its text without blanks around it, in capital letters; empty where it is blank.
+    /// Text in capital letters without leading and trailing blanks; empty for a blank field.
     pub text: String,
 }
 
-/// One card with its continuations.
+/// A card with the fields of all its continuation lines.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Card {
-    /// Its name in capital letters, without the `*` of large fields.
+    /// Name in capital letters, without the `*` that marks large fields.
     pub name: String,
-    /// Where it begins.
+    /// Position at which it begins.
     pub at: FilePlace,
-    /// Fields after the name, eight a line; continuation markers are left out.
+    /// Fields after the name, eight for each line in small fields; continuation markers are not included.
     pub fields: Vec<CardField>,
 }
 
-/// One line, cut into its fields.
+/// A single line divided into fields. `head` is the first field (name or marker), `tail` the continuation marker.
 struct Parts {
     head: String,
     fields: Vec<CardField>,
@@ -33,11 +33,15 @@ struct Parts {
 }
 
 /// Joins lines to cards.
+///
+/// A line whose first field is blank or begins with `+` or `*` continues the card before it. The markers at the end
+/// of the line before and at its own beginning must agree where both are present. Fields before a continuation are
+/// filled up with blanks to a whole line. Continuations of a card that could not be read are ignored.
 #[must_use]
 pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
     let mut cards: Vec<Card> = Vec::new();
     let mut tail = String::new();
-    // whether continuation lines belong to a card that could not be read
+    // true while continuation lines belong to a card that could not be read
     let mut lost = true;
     for line in lines {
         let Some(parts) = take_apart(line, findings) else {
@@ -100,7 +104,8 @@ fn take_apart(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     if line.text.contains(',') { free(line, findings) } else { Some(fixed(line)) }
 }
 
-/// Small or large field: columns 1 to 8, then eight of eight or four of sixteen, then the marker.
+/// Divides a line in fixed format: a name of 8 columns, then eight fields of 8 columns (small) or four fields of 16
+/// columns (large), then a continuation marker of 8 columns.
 fn fixed(line: &BulkLine) -> Parts {
     let chars: Vec<char> = line.text.chars().take(80).collect();
     let cut = |from: usize, to: usize| {
@@ -116,7 +121,8 @@ fn fixed(line: &BulkLine) -> Parts {
     Parts { head, fields, tail: cut(72, 80).text, large }
 }
 
-/// Free field: parts between commas; eight of them, or four where the name has its `*`, then the marker.
+/// Divides a line in free format at its commas: a name, eight fields (four if the name has a `*`), then a
+/// continuation marker. Returns `None`, with an error, if the line has more fields.
 fn free(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     let mut fields = Vec::new();
     let mut column = 1;
@@ -162,7 +168,7 @@ mod tests {
         (cards(&lines, &mut findings), findings)
     }
 
-    /// Texts of the fields without the blanks at the end.
+    /// Texts of the fields without trailing blank fields.
     fn texts(card: &Card) -> Vec<&str> {
         let mut texts: Vec<&str> = card.fields.iter().map(|field| field.text.as_str()).collect();
         while texts.last().is_some_and(|text| text.is_empty()) {

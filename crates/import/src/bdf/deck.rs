@@ -1,4 +1,4 @@
-//! A deck: its cards, sorted by what they describe.
+//! A bulk data deck with its cards sorted by type.
 
 use std::collections::BTreeMap;
 
@@ -15,7 +15,7 @@ use super::rigid::{self, Rigid};
 use super::support::{self, SupportCard};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// Cards that do not affect a structure at rest, or describe what a beam spec does not have: ignored with a warning.
+/// Cards that are ignored with a warning: they do not affect the static stiffness, or a beam spec has no counterpart.
 const LEFT_OUT: &[&str] = &[
     "PARAM", "DEBUG", "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD", "PLOAD", "PLOAD1",
     "PLOAD2", "PLOAD4", "PLOADX1", "SLOAD", "GRAV", "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPRB",
@@ -26,55 +26,55 @@ const LEFT_OUT: &[&str] = &[
     "ECHOOFF", "DCONADD", "MATT1",
 ];
 
-/// Properties and materials of elements that are refused themselves.
+/// Properties and materials of elements that cannot be imported; they are ignored with a warning.
 const UNUSED: &[&str] = &[
     "PSHELL", "PSOLID", "PCOMP", "PCOMPG", "PSHEAR", "PBUSH", "PGAP", "PMASS", "MAT2", "MAT8", "MAT9",
     "MAT10",
 ];
 
-/// A deck, card by card.
+/// The contents of a deck, by type of card.
 #[derive(Debug, Default)]
 pub struct BulkDeck {
-    /// GRID by number.
+    /// GRID cards by number.
     pub grids: BTreeMap<u64, GridCard>,
-    /// GRDSET.
+    /// Defaults of the GRDSET card.
     pub defaults: grid::GridDefaults,
-    /// CORD2R by number.
+    /// CORD2R cards by number.
     pub systems: BTreeMap<u64, CoordinateCard>,
-    /// MAT1 by number.
+    /// MAT1 cards by number.
     pub materials: BTreeMap<u64, MaterialCard>,
-    /// PBAR, PBARL, PBEAM, PBEAML and PROD by number.
+    /// PBAR, PBARL, PBEAM, PBEAML and PROD cards by number.
     pub properties: BTreeMap<u64, Property>,
-    /// CBAR, CBEAM, CROD and CONROD by number.
+    /// CBAR, CBEAM, CROD and CONROD cards by number.
     pub elements: BTreeMap<u64, ElementCard>,
-    /// RBE2 and RBAR.
+    /// RBE2 and RBAR cards.
     pub rigid: Vec<Rigid>,
-    /// CONM2.
+    /// CONM2 cards.
     pub masses: Vec<MassCard>,
-    /// CELAS1 and CELAS2.
+    /// CELAS1 and CELAS2 cards.
     pub springs: Vec<SpringCard>,
-    /// PELAS by number.
+    /// Positions and stiffnesses of PELAS cards by number.
     pub stiffness: BTreeMap<u64, (FilePlace, f64)>,
-    /// SPC and SPC1.
+    /// SPC and SPC1 cards.
     pub holds: Vec<SupportCard>,
-    /// SPCADD by number.
+    /// Sets that each SPCADD card combines, by number.
     pub adds: BTreeMap<u64, Vec<u64>>,
-    /// Whether there is case control.
+    /// Whether the deck has a case control section.
     pub controlled: bool,
-    /// Sets that case control chooses.
+    /// SPC sets that case control selects, with their positions.
     pub control: Vec<(u64, FilePlace)>,
-    /// Factor of all masses.
+    /// Factor applied to all masses (PARAM WTMASS).
     pub wtmass: Option<f64>,
 }
 
 impl BulkDeck {
-    /// Sorts the cards of a deck; cards named in `skip` are ignored without a warning.
+    /// Reads the cards of a deck and sorts them by type. Cards named in `skip` are ignored without a warning.
     pub fn new(lines: &[BulkLine], skip: &[String], findings: &mut ImportFindings) -> BulkDeck {
         let mut deck = BulkDeck::default();
         let bulk = deck.control(lines, skip, findings);
         let cards = cards(bulk, findings);
         let cards: Vec<&Card> = cards.iter().filter(|card| !skip.contains(&card.name)).collect();
-        // defaults first: they apply to cards before them as well
+        // defaults are read first because they also apply to the cards before them
         let mut bars = element::BarDefaults::default();
         let mut beams = element::BarDefaults::default();
         let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
@@ -119,7 +119,7 @@ impl BulkDeck {
         deck
     }
 
-    /// Reads executive and case control, and returns the lines of the bulk data.
+    /// Reads the executive and case control sections and returns the lines of the bulk data section.
     fn control<'l>(
         &mut self,
         lines: &'l [BulkLine],
@@ -187,7 +187,7 @@ impl BulkDeck {
         put(&mut self.elements, id, element, |other| other.card, card, &kind, findings);
     }
 
-    /// Reads a card that describes a structure; false where it is no such card.
+    /// Reads a card that defines part of the structure; returns false for any other card.
     fn take(&mut self, name: &str, fields: &mut CardFields<'_, '_>) -> bool {
         let at = fields.card.at;
         match name {
@@ -245,7 +245,7 @@ impl BulkDeck {
     }
 }
 
-/// Inserts an entry under its number; an error where the number is used twice.
+/// Inserts an entry under its number, and adds an error if the number is already in use.
 fn put<T>(
     map: &mut BTreeMap<u64, T>,
     id: u64,

@@ -1,44 +1,44 @@
-//! Elements: CBAR, CBEAM, CROD and CONROD, with the defaults of BAROR and BEAMOR.
+//! Elements CBAR, CBEAM, CROD and CONROD, with the defaults of BAROR and BEAMOR.
 
 use super::field::{Number, number};
 use super::fields::CardFields;
 use super::property::{Property, rod_from};
 use crate::findings::FilePlace;
 
-/// The direction of local y of an element.
+/// Orientation of the local y axis of an element.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Orientation {
-    /// A vector from end A.
+    /// An orientation vector at end A.
     Vector([f64; 3]),
-    /// The vector from grid GA to this grid.
+    /// The orientation vector points from grid GA to this grid.
     Grid(u64),
 }
 
-/// The property of an element.
+/// Reference from an element to its property.
 #[derive(Clone, Debug)]
 pub enum SectionOf {
     /// The number of a property.
     Number(u64),
-    /// A property of its own (CONROD).
+    /// A property defined on the element card itself (CONROD).
     Own(Box<Property>),
 }
 
-/// An element as on its card.
+/// An element as its card defines it, before references are resolved.
 #[derive(Clone, Debug)]
 pub struct ElementCard {
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
     /// Name of its card.
     pub kind: String,
     /// Its property.
     pub section: SectionOf,
-    /// Its grids.
+    /// Numbers of the grids at ends A and B.
     pub grids: [u64; 2],
-    /// Direction of local y; `None` for rods.
+    /// Orientation of the local y axis; `None` for rods.
     pub orientation: Option<Orientation>,
     /// Released degrees of freedom at ends A and B.
     pub pins: [[bool; 6]; 2],
-    /// Offsets of ends A and B, global.
+    /// Offsets of ends A and B in global axes.
     pub offsets: [[f64; 3]; 2],
 }
 
@@ -59,7 +59,8 @@ pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<BarDefaults> {
     Some(BarDefaults { property: property?, orientation, frame })
 }
 
-/// Fields 5 to 7: a vector, or a grid; `Some(None)` where all are blank.
+/// Reads fields 5 to 7, which contain a vector or the number of a grid. Returns `Some(None)` if all are blank and
+/// `None`, with an error, if they cannot be read.
 fn orientation(card: &mut CardFields<'_, '_>) -> Option<Option<Orientation>> {
     if (5..8).all(|index| card.blank(index)) {
         return Some(None);
@@ -81,7 +82,7 @@ pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64
     }
     let frame =
         if card.blank(8) { defaults.frame.clone().unwrap_or_default() } else { card.text(8).to_owned() };
-    // the first letter: displacement or basic system, which are the same here
+    // the first letter selects the displacement or the basic system, which have the same axes here
     if !matches!(frame.as_str(), "" | "GGG" | "BGG") {
         let hint = "offsets and orientation in the element's own system cannot be taken; use GGG";
         card.refuse(8, "OFFT", "must be GGG, BGG or blank", hint);

@@ -1,17 +1,17 @@
-//! Single fields: integers, real numbers in the notations of bulk data, lists of degrees of freedom.
+//! Values of single fields: integers, real numbers in the notations of bulk data, sets of degrees of freedom.
 
-/// A number of bulk data.
+/// A number in the notation of bulk data.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Number {
-    /// Digits alone.
+    /// An integer, written with digits only.
     Integer(i64),
-    /// With a decimal point, or an exponent with its letter; finite.
+    /// A finite real number, written with a decimal point or with an exponent and its letter.
     Real(f64),
-    /// A real number beyond the largest double.
+    /// A real number whose magnitude exceeds the largest double.
     Huge,
 }
 
-/// Reads a number: `12`, `-3.5`, `1.+7`, `2.5-3`, `.5E4`, `1.D+7`. `None` for anything else.
+/// Reads a number such as `12`, `-3.5`, `1.+7`, `2.5-3`, `.5E4` or `1.D+7`; returns `None` for any other text.
 #[must_use]
 pub fn number(text: &str) -> Option<Number> {
     let body = text.strip_prefix(['+', '-']).unwrap_or(text);
@@ -28,7 +28,7 @@ pub fn number(text: &str) -> Option<Number> {
     let digits = match exponent.strip_prefix(['E', 'e', 'D', 'd']) {
         Some(digits) => digits,
         None if exponent.is_empty() => "0",
-        // an exponent without its letter needs a sign, and the number a decimal point
+        // an exponent without a letter must have a sign, and the mantissa must then have a decimal point
         None if points == 1 && exponent.starts_with(['+', '-']) => exponent,
         None => return None,
     };
@@ -40,7 +40,7 @@ pub fn number(text: &str) -> Option<Number> {
     Some(if value.is_finite() { Number::Real(value) } else { Number::Huge })
 }
 
-/// A set of degrees of freedom from digits 1 to 6, each at most once.
+/// Reads a set of degrees of freedom from the digits 1 to 6, each of which may occur once.
 #[must_use]
 pub fn freedoms(text: &str) -> Option<[bool; 6]> {
     let mut set = [false; 6];

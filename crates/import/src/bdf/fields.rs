@@ -1,4 +1,4 @@
-//! Fields of a card by number, read as values of the type that they must have.
+//! Access to the fields of a card by number, with checks of their types.
 
 use super::card::{Card, CardField};
 use super::field::{Number, freedoms, number};
@@ -10,20 +10,20 @@ use formats::text::fault::number as written;
 pub struct CardFields<'c, 'f> {
     /// The card.
     pub card: &'c Card,
-    /// Errors and warnings are added here.
+    /// Collection to which errors and warnings are added.
     pub findings: &'f mut ImportFindings,
 }
 
 static BLANK: CardField = CardField { at: FilePlace { file: 0, line: 0, column: 0 }, text: String::new() };
 
-/// A text with everything that is not ASCII as `\u{...}`.
+/// Returns the text with every character other than printable ASCII escaped as `\u{...}`.
 fn ascii(text: &str) -> String {
     let escape = |c: char| if c.is_ascii_graphic() { c.to_string() } else { c.escape_unicode().to_string() };
     text.chars().map(escape).collect()
 }
 
 impl CardFields<'_, '_> {
-    /// The text of a field; empty where it is blank or beyond the card's end.
+    /// The text of a field; empty if the field is blank or the card has fewer fields.
     #[must_use]
     pub fn text(&self, index: usize) -> &str {
         &self.field(index).text
@@ -39,21 +39,21 @@ impl CardFields<'_, '_> {
         self.text(index).is_empty()
     }
 
-    /// Where a field stands; the card where it is beyond its end.
+    /// Position of a field, or of the card if the field is blank or does not exist.
     #[must_use]
     pub fn at(&self, index: usize) -> FilePlace {
         let at = self.field(index).at;
         if at.line == 0 || self.blank(index) { self.card.at } else { at }
     }
 
-    /// The card with its number, such as `CBAR 12`.
+    /// Name and number of the card for messages, such as `CBAR 12`.
     #[must_use]
     pub fn label(&self) -> String {
         let id = self.text(1);
         if id.is_empty() { self.card.name.clone() } else { format!("{} {id}", self.card.name) }
     }
 
-    /// A finding about a field.
+    /// Creates a finding that concerns a field.
     #[must_use]
     pub fn fault(&self, index: usize, name: &str, expected: impl Into<String>) -> ImportFinding {
         let about = if name.is_empty() { self.label() } else { format!("{}: {name}", self.label()) };
@@ -61,13 +61,13 @@ impl CardFields<'_, '_> {
         if self.blank(index) { finding } else { finding.with_found(ascii(self.text(index))) }
     }
 
-    /// Adds an error about a field.
+    /// Adds an error that concerns a field.
     pub fn refuse(&mut self, index: usize, name: &str, expected: &str, hint: &str) {
         let fault = self.fault(index, name, expected);
         self.findings.error(if hint.is_empty() { fault } else { fault.hint(hint) });
     }
 
-    /// A positive integer that must be there.
+    /// Reads a required positive integer.
     pub fn id(&mut self, index: usize, name: &str) -> Option<u64> {
         match number(self.text(index)) {
             Some(Number::Integer(id)) if id > 0 => u64::try_from(id).ok(),
@@ -82,12 +82,12 @@ impl CardFields<'_, '_> {
         }
     }
 
-    /// A positive integer, or `default` where the field is blank.
+    /// Reads a positive integer; returns `default` if the field is blank.
     pub fn id_or(&mut self, index: usize, name: &str, default: u64) -> Option<u64> {
         if self.blank(index) { Some(default) } else { self.id(index, name) }
     }
 
-    /// A whole number from 0, 0 where the field is blank.
+    /// Reads a non-negative integer; returns 0 if the field is blank.
     pub fn whole(&mut self, index: usize, name: &str) -> Option<u64> {
         if matches!(number(self.text(index)), Some(Number::Integer(0))) || self.blank(index) {
             return Some(0);
@@ -95,7 +95,8 @@ impl CardFields<'_, '_> {
         self.id(index, name)
     }
 
-    /// A real number; `Some(None)` where the field is blank.
+    /// Reads an optional real number; returns `Some(None)` if the field is blank and `None`, with an error, if it is
+    /// not a real number.
     pub fn optional(&mut self, index: usize, name: &str) -> Option<Option<f64>> {
         if self.blank(index) {
             return Some(None);
@@ -112,7 +113,7 @@ impl CardFields<'_, '_> {
         None
     }
 
-    /// A real number that must be there.
+    /// Reads a required real number.
     pub fn real(&mut self, index: usize, name: &str) -> Option<f64> {
         let value = self.optional(index, name)?;
         if value.is_none() {
@@ -121,12 +122,12 @@ impl CardFields<'_, '_> {
         value
     }
 
-    /// A real number, or `default` where the field is blank.
+    /// Reads a real number; returns `default` if the field is blank.
     pub fn real_or(&mut self, index: usize, name: &str, default: f64) -> Option<f64> {
         Some(self.optional(index, name)?.unwrap_or(default))
     }
 
-    /// A real number that is not negative, 0 where the field is blank.
+    /// Reads a real number that must not be negative; returns 0 if the field is blank.
     pub fn not_negative(&mut self, index: usize, name: &str) -> Option<f64> {
         let value = self.real_or(index, name, 0.0)?;
         if value < 0.0 {
@@ -135,7 +136,7 @@ impl CardFields<'_, '_> {
         (value >= 0.0).then_some(value)
     }
 
-    /// Three real numbers from a field on, 0 where a field is blank.
+    /// Reads three real numbers from consecutive fields; blank fields are 0.
     pub fn vector(&mut self, index: usize, names: [&str; 3]) -> Option<[f64; 3]> {
         let x = self.real_or(index, names[0], 0.0);
         let y = self.real_or(index + 1, names[1], 0.0);
@@ -143,7 +144,7 @@ impl CardFields<'_, '_> {
         Some([x?, y?, z?])
     }
 
-    /// A set of degrees of freedom; empty where the field is blank or 0.
+    /// Reads a set of degrees of freedom, which is empty if the field is blank or 0.
     pub fn freedoms(&mut self, index: usize, name: &str) -> Option<[bool; 6]> {
         let text = if self.text(index) == "0" { "" } else { self.text(index) };
         let set = freedoms(text);
@@ -153,7 +154,7 @@ impl CardFields<'_, '_> {
         set
     }
 
-    /// Adds an error where a field has a number other than 0, with the reason.
+    /// Requires a field to be 0 or blank; otherwise adds an error with `hint` as the reason.
     pub fn zero(&mut self, index: usize, name: &str, hint: &str) -> Option<()> {
         let value = match number(self.text(index)) {
             Some(Number::Integer(value)) => value as f64,
@@ -167,7 +168,7 @@ impl CardFields<'_, '_> {
         Some(())
     }
 
-    /// Adds an error where a field from this one on is not blank.
+    /// Requires all fields from `from` on to be blank; otherwise adds an error.
     pub fn end(&mut self, from: usize) {
         let beyond = (from..=self.card.fields.len()).find(|index| !self.blank(*index));
         if let Some(index) = beyond {
@@ -180,7 +181,7 @@ impl CardFields<'_, '_> {
         }
     }
 
-    /// The card's last field that is not blank.
+    /// Number of the last field that is not blank, 0 if there is none.
     #[must_use]
     pub fn last(&self) -> usize {
         (1..=self.card.fields.len()).rev().find(|index| !self.blank(*index)).unwrap_or(0)

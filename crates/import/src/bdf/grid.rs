@@ -1,4 +1,4 @@
-//! Grids and coordinate systems: GRID, GRDSET and CORD2R, and their resolution to the basic system.
+//! Grids and coordinate systems (GRID, GRDSET and CORD2R), and the transformation of grids to the basic system.
 
 use std::collections::BTreeMap;
 
@@ -6,20 +6,20 @@ use super::fields::CardFields;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::vector::{cross, dot, minus, unit};
 
-/// A grid as on its card.
+/// A grid as its card defines it, in its own coordinate system.
 #[derive(Clone, Debug)]
 pub struct GridCard {
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
-    /// Coordinates in the system `cp`.
+    /// Coordinates in the coordinate system `cp`.
     pub at: [f64; 3],
-    /// System of the coordinates; `None` where blank.
+    /// Number of the coordinate system of `at`; `None` if blank.
     pub cp: Option<u64>,
-    /// System of the displacements; `None` where blank.
+    /// Number of the coordinate system of displacements; `None` if blank.
     pub cd: Option<u64>,
-    /// Permanently restrained degrees of freedom; `None` where blank.
+    /// Permanently restrained degrees of freedom; `None` if blank.
     pub fix: Option<[bool; 6]>,
-    /// Places of `cp` and `cd`.
+    /// Positions of the fields `cp` and `cd`.
     pub spots: [FilePlace; 2],
 }
 
@@ -31,18 +31,18 @@ pub struct GridDefaults {
     fix: [bool; 6],
 }
 
-/// A rectangular system.
+/// A Cartesian coordinate system defined by three points.
 #[derive(Clone, Debug)]
 pub struct CoordinateCard {
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
-    /// The system that its points are given in.
+    /// Number of the coordinate system in which its points are defined.
     pub reference: u64,
-    /// Origin, a point of its z axis, a point of its x-z plane.
+    /// The origin, a point on the z axis and a point in the x-z plane.
     pub points: [[f64; 3]; 3],
 }
 
-/// Origin and axes in the basic system.
+/// Origin and unit axes of a coordinate system, in the basic system.
 #[derive(Clone, Copy, Debug)]
 pub struct CoordinateFrame {
     origin: [f64; 3],
@@ -53,7 +53,8 @@ const BASIC: CoordinateFrame =
     CoordinateFrame { origin: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
 
 impl CoordinateFrame {
-    /// A point of this system in the basic system; exactly the same numbers where this is the basic system.
+    /// Transforms a point to the basic system. If the axes are exactly the basic ones, coordinates are only shifted,
+    /// so that points of the basic system are reproduced without rounding.
     fn basic(&self, at: [f64; 3]) -> [f64; 3] {
         if self.axes == BASIC.axes {
             return [0, 1, 2].map(|k| self.origin[k] + at[k]);
@@ -63,7 +64,7 @@ impl CoordinateFrame {
         })
     }
 
-    /// Whether its axes are those of the basic system.
+    /// Whether the axes coincide with those of the basic system, to rounding.
     fn parallel(&self) -> bool {
         (0..3).all(|k| dot(self.axes[k], BASIC.axes[k]) > 1.0 - 1e-15)
     }
@@ -115,7 +116,7 @@ pub fn system(card: &mut CardFields<'_, '_>) -> Option<(u64, CoordinateCard)> {
 pub struct Resolved {
     /// Coordinates.
     pub at: [f64; 3],
-    /// Degrees of freedom that its own card restrains.
+    /// Degrees of freedom that its card or GRDSET restrains permanently.
     pub fix: [bool; 6],
 }
 
@@ -166,8 +167,9 @@ pub fn resolve(
     resolved
 }
 
-/// Frames of all systems. A system may be defined in any other: each pass resolves those whose reference system is
-/// known, until none is left or a cycle remains.
+/// Resolves all coordinate systems to the basic system. A system may refer to any other: each pass resolves those
+/// whose reference system is already resolved. The iteration ends when no system remains, or when a pass resolves
+/// none; the remaining systems form a cycle or refer to a missing one, and each of them is an error.
 fn frames(
     systems: &BTreeMap<u64, CoordinateCard>,
     findings: &mut ImportFindings,

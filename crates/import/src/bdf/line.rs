@@ -1,4 +1,4 @@
-//! Lines of a deck, with included files inserted at their INCLUDE lines.
+//! Lines of a deck, in which each INCLUDE line is replaced by the contents of the included file.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -6,27 +6,27 @@ use std::path::{Path, PathBuf};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::text::inputs::read_error_message;
 
-/// Function that reads a file; tests and the command line bring their own.
+/// Function that reads a file; the command line and the tests supply different ones.
 pub type OpenFile<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
 
-/// Largest number of files that a deck may include: more mean that it includes itself repeatedly.
+/// Largest number of files of a deck. A larger number indicates files that include each other repeatedly.
 const MOST_FILES: usize = 1000;
 
-/// A line without its comment; never blank.
+/// A line without its comment. Blank lines are not stored.
 #[derive(Clone, Debug)]
 pub struct BulkLine {
-    /// Where it begins.
+    /// Position of its beginning.
     pub at: FilePlace,
     /// Its characters.
     pub text: String,
-    /// Whether the line above is blank.
+    /// Whether a blank line precedes it.
     pub gap: bool,
 }
 
-/// The lines of a deck and of what it includes, up to ENDDATA.
+/// Reads the lines of a deck and of all included files, up to ENDDATA.
 ///
 /// # Errors
-/// The first file's own reason why it cannot be read; includes are findings.
+/// The deck itself cannot be read. Errors of included files are added to the findings.
 pub fn read(path: &Path, open: OpenFile<'_>, findings: &mut ImportFindings) -> io::Result<Vec<BulkLine>> {
     let bytes = open(path)?;
     let mut reader = Reader { open, lines: Vec::new(), stack: Vec::new(), main: folder(path), ended: false };
@@ -51,7 +51,7 @@ impl Reader<'_> {
         let file = findings.files.len();
         findings.files.push(path.display().to_string());
         self.stack.push(path.to_path_buf());
-        // comments may have any encoding; a replaced byte in a field is refused when the field is read
+        // comments may have any encoding; a replaced byte in a field causes an error when the field is read
         let text = String::from_utf8_lossy(bytes);
         let mut gap = false;
         for (index, raw) in text.lines().enumerate() {
@@ -114,7 +114,8 @@ impl Reader<'_> {
     }
 }
 
-/// The file name of an INCLUDE line; an error where its quotation marks do not match.
+/// Returns the file name of an INCLUDE line, `Err` if it is missing or its quotation marks do not match, and `None`
+/// for any other line.
 fn included(text: &str) -> Option<Result<&str, ()>> {
     let text = text.trim_start();
     let word = text.get(..7)?;
@@ -133,7 +134,7 @@ fn included(text: &str) -> Option<Result<&str, ()>> {
     Some(if plain { Ok(rest) } else { Err(()) })
 }
 
-/// The line with each tab as blanks up to the next eight-column field.
+/// Replaces each tab by blanks up to the next field of eight columns (in free format, by one blank).
 fn expanded(text: &str) -> String {
     if !text.contains('\t') || text.contains(',') {
         return text.replace('\t', " ");

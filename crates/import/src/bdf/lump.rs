@@ -1,47 +1,47 @@
-//! Masses and springs at grids: CONM2, CELAS1 and CELAS2.
+//! Concentrated masses and springs at grids: CONM2, CELAS1 and CELAS2.
 
 use super::field::{Number, number};
 use super::fields::CardFields;
 use crate::findings::FilePlace;
 
-/// A mass at a grid, before WTMASS.
+/// A concentrated mass at a grid, not yet multiplied by WTMASS.
 #[derive(Clone, Debug)]
 pub struct MassCard {
-    /// Where its grid is named.
+    /// Position of the field that names its grid.
     pub at: FilePlace,
     /// Name and number of its card.
     pub label: String,
-    /// Its grid.
+    /// Number of its grid.
     pub grid: u64,
     /// Mass.
     pub mass: f64,
-    /// Inertias about the global axes through the centre of mass.
+    /// Moments of inertia about the centre of mass, in global axes.
     pub inertia: [f64; 3],
-    /// Vector to the centre of mass, from the grid or from the global origin.
+    /// Vector to the centre of mass from the grid, or from the global origin if `absolute`.
     pub offset: [f64; 3],
-    /// Whether the offset is from the global origin.
+    /// Whether `offset` is measured from the global origin.
     pub absolute: bool,
 }
 
-/// A spring between a degree of freedom of a grid and another one or ground.
+/// A spring between two degrees of freedom of grids, or between one of them and ground.
 #[derive(Clone, Debug)]
 pub struct SpringCard {
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
     /// Name and number of its card.
     pub label: String,
-    /// Its stiffness, or the number of a PELAS with its place.
+    /// Its stiffness, or the number of the PELAS card that defines it.
     pub stiffness: Stiffness,
-    /// Ends: grid and index of the degree of freedom; `None` is ground.
+    /// Grid and index of the degree of freedom at each end; `None` is ground.
     pub ends: [Option<(u64, usize)>; 2],
 }
 
 /// The stiffness of a spring.
 #[derive(Clone, Copy, Debug)]
 pub enum Stiffness {
-    /// A value of its own.
+    /// A stiffness on the card of the spring (CELAS2).
     Own(f64),
-    /// The number of a PELAS.
+    /// The number of a PELAS card (CELAS1).
     Number(u64),
 }
 

@@ -1,22 +1,22 @@
-//! MAT1.
+//! Isotropic materials: MAT1.
 
 use super::fields::CardFields;
 use crate::findings::FilePlace;
 
-/// A material.
+/// An isotropic linear elastic material.
 #[derive(Clone, Debug)]
 pub struct MaterialCard {
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
     /// Young's modulus.
     pub e: f64,
-    /// Shear modulus, where it is known.
+    /// Shear modulus; `None` if the card defines neither G nor NU.
     pub g: Option<f64>,
-    /// Mass per volume, before WTMASS.
+    /// Mass per volume, not yet multiplied by WTMASS.
     pub density: f64,
 }
 
-/// Reads MAT1; of E, G and NU any two give the third: E = 2 (1 + NU) G.
+/// Reads MAT1. A missing modulus is computed from the other one and NU: E = 2 (1 + NU) G.
 pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
     let id = card.id(1, "MID")?;
     let e = card.optional(2, "E");

@@ -1,8 +1,8 @@
 //! NASTRAN bulk data: beams, bars and rods with their sections, supports, springs, rigid links and masses.
 //!
-//! Reading has four stages: `line` joins the files of a deck, `card` cuts lines into cards and fields, `deck` sorts
-//! the cards by what they describe (one file for each group of cards), and `resolve` turns references into indices of
-//! a structure.
+//! A deck is read in four stages: `line` joins the files of a deck, `card` divides lines into cards and fields,
+//! `deck` sorts the cards by type (one file for each group of cards), and `resolve` replaces references by indices
+//! into a structure.
 //!
 //! # Source
 //! NASTRAN quick reference guides: formats of cards, local axes, planes 1 and 2, offsets and pin flags of CBAR.
@@ -30,8 +30,9 @@ pub use line::OpenFile;
 use super::findings::ImportFindings;
 use super::structure::ImportedStructure;
 
-/// Reads a deck into `empty`, a structure with a name and units only. `spc`: the chosen SPC set; `skip`: names of
-/// cards that are ignored.
+/// Reads a deck into `empty`, a structure that has a name and units only.
+///
+/// `spc` is the SPC set that the user selected; cards whose names are in `skip` are ignored.
 ///
 /// # Errors
 /// The deck cannot be read as a file; all other errors are among the findings.
@@ -45,7 +46,7 @@ pub fn read(
 ) -> io::Result<ImportedStructure> {
     let lines = line::read(path, open, findings)?;
     let deck = deck::BulkDeck::new(&lines, skip, findings);
-    // references to cards that could not be read would give errors that are not their own
+    // a reference to a card that could not be read would cause a second, misleading error
     if findings.has_errors() {
         return Ok(empty);
     }

@@ -1,9 +1,9 @@
 //! Properties: PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS.
 //!
-//! PBAR and PBEAM give the areas and moments themselves. PBARL and PBEAML give a shape with its dimensions DIM1 to
-//! DIMn; the properties of its section come from `formats`, and shapes whose principal axes are oblique are refused.
-//! A beam has values at end A and at intermediate stations; it must be uniform or vary linearly to end B, so that
-//! stations between the ends must repeat one of them.
+//! PBAR and PBEAM define areas and second moments directly. PBARL and PBEAML define a shape with dimensions DIM1 to
+//! DIMn; `formats` computes the section properties, and shapes whose principal axes are not parallel to y and z are
+//! rejected. A beam has values at end A, at intermediate stations and at end B. It must be uniform or vary linearly
+//! from end A to end B: the intermediate stations must have the values of end A.
 
 use super::fields::CardFields;
 use crate::findings::FilePlace;
@@ -13,23 +13,23 @@ use formats::text::fault::nearest;
 /// A property of bars, beams or rods.
 #[derive(Clone, Debug)]
 pub struct Property {
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
     /// Name of its card.
     pub kind: String,
-    /// Its material.
+    /// Number of its material.
     pub material: u64,
     /// Area.
     pub area: f64,
-    /// Second moments for bending in planes 1 and 2; zeros for rods.
+    /// Second moments of area for bending in planes 1 and 2; zero for rods.
     pub bending: [f64; 2],
     /// Torsion constant.
     pub j: f64,
-    /// Shear factors of planes 1 and 2; 0 means rigid in shear.
+    /// Shear area factors of planes 1 and 2; 0 means rigid in shear.
     pub shear: [f64; 2],
-    /// Non-structural mass per length, before WTMASS.
+    /// Non-structural mass per length, not yet multiplied by WTMASS.
     pub nsm: f64,
-    /// Property at end B of a tapered beam; values vary linearly between the ends.
+    /// Property at end B of a tapered beam, whose properties vary linearly between the ends; `None` if uniform.
     pub end: Option<Box<Property>>,
 }
 
@@ -41,7 +41,7 @@ pub fn rod(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     Some((id, rod_from(card, 2)?))
 }
 
-/// The property of a rod whose fields MID, A, J, C, NSM begin at `first`, and end the card.
+/// Reads the property of a rod from the fields MID, A, J, C and NSM, which begin at `first` and are the last ones.
 pub fn rod_from(card: &mut CardFields<'_, '_>, first: usize) -> Option<Property> {
     let material = card.id(first, "MID");
     let area = positive(card, first + 1, "A");
@@ -61,7 +61,7 @@ pub fn rod_from(card: &mut CardFields<'_, '_>, first: usize) -> Option<Property>
     })
 }
 
-/// A real number above 0.
+/// Reads a required positive real number.
 pub fn positive(card: &mut CardFields<'_, '_>, index: usize, name: &str) -> Option<f64> {
     let value = card.real(index, name)?;
     if value <= 0.0 {
@@ -114,7 +114,7 @@ fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
 
 const STATIONS: &str = "beams vary linearly from end A to end B: cut others at their stations";
 
-/// Reads PBEAM; between its ends it must vary linearly.
+/// Reads PBEAM, whose properties must vary linearly between the ends.
 pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
@@ -125,7 +125,7 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let station =
         |card: &CardFields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
     let blank = |card: &CardFields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
-    // the second row has places for stresses, unless stations begin at once
+    // the second row contains stress recovery points, unless it is already a station
     let mut row = if station(card, 1) { 1 } else { 2 };
     let mut other = own;
     while row < rows && station(card, row) {
@@ -182,7 +182,7 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     (is_positive && spread(card, &result, 8) && whole(card, &result)).then_some((id, result))
 }
 
-/// A, I1, I2 and J from a field on, with I12 between them; blank fields have the values of `own`.
+/// Reads the consecutive fields A, I1, I2, I12 and J, of which I12 must be 0. Blank fields have the values of `own`.
 fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
     let mut number = |index: usize, name: &str, k: usize| match own {
         Some(own) if card.blank(index) => Some(own[k]),
@@ -200,7 +200,7 @@ fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>)
     Some([a?, i1?, i2?, j?])
 }
 
-/// Reads PBARL or PBEAML: a shape with its dimensions, at both ends of a beam; values must vary linearly between them.
+/// Reads PBARL or PBEAML: a shape with its dimensions, for PBEAML at both ends of the beam.
 pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let id = card.id(1, "PID")?;
     let material = card.id(2, "MID");
@@ -237,7 +237,7 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     spread(card, &property, 9 + count).then_some((id, property))
 }
 
-/// Checks that the non-structural mass can be spread over the area, which must not vary then.
+/// Checks that non-structural mass can be converted to a density, for which the area must be constant.
 fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> bool {
     let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
@@ -247,7 +247,7 @@ fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> b
     !varies || property.nsm == 0.0
 }
 
-/// The property of a shape with its dimensions; an error where the dimensions do not form a section.
+/// Computes the property of a shape from its dimensions; adds an error if the dimensions do not form a section.
 fn section(
     card: &mut CardFields<'_, '_>,
     shape: &str,
@@ -280,8 +280,8 @@ fn section(
     })
 }
 
-/// The dimensions of a PBEAML at end B, where they differ from those at end A; stations between the ends must have
-/// those of end A.
+/// Reads the stations of a PBEAML and returns the dimensions at end B, or `Some(None)` if they are those at end A.
+/// Intermediate stations must have the dimensions of end A.
 fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Option<Option<Vec<f64>>> {
     let count = dimensions.len();
     let last = card.last();
@@ -313,7 +313,7 @@ fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Opti
     Some(other)
 }
 
-/// Reads PELAS: one or two springs.
+/// Reads PELAS, which defines the stiffnesses of one or two springs.
 pub fn springs(card: &mut CardFields<'_, '_>) -> Vec<(u64, FilePlace, f64)> {
     let mut springs = Vec::new();
     for first in [1, 5] {

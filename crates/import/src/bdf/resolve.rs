@@ -1,16 +1,16 @@
-//! Resolution of a bulk data deck: card numbers become indices of a structure, defaults become values.
+//! Conversion of a bulk data deck to a structure: card numbers are replaced by indices, and defaults are applied.
 //!
-//! The steps follow each other, since later ones need what earlier ones resolve:
-//! 1. grids: coordinate systems are resolved, and coordinates become global;
-//! 2. points: the grids that an element, rigid link, mass or spring names, in the order of their numbers (a grid that
-//!    only orients an element is no point);
+//! The steps must run in this order, since later steps use the results of earlier ones:
+//! 1. grids: coordinate systems are resolved, and coordinates are transformed to the basic system;
+//! 2. points: the grids to which an element, rigid link, mass or spring refers, in the order of their numbers (a grid
+//!    that only orients an element does not become a point);
 //! 3. members, with the sections and materials that they use (see [`super::section`]);
 //! 4. links and masses;
-//! 5. supports: permanent constraints of grids and the chosen SPC set;
-//! 6. springs, whose other end must be ground or restrained, so that supports come first;
+//! 5. supports: permanent constraints of grids and the selected SPC set;
+//! 6. springs, whose other end must be ground or a restrained degree of freedom, so that supports must be known;
 //! 7. sets of points and members.
 //!
-//! Errors do not stop the resolution: each is added to the findings with its place, and the card is left out.
+//! Errors do not stop the conversion: each is added to the findings with its position, and its card is omitted.
 
 use std::collections::BTreeMap;
 
@@ -25,19 +25,19 @@ use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
 use formats::vector::{minus, parallel};
 
-/// A deck and the structure that it becomes.
+/// A deck and the structure to which it is converted.
 struct Resolver<'d, 'f> {
     deck: &'d BulkDeck,
     grids: BTreeMap<u64, Resolved>,
-    /// Index of the point of each grid in use.
+    /// Index of the point of each grid that is used.
     index: BTreeMap<u64, usize>,
     sections: SectionTable,
     structure: ImportedStructure,
     findings: &'f mut ImportFindings,
 }
 
-/// Makes a structure of a deck. `empty` has its name and units; `asked` is the SPC set that the user chose, where he
-/// did.
+/// Converts a deck to a structure. `empty` has a name and units only; `asked` is the SPC set that the user selected,
+/// if any.
 pub fn resolve(
     deck: &BulkDeck,
     empty: ImportedStructure,
@@ -64,7 +64,7 @@ pub fn resolve(
 }
 
 impl<'d> Resolver<'d, '_> {
-    /// Adds the points, in the order of their numbers: grids that something other than an orientation names.
+    /// Adds the points in the order of their numbers. Grids to which only an orientation refers are omitted.
     fn points(&mut self) {
         let deck = self.deck;
         let members = deck.elements.values().flat_map(|element| element.grids);
@@ -84,10 +84,10 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// The index of the point of a grid; `None`, with an error, where there is no such grid.
+    /// Index of the point of a grid. Returns `None` if the grid does not exist, with an error, or could not be read.
     fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
         let index = self.index.get(&id).copied();
-        // a grid that exists but could not be read has an error of its own
+        // an error has already been added for a grid that exists but could not be read
         if index.is_none() && !self.deck.grids.contains_key(&id) {
             self.findings
                 .error(ImportFinding::new(at, about, "names a grid that is not there").with_found(id));
@@ -109,8 +109,8 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// The property of an element, with the number that names its section; `None`, with an error, where there is none
-    /// or where it does not suit the element.
+    /// Returns the property of an element and the number in the name of its section, or `None`, with an error, if the
+    /// property does not exist or has the wrong type for the element.
     fn property(&mut self, id: u64, element: &'d ElementCard, about: &str) -> Option<(u64, &'d Property)> {
         let deck = self.deck;
         let (number, property) = match &element.section {
@@ -139,8 +139,8 @@ impl<'d> Resolver<'d, '_> {
         Some((number, property))
     }
 
-    /// The orientation vector of an element whose first grid is at `first`; the outer `None`, with an error, where it
-    /// names a missing grid.
+    /// Orientation vector of an element whose first grid is at `first`: `Some(None)` for rods, and `None` if the grid
+    /// that defines the orientation does not exist (with an error) or could not be read.
     fn orientation(
         &mut self,
         element: &ElementCard,
@@ -167,7 +167,7 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// The member of an element; `None`, with an error among the findings, where it cannot be one.
+    /// Converts an element to a member; returns `None`, with an error among the findings, if this is not possible.
     fn member(&mut self, id: u64, element: &'d ElementCard) -> Option<ImportedMember> {
         let about = format!("{} {id}", element.kind);
         let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
@@ -262,7 +262,7 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// Adds the permanent constraints of grids and the chosen SPC sets; sets that are not chosen give a warning.
+    /// Adds the permanent constraints of grids and the selected SPC sets, and a warning for each set not selected.
     fn supports(&mut self, asked: Option<u64>) {
         let deck = self.deck;
         for (id, grid) in &self.grids {
@@ -309,7 +309,8 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// Adds the springs. One end must be a free degree of freedom of a grid, the other ground or restrained.
+    /// Adds the springs to ground. One end must be a free degree of freedom of a grid, the other one ground or
+    /// restrained. A spring whose ends are all restrained is omitted with a warning.
     fn springs(&mut self) {
         let deck = self.deck;
         for spring in &deck.springs {
@@ -366,7 +367,7 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// Adds a set for each point, so that messages can name its grid, and a set of the members of each section.
+    /// Adds a set for each point, so that messages can refer to its grid, and a set of the members of each section.
     fn sets(&mut self) {
         let structure = &mut self.structure;
         structure.point_sets = structure
@@ -385,15 +386,15 @@ impl<'d> Resolver<'d, '_> {
     }
 }
 
-/// Gives a member whose property has no bending or no torsional stiffness the releases that take the same stiffness
-/// out of a beam, or makes it a truss: with neither, it is a truss; with torsion alone, it is hinged at both ends;
-/// with bending alone, it turns freely about its axis.
+/// Represents missing bending or torsional stiffness of a property by releases, because a section of a beam spec must
+/// have positive stiffnesses. A member with neither becomes a truss; a member with torsional stiffness only has
+/// bending hinges at both ends; a member with bending stiffness only has a torsional release at end A.
 fn release_missing_stiffness(member: &mut ImportedMember, property: &Property, along: [f64; 3]) {
     let bends = property.bending[0] > 0.0;
     let twists = property.j > 0.0;
     if !bends && !twists {
         member.truss = true;
-        // without bending and torsion, only a release of the axial force has an effect
+        // in a truss, only the release of the axial force has an effect
         member.releases.iter_mut().for_each(|pins| pins[1..].fill(false));
         member.orientation = None;
     } else if !bends {
@@ -401,7 +402,7 @@ fn release_missing_stiffness(member: &mut ImportedMember, property: &Property, a
             pins[4] = true;
             pins[5] = true;
         }
-        // any axis across the member will do: bending is released
+        // bending is released, so that any orientation that is not along the member is equivalent
         let least = (0..3).min_by(|a, b| along[*a].abs().total_cmp(&along[*b].abs())).unwrap_or(0);
         let mut across = [0.0; 3];
         across[least] = 1.0;

@@ -1,17 +1,17 @@
-//! RBE2 and RBAR: rigid links.
+//! Rigid links: RBE2 and RBAR.
 
 use super::field::{Number, number};
 use super::fields::CardFields;
 use crate::findings::FilePlace;
 
-/// Links from one grid to others.
+/// Rigid links from one independent grid to dependent grids.
 #[derive(Clone, Debug)]
 pub struct Rigid {
     /// Name and number of its card.
     pub label: String,
-    /// The independent grid.
+    /// Number of the independent grid, with the position of its field.
     pub from: (u64, FilePlace),
-    /// The dependent grids.
+    /// Numbers of the dependent grids, with the positions of their fields.
     pub to: Vec<(u64, FilePlace)>,
 }
 
@@ -24,7 +24,7 @@ pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
     let from = card.id(2, "GN");
     let fix = card.freedoms(3, "CM")?;
     let mut last = card.last();
-    // the coefficient of thermal expansion may stand at the end
+    // the last field may be the coefficient of thermal expansion
     if matches!(number(card.text(last)), Some(Number::Real(_))) {
         last -= 1;
     }
@@ -56,7 +56,7 @@ pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
     let [Some(leads_a), Some(leads_b)] = leads else { return None };
     let [Some(follows_a), Some(follows_b)] = follows else { return None };
     let none = [false; 6];
-    // all degrees of freedom of one end must be independent; blank dependent ones mean all of the other end
+    // all degrees of freedom of one end must be independent; blank dependent fields mean all of the other end
     let [leading, following] = match (leads_a == WHOLE, leads_b == WHOLE) {
         (true, false) if leads_b == none && follows_a == none => [a, b],
         (false, true) if leads_a == none && follows_b == none => [b, a],

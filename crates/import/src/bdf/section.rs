@@ -1,9 +1,10 @@
-//! Sections and materials of a deck, written when the first member uses them.
+//! Sections and materials of a deck, added to the structure when a member first uses them.
 //!
-//! A NASTRAN property becomes one section (a tapered one two), its MAT1 one material. Non-structural mass per length
-//! NSM is spread over the area A: the material of such a property has the density rho + NSM / A, and a name of its
-//! own. Stiffnesses that a property lacks cannot be zero in a beam spec: the section has a placeholder there (A^2 / 4
-//! pi for a second moment, as of a solid round bar; I1 + I2 for J), and the member has the releases that take it out.
+//! A NASTRAN property is converted to one section (two if it is tapered), and its MAT1 to one material. A
+//! non-structural mass per length NSM is distributed over the area A: a separate material with the density
+//! rho + NSM / A is added for such a property. Stiffnesses cannot be zero in a beam spec. Where a property has none,
+//! the section has a placeholder (for second moments A^2 / (4 pi), that of a solid round bar; for J the sum I1 + I2),
+//! and the releases of the member make it ineffective.
 
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
@@ -15,19 +16,20 @@ use crate::PARTS;
 use crate::findings::{ImportFinding, ImportFindings};
 use crate::structure::{ImportedMaterial, ImportedSection, ImportedStructure};
 
-/// The sections and materials that a structure has already.
+/// The sections and materials that have been added to a structure.
 #[derive(Default)]
 pub struct SectionTable {
-    /// Index of the section of each property in use; true for that at end B.
+    /// Index of the section by number of the property and end: true for end B.
     indices: BTreeMap<(u64, bool), usize>,
     /// Names of the materials.
     materials: Vec<String>,
 }
 
 impl SectionTable {
-    /// The index of the section of a property with its number, which is added to `structure` when it is first used.
-    /// `end`: suffix of its name for the end that it belongs to; `about`: the element that uses it. `None`, with an
-    /// error among the findings, where the property cannot be used.
+    /// Returns the index of the section of a property, and adds the section to `structure` when it is first used.
+    ///
+    /// `end` is the suffix of the section name for end B, and empty otherwise; `about` is the element that uses the
+    /// section. Returns `None`, with an error among the findings, if the property cannot be used.
     pub fn index_of(
         &mut self,
         deck: &BulkDeck,
@@ -37,7 +39,7 @@ impl SectionTable {
         end: &str,
         about: &str,
     ) -> Option<usize> {
-        // CONROD has the number of its element, which can be that of a property as well
+        // the number of a CONROD is an element number, which may coincide with a property number
         let key = if property.kind == "CONROD" { None } else { Some((number, !end.is_empty())) };
         if let Some(index) = key.and_then(|key| self.indices.get(&key)) {
             return Some(*index);
@@ -79,7 +81,8 @@ impl SectionTable {
     }
 }
 
-/// The material of a property; `None`, with an error, where there is none, or no G where torsion or shear needs it.
+/// Returns the material of a property, or `None`, with an error, if the material does not exist or has no G although
+/// torsion or shear requires it.
 fn material_of<'d>(
     deck: &'d BulkDeck,
     property: &Property,
@@ -103,7 +106,7 @@ fn material_of<'d>(
     Some(material)
 }
 
-/// Warns of stiffnesses that are missing in a property, and of a taper.
+/// Adds warnings for placeholders of missing stiffnesses and for a tapered property.
 fn warn_of_placeholders(property: &Property, name: &str, findings: &mut ImportFindings) {
     let bends = property.bending[0] > 0.0;
     if bends && property.j == 0.0 {
@@ -125,7 +128,7 @@ fn warn_of_placeholders(property: &Property, name: &str, findings: &mut ImportFi
     }
 }
 
-/// The section of a property, with placeholders for missing stiffnesses.
+/// Converts a property to a section, with placeholders for missing stiffnesses.
 fn section_of(property: &Property, name: String, material: String) -> ImportedSection {
     let [i1, i2] = property.bending;
     let bends = i1 > 0.0;

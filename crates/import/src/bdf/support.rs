@@ -1,26 +1,26 @@
-//! Supports: SPC, SPC1 and SPCADD, and the choice among their sets.
+//! Supports SPC, SPC1 and SPCADD, and the selection of the sets that apply.
 
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::fields::CardFields;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// Degrees of freedom of some grids that a set restrains.
+/// Grids and the degrees of freedom that a set restrains at each of them.
 #[derive(Clone, Debug)]
 pub struct SupportCard {
     /// Number of the set.
     pub set: u64,
-    /// Where its card is.
+    /// Position of its card.
     pub card: FilePlace,
-    /// Grids, each with the place where it is named.
+    /// Numbers of grids, each with the position of its field.
     pub grids: Vec<(u64, FilePlace)>,
-    /// Ranges of grids; numbers without a grid are ignored.
+    /// Ranges of grid numbers, ends included; numbers to which no grid belongs are ignored.
     pub ranges: Vec<[u64; 2]>,
     /// Restrained degrees of freedom.
     pub fix: [bool; 6],
 }
 
-/// Reads SPC: up to two grids.
+/// Reads SPC, which names up to two grids.
 pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
     let mut holds = Vec::new();
     let Some(set) = card.id(1, "SID") else { return holds };
@@ -40,7 +40,7 @@ pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
     holds
 }
 
-/// Reads SPC1: a list of grids, or a range.
+/// Reads SPC1, which contains grids and ranges of grids.
 pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
     let set = card.id(1, "SID")?;
     let fix = card.freedoms(2, "C")?;
@@ -73,7 +73,7 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
     Some(hold)
 }
 
-/// Reads SPCADD: a set that is the union of others.
+/// Reads SPCADD, which defines a set as the union of others.
 pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
     let set = card.id(1, "SID")?;
     let mut parts = Vec::new();
@@ -85,10 +85,11 @@ pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
     Some((set, parts))
 }
 
-/// The numbers of the sets that restrain the structure, those of SPCADD expanded.
+/// Returns the numbers of the sets that restrain the structure; an SPCADD set is replaced by its parts.
 ///
-/// `asked`: the set that the user chose; `controlled`: whether the deck has case control; `control`: the sets that
-/// case control chooses, with their places. Where neither chooses, the deck must have one set only.
+/// `asked` is the set that the user selected, `controlled` whether the deck has case control, and `control` the sets
+/// that case control selects, with their positions. The selection of the user has priority. If neither selects a
+/// set, the deck must have a single one.
 pub fn chosen(
     holds: &[SupportCard],
     adds: &BTreeMap<u64, Vec<u64>>,

@@ -1,4 +1,4 @@
-//! The contents of a mesh file: names, entities, nodes, line cells.
+//! Contents of a mesh file: physical names, entities, nodes and line elements.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format msh41 -o NEW.msh";
 
-/// The parts of a mesh that a frame needs.
+/// The parts of a mesh that define a frame.
 #[derive(Debug, Default)]
 pub struct Mesh {
     /// Name of each physical group by dimension and number.
@@ -18,15 +18,15 @@ pub struct Mesh {
     pub nodes: BTreeMap<u64, [f64; 3]>,
     /// Nodes of each entity of dimension 0.
     pub points: BTreeMap<u64, Vec<u64>>,
-    /// Line cells by number: curve, nodes, place.
+    /// Curve, nodes and position of each line element, by number.
     pub lines: BTreeMap<u64, (u64, [u64; 2], FilePlace)>,
 }
 
 impl Mesh {
-    /// Reads a mesh; errors are among the findings.
+    /// Reads a mesh and adds its errors to the findings.
     pub fn read(text: &str, findings: &mut ImportFindings) -> Mesh {
         let mut mesh = Mesh::default();
-        // the header decides whether the rest can be read
+        // the sections can be read only if the header specifies text format 4.1
         if !plain_41(text, findings) {
             return mesh;
         }
@@ -41,7 +41,7 @@ impl Mesh {
                 continue;
             }
             seen.push(section.name);
-            // `None`: the section ended early, with an error among the findings
+            // `None` means that the section could not be read to its end, with an error among the findings
             let _whole = match section.name {
                 "PhysicalNames" => mesh.read_names(&mut section, findings),
                 "Entities" => mesh.read_entities(&mut section, findings),
@@ -91,7 +91,7 @@ impl Mesh {
             counts[index] = head.whole(index, name, findings)?;
         }
         for (dimension, count) in (0..).zip(counts) {
-            // words before the groups: tag and coordinates of a point, tag and bounding box of any other entity
+            // words before the groups: tag and coordinates of a point, or tag and bounding box of another entity
             let before = if dimension == 0 { 4 } else { 7 };
             for _ in 0..count {
                 let record = section.next(findings)?;
@@ -209,7 +209,7 @@ const fn kind_name(kind: u64) -> &'static str {
     }
 }
 
-/// Whether the header says text in format 4.1; otherwise an error is added.
+/// Whether the header specifies text format 4.1; adds an error otherwise.
 fn plain_41(text: &str, findings: &mut ImportFindings) -> bool {
     let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
     let at = |line: usize| FilePlace { file: 0, line: line + 1, column: 1 };

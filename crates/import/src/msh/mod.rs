@@ -1,8 +1,8 @@
-//! Meshes of gmsh in text format 4.1: line cells become members.
+//! Meshes of gmsh in text format 4.1, whose line elements become members.
 //!
-//! Each curve must belong to exactly one physical group that the sections file knows: by the name of a section, or by
-//! an entry of `members` that names one. The member takes section, orientation and releases from there. Physical
-//! groups of points become sets of points, for supports; other cells are ignored with a warning.
+//! Each curve must belong to exactly one physical group that the sections file defines, either as the name of a
+//! section or as an entry of `members`. This group determines section, orientation and releases of the members.
+//! Physical groups of points become sets of points, for supports. Other elements are ignored with a warning.
 //!
 //! # Source
 //! Gmsh reference manual, section "MSH file format".
@@ -20,8 +20,8 @@ use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use mesh::Mesh;
 
-/// Reads a mesh into `empty`, a structure with name, units and up direction only; `factor` converts coordinates of
-/// the mesh to the unit of length of the structure. Errors are among the findings.
+/// Reads a mesh into `empty`, a structure that has a name, units and the upward direction only. `factor` converts
+/// coordinates of the mesh to the unit of length of the structure. Errors are added to the findings.
 #[must_use]
 pub fn read(
     text: &str,
@@ -39,7 +39,7 @@ pub fn read(
     structure.sections.clone_from(&groups.sections);
     let index = points(&mesh, factor, &mut structure);
     let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
-    // curves with an error: each gives one, not one for each of its cells
+    // curves for which an error was added, so that each causes one error instead of one for each of its elements
     let mut reported = Vec::new();
     for (&id, &(curve, nodes, at)) in &mesh.lines {
         let about = format!("element {id}");
@@ -106,7 +106,7 @@ pub fn read(
     structure
 }
 
-/// The physical groups of a curve in words.
+/// Part of a message that lists the physical groups of a curve.
 fn list(names: &[&str]) -> String {
     if names.is_empty() {
         "and is in none with a name".to_owned()
@@ -115,14 +115,14 @@ fn list(names: &[&str]) -> String {
     }
 }
 
-/// Names of the physical groups of an entity.
+/// Names of the physical groups to which an entity belongs.
 fn names(mesh: &Mesh, dimension: u64, entity: u64) -> Vec<&str> {
     let groups = mesh.groups.get(&(dimension, entity)).into_iter().flatten();
     groups.filter_map(|group| mesh.names.get(&(dimension, *group)).map(String::as_str)).collect()
 }
 
-/// Adds the nodes of line cells and of physical points, in the order of their numbers, and a set for each physical
-/// group of points; returns the index of the point of each node.
+/// Adds the nodes of line elements and of physical points in the order of their numbers, and a set for each physical
+/// group of points. Returns the index of the point of each node.
 fn points(mesh: &Mesh, factor: f64, structure: &mut ImportedStructure) -> BTreeMap<u64, usize> {
     let mut named: BTreeMap<&str, Vec<u64>> = BTreeMap::new();
     for (entity, nodes) in &mesh.points {

@@ -1,7 +1,7 @@
 //! The sections file: materials, sections and the properties of members by physical group.
 //!
-//! Every section that no entry of `members` uses applies to the physical group of its own name. A section that beams
-//! use needs A, Iy, Iz and J, and a material with G; one that only trusses use needs A.
+//! A section that no entry of `members` uses applies to the physical group of the same name. A section of beams must
+//! have A, Iy, Iz and J, and a material with G; a section that only trusses use must have A.
 
 use std::collections::BTreeMap;
 
@@ -16,7 +16,7 @@ use formats::text::place::Place;
 use formats::text::source::Source;
 use formats::units::{Dimension, RawUnits, Scale, Units};
 
-/// The word of the format, with its version.
+/// Identifier of the format with its version.
 pub const FORMAT: &str = "girderway-sections/1";
 
 formats::text::object::objects!(Raw, RawMaterial, RawSection, RawMember);
@@ -76,24 +76,24 @@ struct RawMember {
 pub struct SectionGroup {
     /// Index of the section.
     pub section: usize,
-    /// Whether they have axial stiffness only.
+    /// Whether the members have axial stiffness only.
     pub truss: bool,
-    /// Direction of local y; `None`: up.
+    /// Direction of the local y axis; `None` means upward.
     pub orientation: Option<[f64; 3]>,
-    /// Released degrees of freedom at both ends.
+    /// Released degrees of freedom at ends a and b.
     pub releases: [[bool; 6]; 2],
 }
 
-/// A sections file.
+/// The contents of a sections file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sections {
-    /// Its units.
+    /// Units of all values.
     pub units: Units,
-    /// Materials in its order.
+    /// Materials in the order of the file.
     pub materials: Vec<ImportedMaterial>,
-    /// Sections in its order.
+    /// Sections in the order of the file.
     pub sections: Vec<ImportedSection>,
-    /// Physical groups by name: those of `members`, and one for each section that none of them uses.
+    /// Physical groups by name: those of `members`, and one for each section that no entry of `members` uses.
     pub groups: BTreeMap<String, SectionGroup>,
 }
 
@@ -103,7 +103,7 @@ impl Sections {
     /// Reads a sections file.
     ///
     /// # Errors
-    /// All errors of the file, with their places.
+    /// All errors of the file, with their positions.
     pub fn read(source: &Source) -> Result<Sections, Vec<Diagnostic>> {
         let raw: Raw = source.parse(FORMAT).map_err(|error| vec![*error])?;
         let mut faults = Faults::default();
@@ -190,7 +190,7 @@ fn unknown(faults: &mut Faults, at: &Place<'_>, what: &str, name: &str, known: &
     faults.add(Fault::new(at, format!("must be the name of {what}")).got(format!("\"{name}\"")).hint(hint));
 }
 
-/// The groups of `members`.
+/// Reads the groups of `members`.
 fn named_groups(
     raw: &Raw,
     sections: &[ImportedSection],
@@ -237,8 +237,8 @@ fn named_groups(
     groups
 }
 
-/// All groups: those of `members`, and those of sections that none of them uses. Adds an error for each section in
-/// which a value is missing that its members need.
+/// Returns all groups: those of `members`, and one for each section that none of them uses. Adds an error for each
+/// value that is missing in a section although its members require it.
 fn groups(
     raw: &Raw,
     materials: &[ImportedMaterial],
@@ -252,7 +252,7 @@ fn groups(
         if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
             groups.insert(section.name.clone(), SectionGroup { section: index, ..SectionGroup::default() });
         }
-        // a truss needs its area only
+        // trusses require the area only
         let used: Vec<&SectionGroup> = groups.values().filter(|group| group.section == index).collect();
         let beams = used.iter().any(|group| !group.truss);
         let at = list.index(index);

@@ -1,11 +1,11 @@
-//! A mesh file as blocks of lines of words.
+//! Division of a mesh file into sections, lines and words.
 
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-/// A line of words, with the column of each.
+/// A line divided into words, with the column of each word.
 #[derive(Clone, Debug)]
 pub struct MeshRecord<'t> {
-    /// Its place.
+    /// Its position.
     pub at: FilePlace,
     /// The whole line, trimmed.
     pub line: &'t str,
@@ -31,7 +31,7 @@ impl<'t> MeshRecord<'t> {
         self.words.len()
     }
 
-    /// A word by index; an error where the line has too few.
+    /// Returns a word by index; adds an error if the line has fewer words.
     fn word(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<(FilePlace, &'t str)> {
         let word = self.words.get(index).map(|&(column, word)| (FilePlace { column, ..self.at }, word));
         if word.is_none() {
@@ -43,7 +43,7 @@ impl<'t> MeshRecord<'t> {
         word
     }
 
-    /// A whole number.
+    /// Reads a non-negative integer.
     pub fn whole(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<u64> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok();
@@ -53,7 +53,7 @@ impl<'t> MeshRecord<'t> {
         value
     }
 
-    /// A whole number without its sign: physical groups of reversed curves have one.
+    /// Reads the magnitude of an integer: the number of a physical group is negative for a reversed curve.
     pub fn tag(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<u64> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok().map(i64::unsigned_abs);
@@ -63,7 +63,7 @@ impl<'t> MeshRecord<'t> {
         value
     }
 
-    /// A finite number.
+    /// Reads a finite real number.
     pub fn real(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<f64> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok().filter(|value: &f64| value.is_finite());
@@ -79,14 +79,14 @@ impl<'t> MeshRecord<'t> {
 pub struct MeshBlock<'t> {
     /// Its name.
     pub name: &'t str,
-    /// Where it begins.
+    /// Position at which it begins.
     pub at: FilePlace,
     lines: Vec<MeshRecord<'t>>,
     next: usize,
 }
 
 impl<'t> MeshBlock<'t> {
-    /// The next line that is not blank; an error where there is none.
+    /// Returns the next line that is not blank; adds an error if there is none.
     pub fn next(&mut self, findings: &mut ImportFindings) -> Option<MeshRecord<'t>> {
         let record = self.lines.get(self.next).cloned();
         self.next += 1;
@@ -99,7 +99,7 @@ impl<'t> MeshBlock<'t> {
     }
 }
 
-/// Cuts a text into its blocks.
+/// Divides the text of a mesh file into its sections, and adds an error for each section without a matching end.
 pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlock<'t>> {
     let mut sections: Vec<MeshBlock<'t>> = Vec::new();
     let mut open = false;

@@ -1,18 +1,18 @@
-//! Animated pictures: a picture, and the changes of its elements over time.
+//! Animations: an SVG picture and the variation of its elements over time.
 
 use serde_json::json;
 
 use crate::chart::Svg;
 use crate::coded;
 
-/// What changes at an element of the picture, with one value for each frame: the track of the element.
+/// Track of an element of the picture: the property that varies, with one value for each frame.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AnimationTrack {
     /// Displacement (x, y) of the element, pixels.
     Displacement(Vec<[f64; 2]>),
     /// An attribute of the element with its values.
     Attribute(&'static str, Vec<f64>),
-    /// Number of decimals, and the values that the element shows.
+    /// Number of decimals and values of a number that the element shows.
     Number(usize, Vec<f64>),
 }
 
@@ -36,7 +36,7 @@ pub struct Animation {
     pub still_time: f64,
     /// Increasing times of the frames, s.
     pub times: Vec<f64>,
-    /// Numbers of elements with their tracks.
+    /// Tracks with the numbers of their elements.
     pub tracks: Vec<(usize, AnimationTrack)>,
 }
 
@@ -46,7 +46,7 @@ const PIXEL: i32 = -2;
 const INSTANT: i32 = -6;
 
 impl Animation {
-    /// Times and tracks as JSON; `None` where a number is not finite.
+    /// Times and tracks as JSON; `None` if a number is not finite.
     #[must_use]
     pub fn data(&self) -> Option<String> {
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());

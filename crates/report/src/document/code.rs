@@ -5,13 +5,13 @@ use serde_json::{Value, json};
 
 use formats::text::number::rounded;
 
-/// Smallest number of steps in the range of an axis: twenty for each pixel.
+/// Smallest number of steps into which the range of an axis is divided, about twenty for each pixel.
 const FINE: f64 = 2e4;
 
-/// Largest number of steps that doubles count exactly.
+/// Largest multiple that is stored as an integer; doubles represent larger ones inexactly.
 const MOST: f64 = 9e15;
 
-/// The power of ten that divides a range into [`FINE`] steps or up to ten times as many.
+/// Exponent of the power of ten that divides a range into [`FINE`] to 10 [`FINE`] steps.
 #[must_use]
 pub fn exponent(range: [f64; 2]) -> i32 {
     let power = ((range[1] - range[0]).abs() / FINE).log10().floor();
@@ -19,9 +19,9 @@ pub fn exponent(range: [f64; 2]) -> i32 {
     if power.is_finite() { power.clamp(-22.0, 22.0) as i32 } else { 0 }
 }
 
-/// `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, n the nearest whole numbers of 10^exponent,
-/// without differences at the end that repeat the one before; as they are, to seven digits, where they are too large
-/// for that.
+/// Encodes `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, in which n are the nearest integer
+/// multiples of 10^exponent. Repetitions of the last difference are omitted. If a multiple exceeds `MOST`, the
+/// values are stored with seven digits instead.
 ///
 /// All values must be finite. The error of each is at most half a step.
 #[must_use]
@@ -51,7 +51,7 @@ pub(crate) fn coded(values: &[f64], exponent: i32) -> Value {
     json!({"s": exponent, "n": values.len(), "v": differences})
 }
 
-/// `values` to seven digits.
+/// Encodes `values` with seven significant digits.
 #[must_use]
 pub fn plain(values: &[f64]) -> Value {
     json!(values.iter().map(|value| rounded(*value, 7)).collect::<Vec<f64>>())

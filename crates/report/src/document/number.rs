@@ -1,4 +1,4 @@
-//! Numbers as readers see them.
+//! Format of numbers in reports.
 
 /// `value` with at most `digits` significant digits (1 to 17), trailing zeros dropped.
 ///

@@ -86,7 +86,8 @@ impl Report {
     }
 }
 
-/// One section as HTML. `tables_before` is the number of tables before it on the page; `drawn` yields its figures next.
+/// Formats one section as HTML. `tables_before` is the number of tables before it on the page, and `drawn` yields the
+/// figures of this section next.
 fn section(
     index: usize,
     section: &ReportSection,

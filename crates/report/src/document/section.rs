@@ -3,7 +3,7 @@
 use crate::chart::{Chart, Svg};
 use crate::document::animated::Animation;
 
-/// A section of a report. Its parts are shown in the order of the fields; empty ones are left out.
+/// A section of a report. Its parts are shown in the order of the fields; empty parts are omitted.
 ///
 /// ```
 /// use report::{ReportSection, TableCell};
@@ -112,7 +112,7 @@ pub struct Fact {
 /// The header of a column.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct TableColumn {
-    /// What the column holds.
+    /// Name of the quantity in the column.
     pub name: String,
     /// Unit of its numbers; empty where there is none.
     pub unit: String,
@@ -145,14 +145,14 @@ pub struct ReportTable {
     pub rows: Vec<Vec<TableCell>>,
 }
 
-/// What a figure shows.
+/// Content of a figure.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Picture {
     /// A chart; where scripts run, values are shown under the pointer.
     Chart(Box<Chart>),
     /// A finished SVG picture; it is trusted and inserted unchanged.
     Svg(Svg),
-    /// A picture that moves where scripts run.
+    /// An animation, which requires scripts; without them it shows one frame.
     Animation(Box<Animation>),
 }
 

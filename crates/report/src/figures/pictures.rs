@@ -63,7 +63,7 @@ pub struct LabelledRun<'a> {
     pub record: &'a NamedColumns,
 }
 
-/// Paths of every body over its rail, all runs on one chart.
+/// Charts of the path of every body along its rail, with all runs in each chart.
 #[must_use]
 pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     let scene = runs[0].scene;
@@ -87,8 +87,8 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     plates
 }
 
-/// Places and speeds along their rails over time of the bodies of the first run, where some body is driven or free;
-/// `events`: what happened, and when.
+/// Charts of positions and speeds of the moving bodies over time, if the motion of any body is not prescribed;
+/// `events` contains times and names of events.
 #[must_use]
 pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     let (scene, record) = (run.scene, run.record);
@@ -124,7 +124,7 @@ pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
     if moving.is_empty() { Vec::new() } else { each.into_iter().map(plate).collect() }
 }
 
-/// Vertical forces of all wheels, sliding and rolling where wheels spin.
+/// Charts of the wheel forces, and of sliding and rolling of the wheels that spin.
 #[must_use]
 pub fn wheels(run: &LabelledRun, cast: &SimulationInput) -> Vec<RunFigure> {
     let units = run.scene.units;
@@ -147,7 +147,7 @@ pub fn wheels(run: &LabelledRun, cast: &SimulationInput) -> Vec<RunFigure> {
     plates
 }
 
-/// Lateral forces or traction of the wheels where they are largest; none where all are zero.
+/// Chart of the lateral forces or traction of the wheels with the largest ones; `None` if all are zero.
 fn horizontal(run: &LabelledRun, cast: &SimulationInput, part: &str, word: &str) -> Option<RunFigure> {
     let reach = |wheel: &NamedWheel| {
         run.record.part(&wheel.name, part).iter().fold(0.0_f64, |most, force| most.max(force.abs()))
@@ -176,7 +176,7 @@ fn horizontal(run: &LabelledRun, cast: &SimulationInput, part: &str, word: &str)
     (all > 0).then(|| RunFigure::chart(format!("wheel-{part}"), caption, chart))
 }
 
-/// Speeds of hub and rim, and the path of a point of the rim.
+/// Charts of the speeds of hub and rim, and of the path of a point on the rim.
 fn rolling(run: &LabelledRun, wheel: &NamedWheel) -> Vec<RunFigure> {
     let (units, record, name) = (run.scene.units, run.record, &wheel.name);
     let (speed, length) = (units.label(Dimension::SPEED), units.label(Dimension::LENGTH));
@@ -226,7 +226,7 @@ fn rolling(run: &LabelledRun, wheel: &NamedWheel) -> Vec<RunFigure> {
 /// Influence of one structure: tables of its grids, lines, and the girder under the wheels of `worst`.
 ///
 /// # Errors
-/// What cannot be drawn, or evaluated.
+/// A figure cannot be drawn, or its influence surface cannot be evaluated.
 pub fn structure(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<RunFigure>, FigureError> {
     let mut plates = Vec::new();
     let length = units.label(Dimension::LENGTH);
@@ -282,10 +282,10 @@ fn dense(surface: &ExactSurface, axis: Direction, places: &[f64]) -> Result<Vec<
     Ok((0..probes.len()).map(|i| influence.value.row(i).iter().copied().collect()).collect())
 }
 
-/// The girder with its rail, deflected under the wheels at the instant when a wheel's rail is deepest.
+/// The girder with its rail, deflected under the wheels at the time of the largest rail deflection under a wheel.
 ///
 /// # Errors
-/// What cannot be drawn, or evaluated.
+/// A figure cannot be drawn, or its influence surface cannot be evaluated.
 pub fn girder(
     name: &str,
     structure: usize,

@@ -11,11 +11,11 @@ use results::response::{ColumnStatistics, RunComparison, rail_sums};
 /// Largest number of rails that are drawn.
 const RAILS: usize = 4;
 
-/// Fraction of the range below which a mean counts as zero.
+/// Fraction of the range below which a mean is treated as zero.
 const SMALL: f64 = 0.1;
 
-/// Vertical and lateral sums of each rail on the ground over time, their numbers below; none where
-/// there is one run alone. `comparison`: figures of these runs.
+/// Charts of the vertical and lateral force sums of each rail on the ground over time, with their statistics as
+/// notes; none for a single run. `comparison` contains the statistics of these runs.
 #[must_use]
 pub fn rails(runs: &[LabelledRun], comparison: &RunComparison) -> Vec<RunFigure> {
     let [first, _, ..] = runs else { return Vec::new() };
@@ -56,7 +56,7 @@ fn plate(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
     Some(RunFigure::chart(format!("rail-{rail}-{word}"), caption, chart))
 }
 
-/// The numbers of one run in words.
+/// Text with the statistics of one run.
 fn line(label: &str, found: &ColumnStatistics, unit: &str) -> String {
     let text = |value: f64| number(value, 4).unwrap_or_default();
     let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));

@@ -9,13 +9,13 @@ use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
 use results::response::{ColumnInfluence, Response};
 
-/// Largest number of curves of a chart.
+/// Largest number of curves in a chart.
 const CURVES: usize = 8;
 /// Largest number of reactions of one direction that are compared between runs.
 const SHOWN: usize = 2;
-/// Fraction of the largest reaction below which one is rounding.
+/// Fraction of the largest reaction below which a reaction is considered as rounding error.
 const STILL: f64 = 1e-9;
-/// Number of places at which an influence line is evaluated.
+/// Number of points at which an influence line is evaluated.
 const SAMPLES: usize = 241;
 
 /// Reactions of the first run over time, the largest of them in all runs, and influence lines of named sections.

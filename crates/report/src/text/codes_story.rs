@@ -1,4 +1,4 @@
-//! Report content on values of codes.
+//! Report content on the comparison with design codes.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;

@@ -9,7 +9,7 @@ use results::response::{Response, RunComparison};
 
 /// Largest number of rows of a table.
 const ROWS: usize = 60;
-/// Fraction of a range below which a value is rounding.
+/// Fraction of the range of a column below which a value is considered as rounding error.
 const ROUNDING: f64 = 1e-12;
 
 /// The section of the first run.
@@ -147,7 +147,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     ReportTable { caption, columns, rows }
 }
 
-/// The value, or zero where it is rounding relative to its range.
+/// Returns the value, or zero if it is a rounding error relative to the range.
 fn cleared(value: f64, range: f64) -> f64 {
     if value.abs() < ROUNDING * range { 0.0 } else { value }
 }

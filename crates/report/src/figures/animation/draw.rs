@@ -1,4 +1,4 @@
-//! A picture under construction, in pixels, with elements that move.
+//! Drawing of a picture with moving elements; coordinates are in pixels.
 
 use crate::chart::Svg;
 use crate::document::animated::AnimationTrack;
@@ -32,7 +32,7 @@ impl PlanDrawing {
         self.body.push('\n');
     }
 
-    /// The attribute of a new element that follows the tracks.
+    /// Adds tracks for a new element, and returns the attribute that identifies it.
     fn element(&mut self, tracks: impl IntoIterator<Item = AnimationTrack>) -> String {
         let element = self.elements;
         self.elements += 1;
@@ -76,7 +76,7 @@ impl PlanDrawing {
         ));
     }
 
-    /// A bar from a place whose other end has these values of `x2` or `y2`.
+    /// Adds a bar from a fixed point; `values` are the coordinates of its other end, `x2` or `y2` according to `end`.
     pub fn bar(
         &mut self,
         [x, y]: [f64; 2],
@@ -94,7 +94,7 @@ impl PlanDrawing {
         ));
     }
 
-    /// A line both of whose ends move.
+    /// Adds a line whose ends both move.
     pub fn rope(&mut self, ends: [Vec<[f64; 2]>; 2], still: usize) {
         let now = ends.each_ref().map(|end| end.get(still).copied().unwrap_or_default());
         let part = |end: usize, k: usize| ends[end].iter().map(|place| place[k]).collect();
@@ -119,7 +119,7 @@ impl PlanDrawing {
         ));
     }
 
-    /// A name with a number that changes, and its unit.
+    /// Adds a name with a number that varies, and its unit.
     pub fn reading(
         &mut self,
         [x, y]: [f64; 2],
@@ -131,7 +131,7 @@ impl PlanDrawing {
     ) {
         let now = values.get(still).copied().unwrap_or_default();
         let power = 10f64.powi(i32::try_from(digits).unwrap_or_default());
-        // a rounded zero has no sign
+        // adding 0.0 removes the sign of a rounded zero
         let now = (now * power).round() / power + 0.0;
         let mark = self.element([AnimationTrack::Number(digits, values)]);
         let (name, unit) = (escaped(name), escaped(unit));

@@ -1,10 +1,10 @@
-//! The view along the runway: lateral to the right, vertical up, with numbers beside it.
+//! The view along the runway: the lateral axis points right, the vertical axis up; numbers are shown to the right.
 
 use super::draw::{DARK, GREY, INK, ORANGE, PlanDrawing, STEEL, WIDTH};
 use super::view::{AnimationView, BAR};
 use formats::units::Dimension;
 
-/// Width of the view, pixels; the numbers stand to its right.
+/// Largest width and height of the view, pixels; the numbers are shown to its right.
 const ROOM: [f64; 2] = [600.0, 330.0];
 
 /// Draws the view below the ordinate `top`, and returns the ordinate of its lower end.
@@ -49,7 +49,7 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
         drawing.bar([at[0], at[1] + depth], "y2", down, view.still, (INK, 5.0));
         let aside = sum("lateral").into_iter().map(|f| at[0] + force * f * 2.0).collect();
         drawing.bar([at[0], at[1] - 3.0], "x2", aside, view.still, (ORANGE, 5.0));
-        // labels stand on the inner side: numbers stand beside the view
+        // labels are on the inner side, because the numbers are to the right of the view
         let inner = if *z > middle { -1.0 } else { 1.0 };
         let anchor = if inner > 0.0 { "start" } else { "end" };
         let beside = [at[0] + inner * 0.7 * depth, at[1] + 0.8 * depth];

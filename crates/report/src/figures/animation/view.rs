@@ -1,11 +1,11 @@
-//! The data of one run that both views of the animation need.
+//! Data of one run that both views of the animation use.
 
 use crate::figures::pictures::LabelledRun;
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use results::layout::ScenePositions;
 
-/// Length of the longest bar of a force, in pixels.
+/// Length of the bar of the largest force, pixels.
 pub(super) const BAR: f64 = 48.0;
 
 /// One run with the frames of its animation.
