@@ -25,6 +25,8 @@
 //!
 //! The modules from low to high are [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
 //! [`scene`], [`schema`].
+//!
+//! Wings, lowest first: text, vector, units, check, spec, grid, tables, scene, schema
 
 pub mod check;
 pub mod grid;
