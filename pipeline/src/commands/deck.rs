@@ -1,5 +1,6 @@
 //! `girderway deck`: a scene as an ADAMS data set.
 
+use super::run::solve_all;
 use std::path::{Path, PathBuf};
 
 use crate::cli::{DeckArgs as Arguments, Global};
@@ -9,7 +10,7 @@ use crate::progress::Progress;
 use deck::{self, DeckForm, check};
 use formats::scene::Document;
 use formats::text::diagnostic::Diagnostic;
-use foundations::{distinct_specs, solve_specs};
+use foundations::distinct_specs;
 
 /// Writes the data set to the named file and its command file into the same folder, or the data set alone to
 /// standard output.
@@ -28,10 +29,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
-    let known = {
-        let _stage = progress.stage("solving the structures");
-        solve_specs(&document, &distinct_specs(&only))?
-    };
+    let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
         DeckForm::of_readings(scene.structures.iter().map(|structure| structure.interpolation))
     });

@@ -1,6 +1,7 @@
 //! `girderway run` and `girderway sim`: structures, tables, simulation, pictures and report.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
@@ -12,6 +13,7 @@ use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
+use formats::spec::Spec;
 use formats::tables;
 use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, solve_specs};
 use report::figures::error::FigureError;
@@ -140,8 +142,17 @@ fn finish(
 
 /// Solves each distinct spec of the document once.
 fn solve(document: &Document, _: &Path, progress: &Progress) -> Result<Vec<SolvedStructure>, Failure> {
+    solve_all(document, &distinct_specs(document), progress)
+}
+
+/// Solves the given specs of a document while a stage is shown.
+pub(super) fn solve_all(
+    document: &Document,
+    specs: &[(String, &str, &Arc<Spec>)],
+    progress: &Progress,
+) -> Result<Vec<SolvedStructure>, Failure> {
     let _stage = progress.stage("solving the structures");
-    Ok(solve_specs(document, &distinct_specs(document))?)
+    Ok(solve_specs(document, specs)?)
 }
 
 /// Creates the failure of an error that should be impossible after the checks of the input.

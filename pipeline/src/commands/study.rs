@@ -1,5 +1,6 @@
 //! `girderway study`: accuracy and cost of the settings of a scene.
 
+use super::run::solve_all;
 use std::path::PathBuf;
 
 use serde_json::json;
@@ -11,7 +12,7 @@ use crate::output::{self, OutputFolder};
 use crate::progress::Progress;
 use formats::scene::{Case, Document};
 use formats::text::diagnostic::Diagnostic;
-use foundations::{SolvedStructure, distinct_specs, solve_specs};
+use foundations::{SolvedStructure, distinct_specs};
 use study::stability::{self, MapSubject, MapVerdict};
 use study::{self, SettingFamily, Study, StudyBudget, StudyPoint};
 
@@ -32,10 +33,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     budget.limit = args.limit.unwrap_or(budget.limit);
     budget.resolution = args.resolution.unwrap_or(budget.resolution);
 
-    let known = {
-        let _stage = progress.stage("solving the structures");
-        solve_specs(&document, &distinct_specs(&document))?
-    };
+    let known = solve_all(&document, &distinct_specs(&document), &progress)?;
     if args.stability {
         return stability(args, &document, &known, folder, global);
     }
