@@ -1,10 +1,17 @@
-//! Parser of JSON (RFC 8259): converts a text to its tree.
+//! Converts a JSON text (RFC 8259) to its tree.
 //!
-//! The parser is a recursive descent over the bytes. At the first error it returns the values read so far, with open
-//! lists and objects marked as incomplete, and the error, so that the text before the error can be checked too.
-//! Numbers and strings are converted, and errors are worded and located, as in `serde_json`; a test compares the two.
+//! The grammar is that of `serde_json`. Each list and object is read one level at a time into slices of the text, one
+//! for each item, key and value (`RawValue`), whose places in the text give the byte ranges of the tree. The slices of
+//! lists and objects are then read in the same way. If the text is not JSON, `serde_json` reports an error within one
+//! of these slices; that slice is read as far as possible, so that the tree contains everything before the error, with
+//! open lists and objects marked as incomplete.
 
 use std::borrow::Cow;
+use std::fmt;
+
+use serde::de::{Deserialize, Deserializer as _, MapAccess, SeqAccess, Visitor};
+use serde_json::Deserializer;
+use serde_json::value::RawValue;
 
 use super::place::{Path, Step};
 use super::tree::{TreeMember, TreeNode, Value};
@@ -25,7 +32,7 @@ pub(super) struct Reading<'t> {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct SyntaxError {
     /// What is wrong, in the words of `serde_json`.
-    pub message: &'static str,
+    pub message: String,
     /// Byte offset.
     pub offset: usize,
     /// Path of the incomplete value.
@@ -34,380 +41,272 @@ pub(super) struct SyntaxError {
 
 /// Parses a text.
 pub(super) fn read(text: &str) -> Reading<'_> {
-    let mut parser = Parser { text, bytes: text.as_bytes(), at: 0, depth: 0, error: None };
-    let root = parser.value();
-    if parser.error.is_none() {
-        parser.skip_space();
-        if parser.at < text.len() {
-            parser.error = Some(parser.ahead("trailing characters"));
-        }
-    }
-    Reading { root, error: parser.error }
+    let reader = Reader { text };
+    let start = reader.skip_space(0);
+    let mut values = Deserializer::from_str(&text[start..]).into_iter::<&RawValue>();
+    let whole = values.next();
+    let end = start + values.byte_offset();
+    let is_whole = matches!(whole, Some(Ok(_)));
+    let (root, error) = reader.value(start, is_whole.then_some(end), 0);
+    let after = reader.skip_space(end);
+    let error = error.or_else(|| match whole {
+        Some(Err(error)) => Some(reader.locate(start, &error)),
+        _ if after < text.len() => Some(SyntaxError::new("trailing characters", after)),
+        _ => None,
+    });
+    Reading { root, error }
 }
 
-struct Parser<'t> {
-    text: &'t str,
-    bytes: &'t [u8],
-    /// Offset of the next byte.
-    at: usize,
-    /// Number of open lists and objects.
-    depth: usize,
-    error: Option<SyntaxError>,
-}
-
-impl<'t> Parser<'t> {
-    fn peek(&self) -> Option<u8> {
-        self.bytes.get(self.at).copied()
+impl SyntaxError {
+    fn new(message: &str, offset: usize) -> SyntaxError {
+        SyntaxError { message: message.to_owned(), offset, path: Path::default() }
     }
 
-    fn next(&mut self) -> Option<u8> {
-        let byte = self.peek();
-        self.at += usize::from(byte.is_some());
-        byte
-    }
-
-    fn skip_space(&mut self) {
-        while let Some(b' ' | b'\n' | b'\t' | b'\r') = self.peek() {
-            self.at += 1;
-        }
-    }
-
-    /// An error at the byte that was read last.
-    fn behind(&self, message: &'static str) -> SyntaxError {
-        self.error_before(self.at, message)
-    }
-
-    /// An error at the next byte.
-    fn ahead(&self, message: &'static str) -> SyntaxError {
-        self.error_before((self.at + 1).min(self.bytes.len()), message)
-    }
-
-    /// An error at the byte before `end`, but in the same line as `end`.
-    fn error_before(&self, end: usize, message: &'static str) -> SyntaxError {
-        let begins_line = end == 0 || self.bytes[end - 1] == b'\n';
-        let offset = if begins_line { end } else { end - 1 };
-        SyntaxError { message, offset, path: Path::default() }
-    }
-
-    fn value(&mut self) -> TreeNode<'t> {
-        self.skip_space();
-        let start = self.at;
-        let value = match self.peek() {
-            Some(b'[') => return self.nested(start, Value::List(Vec::new()), Parser::list),
-            Some(b'{') => return self.nested(start, Value::Object(Vec::new()), Parser::object),
-            Some(b'"') => {
-                self.at += 1;
-                self.string().map(Value::Text)
-            }
-            Some(b'-' | b'0'..=b'9') => self.number(),
-            Some(b'n') => self.word("null", Value::Null),
-            Some(b't') => self.word("true", Value::Bool(true)),
-            Some(b'f') => self.word("false", Value::Bool(false)),
-            Some(_) => Err(self.ahead("expected value")),
-            None => Err(self.ahead("EOF while parsing a value")),
-        };
-        match value {
-            Ok(value) => TreeNode { start, end: self.at, value },
-            Err(error) => {
-                self.error = Some(error);
-                TreeNode { start, end: 0, value: Value::Null }
-            }
-        }
-    }
-
-    /// Parses a list or an object. `empty` is its value without items or members.
-    fn nested(
-        &mut self,
-        start: usize,
-        empty: Value<'t>,
-        fill: fn(&mut Self) -> (Value<'t>, Result<(), SyntaxError>),
-    ) -> TreeNode<'t> {
-        if self.depth + 1 == DEPTH {
-            self.error = Some(self.ahead("recursion limit exceeded"));
-            return TreeNode { start, end: 0, value: empty };
-        }
-        self.depth += 1;
-        self.at += 1;
-        let (value, filled) = fill(self);
-        self.depth -= 1;
-        if let Err(error) = filled {
-            self.error = Some(error);
-        }
-        TreeNode { start, end: if self.error.is_some() { 0 } else { self.at }, value }
-    }
-
-    /// Returns the pending error, if any, after adding `step` at the beginning of its path.
+    /// The error, after adding `step` at the beginning of its path.
     #[cold]
-    fn within(&mut self, step: Step) -> Result<(), SyntaxError> {
-        let Some(mut error) = self.error.take() else { return Ok(()) };
-        error.path.0.insert(0, step);
-        Err(error)
+    fn within(mut self, step: Step) -> SyntaxError {
+        self.path.0.insert(0, step);
+        self
+    }
+}
+
+/// A value, as far as it can be read, and the error that ends it.
+type Part<'t> = (TreeNode<'t>, Option<SyntaxError>);
+
+#[derive(Clone, Copy)]
+struct Reader<'t> {
+    text: &'t str,
+}
+
+impl<'t> Reader<'t> {
+    /// The offset of the first byte from `at` on that is not white space.
+    fn skip_space(self, at: usize) -> usize {
+        let is_space = |byte: &u8| matches!(byte, b' ' | b'\n' | b'\t' | b'\r');
+        at + self.text.as_bytes()[at..].iter().take_while(|byte| is_space(byte)).count()
     }
 
-    /// Parses the items of a list and its closing bracket.
-    fn list(&mut self) -> (Value<'t>, Result<(), SyntaxError>) {
-        let mut items = Vec::new();
-        let filled = self.fill_list(&mut items);
-        (Value::List(items), filled)
+    /// The byte range of a slice of the text.
+    fn range(self, slice: &str) -> (usize, usize) {
+        let start = slice.as_ptr().addr() - self.text.as_ptr().addr();
+        (start, start + slice.len())
     }
 
-    fn fill_list(&mut self, items: &mut Vec<TreeNode<'t>>) -> Result<(), SyntaxError> {
-        loop {
-            self.skip_space();
-            match self.peek() {
-                None => return Err(self.ahead("EOF while parsing a list")),
-                Some(b']') => {
-                    self.at += 1;
-                    return Ok(());
-                }
-                Some(_) if items.is_empty() => {}
-                Some(b',') => {
-                    self.at += 1;
-                    self.skip_space();
-                    match self.peek() {
-                        None => return Err(self.ahead("EOF while parsing a value")),
-                        Some(b']') => return Err(self.ahead("trailing comma")),
-                        Some(_) => {}
-                    }
-                }
-                Some(_) => return Err(self.ahead("expected `,` or `]`")),
-            }
-            items.push(self.value());
-            if self.error.is_some() {
-                return self.within(Step::Index(items.len() - 1));
-            }
+    /// Locates an error that `serde_json` found in the text from `start` on; it counts lines and bytes from 1.
+    #[cold]
+    fn locate(self, start: usize, error: &serde_json::Error) -> SyntaxError {
+        let words = error.to_string();
+        let tail = format!(" at line {} column {}", error.line(), error.column());
+        let lines = self.text[start..].split_inclusive('\n').take(error.line() - 1);
+        let offset = start + lines.map(str::len).sum::<usize>() + error.column().saturating_sub(1);
+        SyntaxError::new(words.strip_suffix(&tail).unwrap_or(&words), offset.min(self.text.len()))
+    }
+
+    /// Reads the value that begins at `start`. Its `end` is known if the value is complete.
+    fn value(self, start: usize, end: Option<usize>, depth: usize) -> Part<'t> {
+        let text = &self.text[start..end.unwrap_or(self.text.len())];
+        if let Some(b'[' | b'{') = text.as_bytes().first() {
+            let level = end.and_then(|_| Level::of_scalars(text)).unwrap_or_else(|| Level::read(text));
+            let (value, error) = self.level(start, &level, depth);
+            let end = end.filter(|_| error.is_none()).unwrap_or(0);
+            return (TreeNode { start, end, value }, error);
         }
-    }
-
-    /// Parses the members of an object and its closing brace.
-    fn object(&mut self) -> (Value<'t>, Result<(), SyntaxError>) {
-        let mut members = Vec::new();
-        let filled = self.fill_object(&mut members);
-        (Value::Object(members), filled)
-    }
-
-    fn fill_object(&mut self, members: &mut Vec<TreeMember<'t>>) -> Result<(), SyntaxError> {
-        loop {
-            self.skip_space();
-            match self.peek() {
-                None => return Err(self.ahead("EOF while parsing an object")),
-                Some(b'}') => {
-                    self.at += 1;
-                    return Ok(());
-                }
-                Some(b'"') if members.is_empty() => {}
-                Some(_) if members.is_empty() => return Err(self.ahead("key must be a string")),
-                Some(b',') => {
-                    self.at += 1;
-                    self.skip_space();
-                    match self.peek() {
-                        None => return Err(self.ahead("EOF while parsing a value")),
-                        Some(b'"') => {}
-                        Some(b'}') => return Err(self.ahead("trailing comma")),
-                        Some(_) => return Err(self.ahead("key must be a string")),
-                    }
-                }
-                Some(_) => return Err(self.ahead("expected `,` or `}`")),
-            }
-            let start = self.at;
-            self.at += 1;
-            let key = self.string()?;
-            // a key whose value is missing is recorded as present
-            members.push(TreeMember {
-                start,
-                key,
-                value: TreeNode { start: self.at, end: 0, value: Value::Null },
-            });
-            self.skip_space();
-            match self.peek() {
-                None => return Err(self.ahead("EOF while parsing an object")),
-                Some(b':') => self.at += 1,
-                Some(_) => return Err(self.ahead("expected `:`")),
-            }
-            let value = self.value();
-            let last = members.len() - 1;
-            members[last].value = value;
-            if self.error.is_some() {
-                return self.within(Step::Key(members[last].key.clone().into_owned()));
-            }
+        let number = end.and_then(|_| number(text));
+        match number.map_or_else(|| leaf(text), Ok) {
+            Ok(value) => (TreeNode { start, end: end.unwrap_or(0), value }, None),
+            Err(error) => (TreeNode { start, end: 0, value: Value::Null }, Some(self.locate(start, &error))),
         }
     }
 
-    fn word(&mut self, word: &str, value: Value<'t>) -> Result<Value<'t>, SyntaxError> {
-        for expected in word.bytes() {
-            match self.next() {
-                None => return Err(self.behind("EOF while parsing a value")),
-                Some(byte) if byte != expected => return Err(self.behind("expected ident")),
-                Some(_) => {}
-            }
-        }
-        Ok(value)
-    }
-
-    fn skip_digits(&mut self) -> usize {
-        let rest = &self.bytes[self.at..];
-        let count = rest.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(rest.len());
-        self.at += count;
-        count
-    }
-
-    fn number(&mut self) -> Result<Value<'t>, SyntaxError> {
-        let start = self.at;
-        let is_negative = self.peek() == Some(b'-');
-        self.at += usize::from(is_negative);
-        let digits = self.at;
-        match self.next() {
-            None => return Err(self.behind("EOF while parsing a value")),
-            Some(b'0') => {
-                if let Some(b'0'..=b'9') = self.peek() {
-                    return Err(self.ahead("invalid number"));
-                }
-            }
-            Some(b'1'..=b'9') => {
-                self.skip_digits();
-            }
-            Some(_) => return Err(self.behind("invalid number")),
-        }
-        let integer = &self.text[digits..self.at];
-        let mut is_integer = true;
-        if self.peek() == Some(b'.') {
-            is_integer = false;
-            self.at += 1;
-            if self.skip_digits() == 0 {
-                let is_end = self.peek().is_none();
-                return Err(self.ahead(if is_end { "EOF while parsing a value" } else { "invalid number" }));
-            }
-        }
-        if let Some(b'e' | b'E') = self.peek() {
-            is_integer = false;
-            self.exponent(start)?;
-        }
-        // numbers that exceed an integer of 64 bits, and -0, are read as floating-point numbers
-        if is_integer && let Ok(value) = integer.parse::<u64>() {
-            if !is_negative {
-                return Ok(Value::Unsigned(value));
-            }
-            if let Some(value) = 0_i64.checked_sub_unsigned(value).filter(|value| *value < 0) {
-                return Ok(Value::Signed(value));
-            }
-        }
-        match self.text[start..self.at].parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(Value::Float(value)),
-            _ => Err(self.behind("number out of range")),
-        }
-    }
-
-    /// Parses the exponent of the number that begins at `start`.
-    fn exponent(&mut self, start: usize) -> Result<(), SyntaxError> {
-        let is_zero = !self.bytes[start..self.at].iter().any(|byte| matches!(byte, b'1'..=b'9'));
-        self.at += 1;
-        let is_negative = self.peek() == Some(b'-');
-        if let Some(b'+' | b'-') = self.peek() {
-            self.at += 1;
-        }
-        let mut exponent = match self.next() {
-            None => return Err(self.behind("EOF while parsing a value")),
-            Some(byte @ b'0'..=b'9') => i32::from(byte - b'0'),
-            Some(_) => return Err(self.behind("invalid number")),
+    /// Converts the list or object that begins at `start`.
+    fn level(self, start: usize, level: &Level<'t>, depth: usize) -> (Value<'t>, Option<SyntaxError>) {
+        let too_deep = depth + 1 == DEPTH;
+        let fault = || level.fault.as_ref().map(|error| self.locate(start, error));
+        let (value, error) = if self.text[start..].starts_with('[') {
+            let mut items = Vec::with_capacity(level.values.len());
+            let read = if too_deep { Ok(()) } else { self.items(level, start, depth, &mut items) };
+            (Value::List(items), read.err())
+        } else {
+            let mut members = Vec::with_capacity(level.keys.len());
+            let read = if too_deep { Ok(()) } else { self.members(level, start, depth, &mut members) };
+            (Value::Object(members), read.err())
         };
-        while let Some(byte @ b'0'..=b'9') = self.peek() {
-            self.at += 1;
-            let digit = i32::from(byte - b'0');
-            exponent = match exponent.checked_mul(10).and_then(|tens| tens.checked_add(digit)) {
-                Some(exponent) => exponent,
-                None if is_zero || is_negative => i32::MAX,
-                None => return Err(self.behind("number out of range")),
+        let deep = too_deep.then(|| SyntaxError::new("recursion limit exceeded", start));
+        (value, deep.or(error).or_else(fault))
+    }
+
+    /// Reads the items of a list that begins at `start`, the last of which may be incomplete.
+    fn items(
+        self,
+        level: &Level<'t>,
+        start: usize,
+        depth: usize,
+        items: &mut Vec<TreeNode<'t>>,
+    ) -> Result<(), SyntaxError> {
+        let mut after = start + 1;
+        let mut add = |start: usize, end: Option<usize>| {
+            let (item, error) = self.value(start, end, depth + 1);
+            items.push(item);
+            error.map_or(Ok(()), |error| Err(error.within(Step::Index(items.len() - 1))))
+        };
+        for value in &level.values {
+            let (start, end) = self.range(value);
+            add(start, Some(end))?;
+            after = end;
+        }
+        if level.fault.is_none() {
+            return Ok(());
+        }
+        match self.next(after, level.values.is_empty()) {
+            Some(at) if !self.text[at..].starts_with(']') => add(at, None),
+            _ => Ok(()),
+        }
+    }
+
+    /// The offset of the text that follows a key that ends at `end`, and its colon.
+    fn value_after(self, end: usize) -> Option<usize> {
+        let at = self.skip_space(end);
+        let at = self.text[at..].starts_with(':').then(|| self.skip_space(at + 1));
+        at.filter(|at| *at < self.text.len())
+    }
+
+    /// The offset of the text that follows `after` and a comma, or white space alone before the first item.
+    fn next(self, after: usize, is_first: bool) -> Option<usize> {
+        let at = self.skip_space(after);
+        let at = match self.text.as_bytes().get(at) {
+            Some(b',') if !is_first => self.skip_space(at + 1),
+            _ if !is_first => return None,
+            _ => at,
+        };
+        (at < self.text.len()).then_some(at)
+    }
+
+    /// Reads the members of an object that begins at `start`, the last of which may be incomplete. A key whose value is
+    /// missing is recorded as present.
+    fn members(
+        self,
+        level: &Level<'t>,
+        start: usize,
+        depth: usize,
+        members: &mut Vec<TreeMember<'t>>,
+    ) -> Result<(), SyntaxError> {
+        let mut after = start + 1;
+        for (index, raw) in level.keys.iter().enumerate() {
+            let (start, end) = self.range(raw);
+            let key = string(raw).map_err(|error| self.locate(start, &error))?;
+            let place = match level.values.get(index) {
+                Some(value) => {
+                    let (start, end) = self.range(value);
+                    after = end;
+                    Some((start, Some(end)))
+                }
+                None => self.value_after(end).map(|start| (start, None)),
             };
+            let missing = TreeNode { start: end, end: 0, value: Value::Null };
+            let (value, error) =
+                place.map_or((missing, None), |(start, end)| self.value(start, end, depth + 1));
+            if let Some(error) = error {
+                let step = Step::Key(key.clone().into_owned());
+                members.push(TreeMember { start, key, value });
+                return Err(error.within(step));
+            }
+            members.push(TreeMember { start, key, value });
+        }
+        // a key that is incomplete
+        if level.fault.is_some()
+            && level.keys.len() == level.values.len()
+            && let Some(at) = self.next(after, members.is_empty())
+            && self.text[at..].starts_with('"')
+        {
+            string(&self.text[at..]).map_err(|error| self.locate(at, &error))?;
+        }
+        Ok(())
+    }
+}
+
+/// Converts `null`, `true`, `false` or a string, or reports why the text does not begin with a value.
+fn leaf(text: &str) -> Result<Value<'_>, serde_json::Error> {
+    if text.starts_with('"') {
+        return string(text).map(Value::Text);
+    }
+    Ok(match serde_json::Value::deserialize(&mut Deserializer::from_str(text))? {
+        serde_json::Value::Bool(value) => Value::Bool(value),
+        _ => Value::Null,
+    })
+}
+
+/// Converts a complete number. There is none if the text is another value, or exceeds the range of double precision.
+/// Numbers that exceed an integer of 64 bits, and -0, are floating-point numbers.
+fn number(text: &str) -> Option<Value<'static>> {
+    if !text.starts_with(|first: char| first == '-' || first.is_ascii_digit()) {
+        return None;
+    }
+    if let Ok(value) = text.parse() {
+        return Some(Value::Unsigned(value));
+    }
+    match text.parse() {
+        Ok(value) if value < 0 => Some(Value::Signed(value)),
+        _ => text.parse().ok().filter(|value: &f64| value.is_finite()).map(Value::Float),
+    }
+}
+
+/// Converts a string, without a copy if it contains no escape sequence.
+fn string(text: &str) -> Result<Cow<'_, str>, serde_json::Error> {
+    match <&str>::deserialize(&mut Deserializer::from_str(text)) {
+        Ok(borrowed) => Ok(Cow::Borrowed(borrowed)),
+        Err(_) => String::deserialize(&mut Deserializer::from_str(text)).map(Cow::Owned),
+    }
+}
+
+/// The items of a list, or the keys and values of an object, as slices of the text. The value of the last key is
+/// missing if it is incomplete.
+#[derive(Default)]
+struct Level<'t> {
+    keys: Vec<&'t str>,
+    values: Vec<&'t str>,
+    /// The error that ends the list or object, if it is incomplete.
+    fault: Option<serde_json::Error>,
+}
+
+impl<'t> Level<'t> {
+    /// Reads the list or object at the beginning of a text.
+    fn read(text: &'t str) -> Level<'t> {
+        let mut level = Level::default();
+        level.fault = Deserializer::from_str(text).deserialize_any(&mut level).err();
+        level
+    }
+
+    /// The items of a complete list of numbers, which are the parts of the text between its commas. There is none if
+    /// the list may contain anything but numbers, `true`, `false` and `null`.
+    fn of_scalars(text: &'t str) -> Option<Level<'t>> {
+        let inside = text.strip_prefix('[')?.strip_suffix(']')?;
+        if inside.trim_ascii().is_empty() || inside.bytes().any(|byte| matches!(byte, b'[' | b'{' | b'"')) {
+            return None;
+        }
+        let values = inside.split(',').map(str::trim_ascii).collect();
+        Some(Level { values, ..Level::default() })
+    }
+}
+
+impl<'t> Visitor<'t> for &mut Level<'t> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list or an object")
+    }
+
+    fn visit_seq<A: SeqAccess<'t>>(self, mut items: A) -> Result<(), A::Error> {
+        while let Some(item) = items.next_element::<&RawValue>()? {
+            self.values.push(item.get());
         }
         Ok(())
     }
 
-    /// Parses the remainder of a string after its opening quote.
-    fn string(&mut self) -> Result<Cow<'t, str>, SyntaxError> {
-        let mut copied: Option<String> = None;
-        let mut from = self.at;
-        loop {
-            while let Some(byte) = self.peek()
-                && byte != b'"'
-                && byte != b'\\'
-                && byte >= 0x20
-            {
-                self.at += 1;
-            }
-            let stretch = &self.text[from..self.at];
-            match self.next() {
-                None => return Err(self.behind("EOF while parsing a string")),
-                Some(b'"') => {
-                    return Ok(match copied {
-                        None => Cow::Borrowed(stretch),
-                        Some(copied) => Cow::Owned(copied + stretch),
-                    });
-                }
-                Some(b'\\') => {
-                    let so_far = copied.get_or_insert_default();
-                    so_far.push_str(stretch);
-                    let escaped = self.escape()?;
-                    so_far.push(escaped);
-                    from = self.at;
-                }
-                Some(_) => {
-                    let message = "control character (\\u0000-\\u001F) found while parsing a string";
-                    return Err(self.behind(message));
-                }
-            }
+    fn visit_map<A: MapAccess<'t>>(self, mut members: A) -> Result<(), A::Error> {
+        while let Some(key) = members.next_key::<&RawValue>()? {
+            self.keys.push(key.get());
+            self.values.push(members.next_value::<&RawValue>()?.get());
         }
-    }
-
-    /// Parses an escape sequence after its backslash and returns the character.
-    fn escape(&mut self) -> Result<char, SyntaxError> {
-        Ok(match self.next() {
-            None => return Err(self.behind("EOF while parsing a string")),
-            Some(b'"') => '"',
-            Some(b'\\') => '\\',
-            Some(b'/') => '/',
-            Some(b'b') => '\u{8}',
-            Some(b'f') => '\u{c}',
-            Some(b'n') => '\n',
-            Some(b'r') => '\r',
-            Some(b't') => '\t',
-            Some(b'u') => return self.unicode_escape(),
-            Some(_) => return Err(self.behind("invalid escape")),
-        })
-    }
-
-    /// Parses one or two `\uXXXX` sequences after the first `\u` and returns the character. Two sequences are a
-    /// surrogate pair.
-    fn unicode_escape(&mut self) -> Result<char, SyntaxError> {
-        let first = self.four_digits()?;
-        if let Some(character) = char::from_u32(first) {
-            return Ok(character);
-        }
-        if first >= 0xdc00 {
-            return Err(self.behind("lone leading surrogate in hex escape"));
-        }
-        for expected in [b'\\', b'u'] {
-            match self.next() {
-                None => return Err(self.behind("EOF while parsing a string")),
-                Some(byte) if byte != expected => return Err(self.behind("unexpected end of hex escape")),
-                Some(_) => {}
-            }
-        }
-        let second = self.four_digits()?;
-        if !(0xdc00..0xe000).contains(&second) {
-            return Err(self.behind("lone leading surrogate in hex escape"));
-        }
-        let pair = 0x1_0000 + ((first - 0xd800) << 10) + (second - 0xdc00);
-        char::from_u32(pair).ok_or_else(|| self.behind("invalid unicode code point"))
-    }
-
-    fn four_digits(&mut self) -> Result<u32, SyntaxError> {
-        let Some(digits) = self.bytes.get(self.at..self.at + 4) else {
-            self.at = self.bytes.len();
-            return Err(self.behind("EOF while parsing a string"));
-        };
-        self.at += 4;
-        let digit = |value: Option<u32>, byte: &u8| Some(value? * 16 + char::from(*byte).to_digit(16)?);
-        digits.iter().fold(Some(0), digit).ok_or_else(|| self.behind("invalid escape"))
+        Ok(())
     }
 }
 

@@ -32,7 +32,7 @@ fn peer(text: &str) -> Result<serde_json::Value, (String, usize)> {
 
 fn own(text: &str) -> Result<serde_json::Value, (String, usize)> {
     let Reading { root, error } = read(text);
-    error.map_or_else(|| Ok(plain(&root)), |error| Err((error.message.to_owned(), error.offset)))
+    error.map_or_else(|| Ok(plain(&root)), |error| Err((error.message, error.offset)))
 }
 
 fn agree(text: &str) {
