@@ -3,10 +3,10 @@
 
 use std::ops::ControlFlow;
 
-use super::fidelity::{Choice, FoundationProvider, Reason, Selection};
+use super::fidelity::Fidelity;
 use super::joint;
-use super::rung::Fidelity;
 use super::search::{Candidate, Outcome, Search};
+use super::selection::{Choice, FoundationProvider, Reason, Selection};
 use crate::{Analysis, Scene};
 
 /// Number of modes that are computed first; they suffice to decide between rigid, influence and two modes.

@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::distance::distance;
-use super::fidelity::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, SAFE, Selection};
-use super::rung::{Fidelity, MODES};
+use super::fidelity::{Fidelity, MODES};
+use super::selection::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, SAFE, Selection};
 use crate::{Foundation, Scene};
 
 /// Checks all chosen structures together and refines them until their joint error is within the tolerance. Each
@@ -35,12 +35,12 @@ pub(super) fn settle<L: FoundationProvider>(
     let mut is_raised = false;
     loop {
         let raised: Vec<Fidelity> = searched.iter().map(|&c| above(&selection.choices[c])).collect();
-        if searched.iter().zip(&raised).all(|(&c, rung)| selection.choices[c].fidelity == *rung) {
+        if searched.iter().zip(&raised).all(|(&c, fidelity)| selection.choices[c].fidelity == *fidelity) {
             return doubted(selection, &searched, is_raised, Reason::Highest);
         }
-        for (&c, &rung) in searched.iter().zip(&raised) {
+        for (&c, &fidelity) in searched.iter().zip(&raised) {
             let structure = selection.choices[c].structure;
-            match provider.foundation(structure, rung) {
+            match provider.foundation(structure, fidelity) {
                 Ok(foundation) => foundations[structure] = foundation,
                 Err(_) => return doubted(selection, &searched, true, Reason::Unchecked),
             }

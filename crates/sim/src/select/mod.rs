@@ -8,5 +8,5 @@ pub(crate) mod distance;
 pub(crate) mod fidelity;
 pub(crate) mod joint;
 pub(crate) mod predict;
-pub(crate) mod rung;
 pub(crate) mod search;
+pub(crate) mod selection;

@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use splines::{Axis, Probe};
 
 use super::distance::distance;
-use super::rung::{Fidelity, MODES, contact_frequency};
+use super::fidelity::{Fidelity, MODES, contact_frequency};
 use crate::run::run;
 use crate::scene::wheel::LawValue;
 use crate::{Analysis, BodyDof, Channel, Error, Extent, Foundation, Run, Scene, Structure};
@@ -44,10 +44,10 @@ pub struct PredictedErrors {
 }
 
 impl PredictedErrors {
-    /// Predicted error of the fidelity `rung`; `None` where it was not predicted.
+    /// Predicted error of the fidelity `fidelity`; `None` where it was not predicted.
     #[must_use]
-    pub fn of(&self, rung: Fidelity) -> Option<f64> {
-        self.errors.iter().find(|(own, _)| *own == rung).map(|(_, error)| *error)
+    pub fn of(&self, fidelity: Fidelity) -> Option<f64> {
+        self.errors.iter().find(|(own, _)| *own == fidelity).map(|(_, error)| *error)
     }
 }
 

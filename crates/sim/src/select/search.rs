@@ -3,9 +3,9 @@
 use std::ops::ControlFlow;
 
 use super::distance::distance;
-use super::fidelity::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, SAFE};
+use super::fidelity::{Fidelity, MODES, contact_frequency};
 use super::predict::predict;
-use super::rung::{Fidelity, MODES, contact_frequency};
+use super::selection::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, SAFE};
 use crate::{Foundation, Run, Scene, Status, Structure};
 
 /// Ratio of the highest modelled frequency to that of a body on its contacts, above which a modal fidelity can check
@@ -24,7 +24,7 @@ const FAR: f64 = 3.0;
 
 /// A fidelity with its foundation and its run.
 pub(super) struct Candidate {
-    pub rung: Fidelity,
+    pub fidelity: Fidelity,
     pub foundation: Foundation,
     pub run: Run,
 }
@@ -63,8 +63,8 @@ struct Plan {
     is_enough: bool,
 }
 
-fn of_class<T: Copy>(table: [T; 3], rung: Fidelity) -> T {
-    match rung {
+fn of_class<T: Copy>(table: [T; 3], fidelity: Fidelity) -> T {
+    match fidelity {
         Fidelity::Rigid => table[0],
         Fidelity::Influence => table[1],
         Fidelity::Modal(_) | Fidelity::Half | Fidelity::Full => table[2],
@@ -105,8 +105,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     pub fn run(mut self, few: Option<Structure>) -> Result<Outcome, L::Error> {
         let Plan { lower, higher, taken, .. } = self.plan(few);
         let mut below: Vec<Candidate> = Vec::new();
-        for rung in lower {
-            match self.attempt(rung) {
+        for fidelity in lower {
+            match self.attempt(fidelity) {
                 // At other fidelities the wheels would leave their rails as well.
                 Some(found) if found.is_final() => return Ok(self.end(found, Reason::Unchecked, None)),
                 Some(found) => below.push(found),
@@ -130,7 +130,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             for lower in below.drain(..) {
                 let estimate = distance(&lower.run, &found.run, self.scene);
                 self.choice.tried.push(FidelityTrial {
-                    fidelity: lower.rung,
+                    fidelity: lower.fidelity,
                     estimate,
                     against,
                     stages: lower.run.counts.stages as u64,
@@ -153,16 +153,18 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             Some(found) => Some(found),
             None => {
                 let mut all = [Fidelity::Influence, Fidelity::Rigid].into_iter();
-                all.find_map(
-                    |rung| if self.choice.failed.contains(&rung) { None } else { self.attempt(rung) },
-                )
+                all.find_map(|fidelity| {
+                    if self.choice.failed.contains(&fidelity) { None } else { self.attempt(fidelity) }
+                })
             }
         };
         match (last, self.error.take()) {
             (Some(found), _) => Ok(self.end(found, Reason::Unchecked, None)),
             (None, Some(error)) => Err(error),
             // This case does not occur, because every failure records an error.
-            (None, None) => Err(L::Error::from(crate::Error::NoSuch { what: "rung", index: self.structure })),
+            (None, None) => {
+                Err(L::Error::from(crate::Error::NoSuch { what: "fidelity", index: self.structure }))
+            }
         }
     }
 
@@ -187,37 +189,40 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             })
         };
         let reaches = |m: usize| highest(m) > needed;
-        let is_far = |rung: Fidelity| match rung {
+        let is_far = |fidelity: Fidelity| match fidelity {
             Fidelity::Modal(m) => highest(m) > FAR * needed,
             _ => true,
         };
-        let by_tolerance = |rung: Fidelity| {
-            predicted.as_ref().and_then(|predicted| predicted.of(rung)).map(|error| error / self.tolerance)
+        let by_tolerance = |fidelity: Fidelity| {
+            predicted
+                .as_ref()
+                .and_then(|predicted| predicted.of(fidelity))
+                .map(|error| error / self.tolerance)
         };
         let modal = MODES.into_iter().filter(|&m| reaches(m)).map(Fidelity::Modal);
         let all: Vec<Fidelity> = [Fidelity::Rigid, Fidelity::Influence].into_iter().chain(modal).collect();
         let is_complete = predicted.as_ref().is_some_and(|predicted| predicted.is_complete);
-        let sure = all.iter().copied().find(|&rung| {
-            let is_small = by_tolerance(rung).is_some_and(|error| error < of_class(TAKE, rung));
-            is_complete && is_far(rung) && is_small
+        let sure = all.iter().copied().find(|&fidelity| {
+            let is_small = by_tolerance(fidelity).is_some_and(|error| error < of_class(TAKE, fidelity));
+            is_complete && is_far(fidelity) && is_small
         });
         let last = sure.unwrap_or(Fidelity::Full);
-        let (skipped, kept): (Vec<Fidelity>, Vec<Fidelity>) = all
-            .into_iter()
-            .filter(|rung| *rung < last)
-            .partition(|&rung| by_tolerance(rung).is_some_and(|error| error > of_class(SKIP, rung)));
+        let (skipped, kept): (Vec<Fidelity>, Vec<Fidelity>) =
+            all.into_iter().filter(|fidelity| *fidelity < last).partition(|&fidelity| {
+                by_tolerance(fidelity).is_some_and(|error| error > of_class(SKIP, fidelity))
+            });
         let is_enough = sure.is_some() || kept.contains(&Fidelity::Modal(MODES[0]));
         self.choice.skipped = skipped;
         self.choice.predicted = predicted;
         let (lower, mut higher): (Vec<Fidelity>, Vec<Fidelity>) =
-            kept.into_iter().partition(|rung| *rung <= Fidelity::Influence);
+            kept.into_iter().partition(|fidelity| *fidelity <= Fidelity::Influence);
         higher.push(last);
         Plan { lower, higher, taken: sure.is_some(), is_enough }
     }
 
     /// Builds and runs a fidelity. A fidelity that cannot be built, started or completed is recorded as failed.
-    fn attempt(&mut self, rung: Fidelity) -> Option<Candidate> {
-        let built = self.provider.foundation(self.structure, rung);
+    fn attempt(&mut self, fidelity: Fidelity) -> Option<Candidate> {
+        let built = self.provider.foundation(self.structure, fidelity);
         let ran = built.and_then(|foundation| {
             self.foundations[self.structure] = foundation;
             Ok(self.provider.run(&self.finer, self.foundations, self.watch)?)
@@ -226,13 +231,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             Ok(run) => {
                 self.runs += 1;
                 if !run.status.is_complete() {
-                    self.choice.failed.push(rung);
+                    self.choice.failed.push(fidelity);
                 }
                 let foundation = std::mem::take(&mut self.foundations[self.structure]);
-                Some(Candidate { rung, foundation, run })
+                Some(Candidate { fidelity, foundation, run })
             }
             Err(error) => {
-                self.choice.failed.push(rung);
+                self.choice.failed.push(fidelity);
                 self.error.get_or_insert(error);
                 None
             }
@@ -256,7 +261,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     fn end(self, found: Candidate, reason: Reason, estimate: Option<f64>) -> Outcome {
-        let choice = Choice { fidelity: found.rung, reason, estimate, ..self.choice };
+        let choice = Choice { fidelity: found.fidelity, reason, estimate, ..self.choice };
         Outcome { choice, found, runs: self.runs }
     }
 }
