@@ -7,16 +7,6 @@ use import::ImportOptions;
 
 use super::{deck, from_memory, plain, text, told};
 
-/// A small generator of numbers (Knuth's MMIX constants), so that every run damages alike.
-struct Dice(u64);
-
-impl Dice {
-    fn below(&mut self, bound: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) as usize) % bound.max(1)
-    }
-}
-
 const PIECES: [&str; 30] = [
     "0",
     "-1",
@@ -51,13 +41,13 @@ const PIECES: [&str; 30] = [
 ];
 
 /// One to four edits: characters replaced, cut out, doubled; lines exchanged.
-fn damaged(text: &str, dice: &mut Dice) -> String {
+fn damaged(text: &str, dice: &mut fastrand::Rng) -> String {
     let mut chars: Vec<char> = text.chars().collect();
-    for _ in 0..=dice.below(4) {
-        let from = dice.below(chars.len());
-        let to = (from + dice.below(12)).min(chars.len());
-        let piece: Vec<char> = PIECES[dice.below(PIECES.len())].chars().collect();
-        match dice.below(6) {
+    for _ in 0..=dice.usize(..4) {
+        let from = dice.usize(..chars.len());
+        let to = (from + dice.usize(..12)).min(chars.len());
+        let piece: Vec<char> = PIECES[dice.usize(..PIECES.len())].chars().collect();
+        match dice.usize(..6) {
             0 => drop(chars.drain(from..to)),
             1 => {
                 let again = chars[from..to].to_vec();
@@ -66,7 +56,7 @@ fn damaged(text: &str, dice: &mut Dice) -> String {
             2 => {
                 let text: String = chars.iter().collect();
                 let mut lines: Vec<&str> = text.lines().collect();
-                let (a, b) = (dice.below(lines.len()), dice.below(lines.len()));
+                let (a, b) = (dice.usize(..lines.len()), dice.usize(..lines.len()));
                 lines.swap(a, b);
                 chars = lines.join("\n").chars().collect();
             }
@@ -105,7 +95,7 @@ fn taken(
 
 #[test]
 fn damaged_decks_are_refused_or_taken() {
-    let mut dice = Dice(11);
+    let mut dice = fastrand::Rng::with_seed(11);
     let rails =
         ImportOptions { up: Some([0.0, 1.0, 0.0]), rails: vec!["r=1-4".parse().expect("a rail")], ..plain() };
     let mut counts = [0; 2];
@@ -125,7 +115,7 @@ fn damaged_decks_are_refused_or_taken() {
 
 #[test]
 fn damaged_meshes_are_refused_or_taken() {
-    let mut dice = Dice(12);
+    let mut dice = fastrand::Rng::with_seed(12);
     let [mesh, sections] = ["meshes/portal.msh", "meshes/portal.json"].map(text);
     let mut counts = [0; 2];
     for round in 0..4000 {

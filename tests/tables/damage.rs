@@ -78,7 +78,7 @@ fn tried(name: &str, bytes: &[u8]) -> bool {
 
 #[test]
 fn damaged_files_are_refused_or_taken() {
-    let mut dice = Dice(51);
+    let mut dice = Dice::new(51);
     let mut taken = 0;
     for ending in ENDINGS {
         let name = format!("a.{ending}");
@@ -96,7 +96,7 @@ fn damaged_files_are_refused_or_taken() {
 
 #[test]
 fn damaged_archives_of_numpy_are_refused_or_taken() {
-    let mut dice = Dice(52);
+    let mut dice = Dice::new(52);
     for name in ["plain.npz", "packed.npz", "oblong.npz"] {
         let bytes = bytes(&data(name));
         for _ in 0..1500 {

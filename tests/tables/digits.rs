@@ -37,7 +37,7 @@ fn by_hand(value: f64, digits: usize) -> f64 {
 
 #[test]
 fn rounding_is_that_of_the_decimal_expansion_and_its_report_is_right() {
-    let mut dice = Dice(21);
+    let mut dice = Dice::new(21);
     for digits in [1, 3, 10, 15] {
         let mut checked = 0;
         for _ in 0..40 {
@@ -65,7 +65,7 @@ fn rounding_is_that_of_the_decimal_expansion_and_its_report_is_right() {
 
 #[test]
 fn all_digits_change_nothing() {
-    let set = random_set(&mut Dice(22));
+    let set = random_set(&mut Dice::new(22));
     let (same, report) = round(&set, 17).expect("17 digits tell all doubles apart");
     assert_eq!((same, report.largest, report.at), (set, 0.0, None));
 }
@@ -75,7 +75,7 @@ fn what_cannot_be_rounded_is_refused() {
     let curves = |x: [f64; 4], y: f64| {
         adams::SplineValues::new(x.to_vec(), Vec::new(), vec![vec![y; 4]]).expect("four")
     };
-    let mut set = random_set(&mut Dice(23));
+    let mut set = random_set(&mut Dice::new(23));
     set.tables = vec![table(7, "a", None, curves([0.0, 1.0, 1.01, 2.0], 0.0))];
     assert_eq!(round(&set, 2), Err(RoundError::Stations { id: 7 }));
     set.tables = vec![table(7, "a", None, curves([0.0, 1.0, 2.0, 3.0], f64::MAX))];

@@ -69,7 +69,7 @@ fn parse(text: &str) -> (Vec<Found>, String) {
 
 #[test]
 fn an_independent_reader_finds_the_same_numbers_in_a_data_set() {
-    let mut dice = Dice(31);
+    let mut dice = Dice::new(31);
     for _ in 0..50 {
         let set = random_set(&mut dice);
         let bytes = write(&set, TableFormat::Adams).expect("writable");

@@ -25,23 +25,22 @@ const FT_LBF: Units = Units { length: Length::Foot, force: Force::Pound };
 /// The formats, by their endings.
 const ENDINGS: [&str; 5] = ["adm", "cmd", "csv", "json", "npz"];
 
-/// Numbers by a linear congruential generator (Knuth's MMIX constants).
-struct Dice(u64);
+/// Random numbers from a seed.
+struct Dice(fastrand::Rng);
 
 impl Dice {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        self.0 >> 32
+    fn new(seed: u64) -> Dice {
+        Dice(fastrand::Rng::with_seed(seed))
     }
 
     fn below(&mut self, bound: usize) -> usize {
-        (self.bits() as usize) % bound.max(1)
+        self.0.usize(..bound.max(1))
     }
 
     /// Any finite double, by its bits.
     fn any(&mut self) -> f64 {
         loop {
-            let value = f64::from_bits((self.bits() << 32) | self.bits());
+            let value = f64::from_bits(self.0.u64(..));
             if value.is_finite() {
                 return value;
             }

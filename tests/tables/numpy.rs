@@ -49,7 +49,7 @@ fn printed(text: &str) -> Vec<u64> {
 fn numpy_loads_equal_bits() {
     let Some(python) = python() else { return };
     let folder = folder();
-    let mut dice = Dice(41);
+    let mut dice = Dice::new(41);
     let set = random_set(&mut dice);
     std::fs::write(folder.path().join("a.npz"), write(&set, TableFormat::Npz).expect("writable"))
         .expect("writable");
@@ -99,7 +99,7 @@ assert abs(cross - d['vertical_longitudinal']).max() < 1e-14 * abs(d['vertical_l
 fn what_numpy_saves_is_read_bit_for_bit() {
     let Some(python) = python() else { return };
     let folder = folder();
-    let mut dice = Dice(42);
+    let mut dice = Dice::new(42);
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
         let path = folder.path().join("a.npz");
         std::fs::write(&path, write(&set, TableFormat::Npz).expect("writable")).expect("writable");

@@ -12,7 +12,7 @@ fn back(set: &TableSet, ending: &str) -> TableSet {
 
 #[test]
 fn tables_of_any_doubles_read_back_equal_in_every_format() {
-    let mut dice = Dice(11);
+    let mut dice = Dice::new(11);
     for _ in 0..60 {
         for set in [random_set(&mut dice), random_factored(&mut dice)] {
             for ending in ENDINGS {
@@ -26,7 +26,7 @@ fn tables_of_any_doubles_read_back_equal_in_every_format() {
 
 #[test]
 fn a_walk_through_all_formats_changes_no_byte() {
-    let mut dice = Dice(12);
+    let mut dice = Dice::new(12);
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
         let walked = ENDINGS.into_iter().fold(set.clone(), |set, ending| back(&set, ending));
         for ending in ENDINGS {
@@ -41,7 +41,7 @@ fn a_walk_through_all_formats_changes_no_byte() {
 
 #[test]
 fn text_files_are_ascii_in_short_lines() {
-    let mut dice = Dice(13);
+    let mut dice = Dice::new(13);
     for set in [random_set(&mut dice), random_factored(&mut dice)] {
         for name in ["a.adm", "a.cmd"] {
             let bytes = write(&set, TableFormat::of(name).expect("a format")).expect("writable");
@@ -85,7 +85,7 @@ fn the_program_converts_a_grid_through_all_formats_to_the_same_bytes() {
 
 #[test]
 fn rails_and_names_of_any_letters_are_kept_where_a_format_has_room() {
-    let mut dice = Dice(14);
+    let mut dice = Dice::new(14);
     let mut set = random_set(&mut dice);
     for (k, table) in set.tables.iter_mut().enumerate() {
         table.name = format!("\"gr\u{fc}n\", {k}; x");
@@ -105,7 +105,7 @@ fn rails_and_names_of_any_letters_are_kept_where_a_format_has_room() {
 
 #[test]
 fn a_plain_set_expands_to_itself() {
-    let set = random_set(&mut Dice(15));
+    let set = random_set(&mut Dice::new(15));
     assert_eq!(expand(&set), set);
 }
 

@@ -203,11 +203,8 @@ fn nothing_at_all_is_at_rest() {
 fn damaged_listing_comes_to_rest_or_is_refused_without_panic() {
     let whole = include_str!("listings/rigid.adm");
     let letters: Vec<char> = "0123456789,./=()*-+E".chars().collect();
-    let mut seed = 3_u64;
-    let mut below = |n: usize| {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 33) as usize % n
-    };
+    let mut random = fastrand::Rng::with_seed(3);
+    let mut below = |n: usize| random.usize(..n);
     let mut rested = 0;
     for _ in 0..300 {
         let mut text: Vec<char> = whole.chars().collect();

@@ -7,23 +7,12 @@ use adams::{
     StatementId, Tables,
 };
 
-/// Numbers in 0..1 by a linear congruential generator (Knuth's MMIX constants).
-struct Random(u64);
-
-impl Random {
-    fn unit(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / 2_f64.powi(53)
-    }
-
-    /// Any finite double, by its bits.
-    fn any(&mut self) -> f64 {
-        loop {
-            let half = |unit: f64| (unit * 2_f64.powi(32)) as u64;
-            let value = f64::from_bits(half(self.unit()) | (half(self.unit()) << 32));
-            if value.is_finite() {
-                return value;
-            }
+/// Any finite double, by its bits.
+fn any(random: &mut fastrand::Rng) -> f64 {
+    loop {
+        let value = f64::from_bits(random.u64(..));
+        if value.is_finite() {
+            return value;
         }
     }
 }
@@ -66,12 +55,12 @@ fn round_trips(set: &Tables) {
 
 #[test]
 fn commands_of_any_doubles_read_back_bit_for_bit() {
-    let mut random = Random(7);
+    let mut random = fastrand::Rng::with_seed(7);
     for _ in 0..50 {
-        let mut x: Vec<f64> = (0..9).map(|_| random.any()).collect();
+        let mut x: Vec<f64> = (0..9).map(|_| any(&mut random)).collect();
         x.sort_by(f64::total_cmp);
         x.dedup();
-        let y = (0..3).map(|_| x.iter().map(|_| random.any()).collect()).collect();
+        let y = (0..3).map(|_| x.iter().map(|_| any(&mut random)).collect()).collect();
         let family = SplineValues::new(x, vec![-1.0, 0.5, 7e8], y).expect("sorted");
         let plain = Spline { name: None, units: None, linear_extrapolate: false, ..spline(1, four()) };
         round_trips(&set(vec![spline(6, family), plain]));
@@ -229,9 +218,9 @@ fn reader_survives_any_order_of_pieces() {
         "\t",
         ".a.b ",
     ];
-    let mut random = Random(4);
+    let mut random = fastrand::Rng::with_seed(4);
     for _ in 0..20_000 {
-        let text: String = (0..14).map(|_| pieces[(random.unit() * pieces.len() as f64) as usize]).collect();
+        let text: String = (0..14).map(|_| pieces[random.usize(..pieces.len())]).collect();
         if let Ok(set) = read(&text) {
             let _ = write(&set, &[]);
         }

@@ -82,7 +82,7 @@ fn grids_whose_evaluation_cannot_keep_the_digits_are_refused() {
 
 #[test]
 fn bound_is_never_below_the_true_error_of_random_chains() {
-    let mut stream = common::Stream(3);
+    let mut stream = common::Stream::new(3);
     let mut trusted = 0;
     for elements in [5, 20, 50, 200] {
         let mut cuts: Vec<f64> = (1..elements).map(|_| stream.between(0.0, 60.0)).collect();

@@ -373,7 +373,7 @@ fn effects_of_what_does_not_exist_are_refused() {
 fn forces_keep_ten_digits_at_300_members_a_span() {
     let (model, rail) =
         Girder { overhangs: [0.0; 2], stations: Vec::new(), ..paper() }.model_and_rail().expect("sound");
-    let mut stream = Stream(7);
+    let mut stream = Stream::new(7);
     for members in [2, 10, 30, 100, 300] {
         let mut cuts: Vec<f64> =
             (1..members).map(|k| (k as f64 + stream.between(-0.4, 0.4)) / members as f64).collect();

@@ -67,7 +67,7 @@ fn layout(case: &Case, random: &mut Stream) -> Vec<Probe> {
 
 /// Smallest eigenvalue found, relative to the largest of its matrix.
 fn check(case: &Case, layouts: usize, seed: u64) -> f64 {
-    let mut random = Stream(seed);
+    let mut random = Stream::new(seed);
     let mut worst = f64::INFINITY;
     for _ in 0..layouts {
         let at = layout(case, &mut random);

@@ -127,7 +127,7 @@ fn hundreds_of_nearly_equal_modes_of_braces_are_all_found() {
 
 #[test]
 fn modes_of_random_frames_are_those_of_all_their_modes() {
-    let mut stream = Stream(20_240_607);
+    let mut stream = Stream::new(20_240_607);
     for _ in 0..20 {
         let mut model = braced(2);
         for point in &mut model.points[2..] {

@@ -167,7 +167,7 @@ fn nodes_at_every_station_cost_no_more_digits_than_known() {
 fn surface_agrees_with_closed_forms_at_ten_thousand_pairs() {
     let (model, rail) = paper().model_and_rail().expect("sound");
     let exact = surface(&model, &[rail]).expect("solvable");
-    let mut stream = Stream(1);
+    let mut stream = Stream::new(1);
     for (axis, form) in [(Axis::Vertical, vertical as fn(f64, f64) -> f64), (Axis::Lateral, lateral)] {
         let largest = form(-15.0, -15.0);
         let mut worst = 0.0_f64;

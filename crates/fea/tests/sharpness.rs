@@ -147,7 +147,7 @@ fn compare(stream: &mut Stream) -> Option<(f64, f64)> {
 
 #[test]
 fn bound_is_never_below_the_true_error_of_ten_thousand_girders_and_sharp() {
-    let mut stream = Stream(11);
+    let mut stream = Stream::new(11);
     let (mut ratios, mut refused) = (Vec::new(), 0);
     for case in 0..10_000 {
         let Some((error, bound)) = compare(&mut stream) else {

@@ -88,7 +88,7 @@ fn worst(theory: BeamTheory) -> f64 {
         }
         let shear = if theory == BeamTheory::Timoshenko { 1.0 / (1.661_538e9 * 0.35) } else { 0.0 };
         let primary = Primary { supports, bending: 1.0 / (4.32e9 * 9.528), shear };
-        let mut stream = Stream(7);
+        let mut stream = Stream::new(7);
         let mut at: Vec<f64> =
             (0..60).map(|_| stream.between(-overhangs[0], primary.length() + overhangs[1])).collect();
         at.extend(&primary.supports);

@@ -14,12 +14,8 @@ const PUBLISHED: [f64; 9] = [-2.0, 1.0, -3.0, 5.0, -1.0, 3.0, -4.0, 4.0, -2.0];
 
 /// Pseudorandom numbers from a seed.
 fn history(seed: u64, length: usize, levels: u64) -> Vec<f64> {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) % levels
-    };
-    (0..length).map(|_| next() as f64).collect()
+    let mut random = fastrand::Rng::with_seed(seed);
+    (0..length).map(|_| random.u64(..levels) as f64).collect()
 }
 
 /// The three-point rule of E1049, 5.4.4, applied to turning points.

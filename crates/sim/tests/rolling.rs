@@ -263,13 +263,8 @@ fn girder_with_ends() -> Foundation {
 
 #[test]
 fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
-    let mut state = 0x9E37_79B9_7F4A_7C15_u64;
-    let mut random = move || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        (state >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut numbers = fastrand::Rng::with_seed(1);
+    let mut random = move || numbers.f64();
     let mut ended = [0; 4];
     for _ in 0..200 {
         let damper = if random() < 0.5 { Damper::Rail } else { Damper::Ground };

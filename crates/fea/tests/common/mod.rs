@@ -84,16 +84,16 @@ pub fn with_nodes(model: &Model, places: &[(usize, f64, [f64; 3])]) -> (Model, V
     (cut, linked)
 }
 
-/// A repeatable sequence of random numbers from 0 to 1 (splitmix64).
-pub struct Stream(pub u64);
+/// A repeatable sequence of random numbers from 0 to 1.
+pub struct Stream(fastrand::Rng);
 
 impl Stream {
+    pub fn new(seed: u64) -> Stream {
+        Stream(fastrand::Rng::with_seed(seed))
+    }
+
     pub fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+        self.0.f64()
     }
 
     pub fn between(&mut self, a: f64, b: f64) -> f64 {

@@ -132,13 +132,8 @@ mod tests {
 
     /// A = B B^T/n + 0.05 I, and b such that a known pair F >= 0, s >= 0 with F . s = 0 is the solution.
     fn planted(n: usize, seed: u64) -> (Vec<f64>, Vec<f64>, Vec<f64>) {
-        let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-        let mut random = move || {
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state >> 11) as f64 / (1_u64 << 53) as f64 * 2.0 - 1.0
-        };
+        let mut numbers = fastrand::Rng::with_seed(seed);
+        let mut random = move || numbers.f64() * 2.0 - 1.0;
         let factor: Vec<f64> = (0..n * n).map(|_| random()).collect();
         let mut a = vec![0.0; n * n];
         for i in 0..n {

@@ -124,19 +124,16 @@ pub fn probe(axis: Axis, x: f64) -> Probe {
     Probe { rail: 0, x, axis }
 }
 
-/// Pseudo-random numbers in 0..1 by the generator xorshift64*.
-pub struct Random(u64);
+/// Random numbers from a seed.
+pub struct Random(fastrand::Rng);
 
 impl Random {
     pub fn new(seed: u64) -> Random {
-        Random(seed | 1)
+        Random(fastrand::Rng::with_seed(seed))
     }
 
     pub fn unit(&mut self) -> f64 {
-        self.0 ^= self.0 >> 12;
-        self.0 ^= self.0 << 25;
-        self.0 ^= self.0 >> 27;
-        (self.0.wrapping_mul(0x2545_F491_4F6C_DD1D) >> 11) as f64 / (1_u64 << 53) as f64
+        self.0.f64()
     }
 
     pub fn between(&mut self, low: f64, high: f64) -> f64 {
