@@ -49,7 +49,7 @@ pub enum Command {
     /// Solve a beam spec for its influence grid
     #[command(after_help = "Example:\n  girderway fea examples/bogie/spec.json -o grid.json")]
     Fea(FeaArgs),
-    /// Write the tables of a grid or of another file, at their stations or the fewest that do, or tell what readings cost
+    /// Write the tables of a grid or of another file, at their stations or at the fewest that are sufficient, or check their errors
     #[command(after_help = "Example:\n  girderway splines grid.json -o bridge.adm")]
     Splines(SplinesArgs),
     /// Write a scene as a complete ADAMS data set, with its command file; --check executes it against the simulator
@@ -65,10 +65,10 @@ pub enum Command {
     /// Compare a beam spec's grids with those of independent FE codes: scikit-fem, OpenSees, PyNite, a gmsh solid
     #[command(after_help = "Example:\n  girderway crosscheck examples/bogie/spec.json")]
     Crosscheck(CrosscheckArgs),
-    /// Chart accuracy against cost: a scene on a ladder of settings, beside a converged reference that is made first
+    /// Chart accuracy against cost: a scene at many settings, compared with a converged reference that is run first
     #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
     Study(StudyArgs),
-    /// Give the JSON Schema of a format, for editors that complete and check as one types
+    /// Print the JSON Schema of a format, with which editors complete and check files
     #[command(after_help = "Example:\n  girderway schema scene -o scene.schema.json")]
     Schema(SchemaArgs),
     /// Write starter files that run as they are: a bogie on a girder, a girder of a mill building, a bridge crane
@@ -102,7 +102,7 @@ pub enum SchemaArg {
 pub struct InitArgs {
     /// Which files
     pub what: Starter,
-    /// Folder to write them into, made where there is none [default: where you are]
+    /// Folder to write them into, created if it does not exist [default: the current folder]
     #[arg(value_name = "DIR")]
     pub folder: Option<PathBuf>,
 }
@@ -132,15 +132,15 @@ pub struct StudyArgs {
     /// Fewer settings, coarser references, fewer repetitions
     #[arg(long)]
     pub quick: bool,
-    /// Map where methods fail for the first straight girder of the scene and its wheels, in place of the charts
+    /// Instead of the charts, map where methods fail for the first straight girder of the scene and its wheels
     #[arg(long)]
     pub stability: bool,
-    /// Seconds that one run may take, and all repetitions of a setting; references may take ten times as long
+    /// Time limit in seconds of one run and of all repetitions of a setting; references may take ten times as long
     /// [default: 20, with --quick 5]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub limit: Option<f64>,
-    /// Error, of the largest value, from which on references must tell; status 3 where they do not [default: 1e-4, with --quick 1e-2]
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    /// Largest uncertainty of the references, relative to the largest value; status 3 where they do not reach it [default: 1e-4, with --quick 1e-2]
+    #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     pub resolution: Option<f64>,
 }
 
@@ -149,10 +149,10 @@ pub struct StudyArgs {
 pub struct CrosscheckArgs {
     /// Beam spec
     pub spec: PathBuf,
-    /// Folder for the result as text and JSON, with plots of the differences [default: console alone]
+    /// Folder for the result as text and JSON, with plots of the differences [default: console only]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
-    /// Beam theory in place of the spec's
+    /// Beam theory that replaces that of the spec
     #[arg(long)]
     pub theory: Option<TheoryArg>,
 }
@@ -166,35 +166,35 @@ pub struct SplinesArgs {
     /// picture (.svg), a page (.html) or all numbers (.json)
     #[arg(short, long, value_name = "FILE")]
     pub output: Option<PathBuf>,
-    /// Tables of these directions alone [default: all]
+    /// Only the tables of these directions [default: all]
     #[arg(long, value_name = "DIRECTIONS", value_delimiter = ',', conflicts_with = "check")]
     pub only: Vec<DirectionArg>,
     /// Tables of G itself, or of curves whose products make G [default: tables; the form of a file of tables]
     #[arg(long, conflicts_with = "check")]
     pub form: Option<TableFormArg>,
-    /// Most products of the factored form [default: all that are more than rounding]
+    /// Largest number of products of the factored form [default: all that exceed rounding errors]
     #[arg(long, value_name = "R", value_parser = clap::value_parser!(u16).range(1..))]
     pub rank: Option<u16>,
     /// Round to N significant digits (Adams View writes 10) [default: all digits]
     #[arg(long, value_name = "N", conflicts_with = "check", value_parser = clap::value_parser!(u8).range(1..=17))]
     pub digits: Option<u8>,
-    /// Unit of length of tables that do not say it
+    /// Unit of length of tables whose file does not contain it
     #[arg(long, requires = "force")]
     pub length: Option<LengthArg>,
-    /// Unit of force of tables that do not say it
+    /// Unit of force of tables whose file does not contain it
     #[arg(long, requires = "length")]
     pub force: Option<ForceArg>,
-    /// Tell what each reading of the tables costs, on standard output
+    /// Print the error of each reading method of the tables
     #[arg(long)]
     pub check: bool,
-    /// Reading that must keep the tolerance: writes tables at the fewest stations with which it does; with --check a
+    /// Reading method that must meet the tolerance: writes tables at the fewest stations that are sufficient; with --check a
     /// larger error is a failure [default with --check: akispl]
     #[arg(long, requires = "tolerance")]
     pub reading: Option<TableReadingArg>,
-    /// Error allowed, of the largest coefficient; of the factored form without a reading, that at the stations
-    #[arg(long, value_name = "SHARE", value_parser = share)]
+    /// Error allowed, relative to the largest coefficient; for the factored form without --reading, the error at the stations
+    #[arg(long, value_name = "FRACTION", value_parser = fraction)]
     pub tolerance: Option<f64>,
-    /// Directions that must keep the tolerance [default: vertical,lateral]
+    /// Directions that must meet the tolerance [default: vertical,lateral]
     #[arg(
         long,
         value_name = "DIRECTIONS",
@@ -206,10 +206,10 @@ pub struct SplinesArgs {
     /// Force of one wheel, for work and angles
     #[arg(long, value_name = "FORCE", value_parser = positive, requires = "check")]
     pub load: Option<f64>,
-    /// Distance of two wheels that move together
+    /// Distance between two wheels that move together
     #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
     pub spacing: Option<f64>,
-    /// Compare rules for what lies beyond a table this far out [default: its last distance of stations]
+    /// Compare the rules of extrapolation up to this distance beyond a table [default: its last station distance]
     #[arg(long, value_name = "LENGTH", value_parser = positive, requires = "check")]
     pub beyond: Option<f64>,
 }
@@ -223,20 +223,20 @@ pub enum TableFormArg {
     Factored,
 }
 
-/// Words of the readings of tables.
+/// Words of the reading methods of tables.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum TableReadingArg {
-    /// AKISPL along the load, linear along the deflection
+    /// AKISPL along the load, linear interpolation along the deflection
     Akispl,
     /// The mean of AKISPL with load and deflection exchanged
     Symmetrised,
-    /// CUBSPL along the load, linear along the deflection
+    /// CUBSPL along the load, linear interpolation along the deflection
     Cubspl,
     /// Natural splines along both
     Natural,
     /// Products of one-curve CUBSPLs
     Factored,
-    /// The beam behind the values
+    /// The beam whose coefficients the values are
     Exact,
 }
 
@@ -295,10 +295,10 @@ fn positive(text: &str) -> Result<f64, String> {
 pub struct DeckArgs {
     /// Scene file
     pub scene: PathBuf,
-    /// Data set to write; its command file stands beside it [default: standard output, data set alone]
+    /// Data set to write; its command file is written to the same folder [default: standard output, data set only]
     #[arg(short, long, value_name = "FILE.adm")]
     pub output: Option<PathBuf>,
-    /// How the rails' give is read [default: factored; akispl where the scene reads a structure by it]
+    /// Method by which the deck reads the compliance of the rails [default: factored; akispl where the scene reads a structure by it]
     #[arg(long)]
     pub form: Option<DeckFormArg>,
     /// Execute the deck and compare its forces with the simulator's; status 1 where they differ
@@ -312,13 +312,13 @@ pub struct DeckArgs {
 /// Words of the forms of decks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum DeckFormArg {
-    /// AKISPL of a family: N^2 look-ups for N wheels; neither symmetric nor conservative off the stations
+    /// AKISPL of a family of curves: N^2 look-ups for N wheels; neither symmetric nor conservative between the stations
     Akispl,
     /// The mean of AKISPL(x, z) and AKISPL(z, x): 2 N^2 look-ups, symmetric
     Symmetrised,
     /// Products of r curves read by CUBSPL: r N curves, symmetric, positive, with the force along the rail
     Factored,
-    /// The paper's own expressions with what is loose in them, for comparison alone
+    /// The expressions printed in the paper, with their inaccuracies, for comparison only
     Paper,
 }
 
@@ -341,20 +341,20 @@ pub struct ImportArgs {
     /// Beam spec to write [default: standard output]
     #[arg(short, long, value_name = "SPEC.json")]
     pub output: Option<PathBuf>,
-    /// Unit of length of the model, which does not say it
+    /// Unit of length of the model, which its file does not contain
     #[arg(long)]
     pub length: Option<LengthArg>,
-    /// Unit of force of bulk data, which do not say it
+    /// Unit of force of bulk data, which the file does not contain
     #[arg(long)]
     pub force: Option<ForceArg>,
-    /// Direction up; needed by rails
+    /// Upward direction; required for rails
     #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true)]
     pub up: Option<[f64; 3]>,
     /// A rail along elements (12,23,30-35) or a set of them; /offset=X,Y,Z and /axis=X,Y,Z may follow
     #[arg(long, value_name = "NAME=ELEMENTS")]
     pub rail: Vec<rail::RailRequest>,
-    /// Hold freedoms of a set of points, such as feet=ux,uy,uz
-    #[arg(long, value_name = "SET=FREEDOMS")]
+    /// Restrain degrees of freedom of a set of points, such as feet=ux,uy,uz
+    #[arg(long, value_name = "SET=DOF")]
     pub fix: Vec<fix::SupportRequest>,
     /// Materials and sections of a mesh, by the names of its physical groups
     #[arg(long, value_name = "FILE.json")]
@@ -425,7 +425,7 @@ pub struct FeaArgs {
     /// Grid file to write [default: standard output]
     #[arg(short, long, value_name = "GRID.json")]
     pub output: Option<PathBuf>,
-    /// Beam theory in place of the spec's
+    /// Beam theory that replaces that of the spec
     #[arg(long)]
     pub theory: Option<TheoryArg>,
     /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
@@ -437,7 +437,7 @@ pub struct FeaArgs {
 }
 
 /// Parses a number between 0 and 1, both excluded.
-fn share(text: &str) -> Result<f64, String> {
+fn fraction(text: &str) -> Result<f64, String> {
     let value: f64 = text.parse().map_err(|_| "not a number".to_owned())?;
     if value > 0.0 && value < 1.0 { Ok(value) } else { Err("must lie between 0 and 1".to_owned()) }
 }

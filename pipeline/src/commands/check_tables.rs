@@ -69,7 +69,7 @@ fn form(path: &Path) -> Result<Form, Failure> {
         "json" => Ok(Form::Json),
         _ => {
             let wrong =
-                Diagnostic::of_file(path.display().to_string(), "the ending says no format of a check");
+                Diagnostic::of_file(path.display().to_string(), "the file extension is not that of a format for checks");
             Err(wrong.hint("use .svg, .html or .json").into())
         }
     }

@@ -38,7 +38,7 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     let mut result = PeerComparison { rails: check.rails(), ..PeerComparison::default() };
     for peer in Peer::ALL {
         if peer.straight() && !matches!(check.spec.form, Form::Girder(_)) {
-            let why = "it takes straight girders, the short form of a spec".to_owned();
+            let why = "it accepts only straight girders, the short form of a spec".to_owned();
             result.absent.push((peer, why));
             continue;
         }
@@ -129,7 +129,7 @@ impl<'a> Check<'a> {
         outcome.theory = Some(theory_word(theory));
         if theory != self.spec.theory {
             let word = theory_word(self.spec.theory);
-            outcome.notes.push(format!("both under {}; the spec says {word}", theory_word(theory)));
+            outcome.notes.push(format!("both with {}; the theory of the spec is {word}", theory_word(theory)));
         }
         if peer == Peer::Solid {
             let plain = self.solve(&self.spec.clone().with_theory(BeamTheory::EulerBernoulli))?;
@@ -153,7 +153,7 @@ fn sheared(spec: &mut Spec) -> Option<String> {
     let absent = girder.ka_vertical.is_none() || girder.ka_lateral.is_none();
     girder.ka_vertical.get_or_insert(RECTANGLE * area);
     girder.ka_lateral.get_or_insert(RECTANGLE * area);
-    absent.then(|| "shear areas that the spec does not give are 5/6 A, those of a rectangle".to_owned())
+    absent.then(|| "shear areas missing from the spec are 5/6 A, as for a rectangle".to_owned())
 }
 
 /// Creates the failure of another code or of its environment.

@@ -30,7 +30,7 @@ pub(super) fn chosen(
     let root = Place::root();
     let refuse = |fault: Fault| Failure::Input(source.diagnose(&Faults(vec![fault])));
     let Some(surface) = surface else {
-        let fault = Fault::new(&root, "has no `surface`: nothing says what is exact between its stations");
+        let fault = Fault::new(&root, "has no `surface`: the exact values between its stations are not known");
         return Err(refuse(fault.hint("`girderway fea SPEC -o GRID.json` writes one")));
     };
     let mut axes: Vec<Axis> = args.directions.iter().map(|direction| Axis::from(*direction)).collect();
@@ -59,7 +59,7 @@ pub(super) fn chosen(
         )),
         splines::Error::NoBeamFit => refuse(
             Fault::new(&root.key("influence"), "is not that of a uniform beam in bending on rigid supports")
-                .hint("the values alone do not say what is exact between them; this file does, use it in place of tables"),
+                .hint("the exact values between stations do not follow from the tables; use this file, which contains them"),
         ),
         other => refuse(Fault::new(&root.key("surface"), other.to_string())),
     })?;

@@ -82,7 +82,7 @@ fn fits(args: &SplinesArgs) -> Result<(), Failure> {
     } else if args.rank.is_some() && !factored {
         ("--rank is of the factored form", "add --form factored")
     } else if args.rank.is_some() && args.tolerance.is_some() && args.reading.is_none() {
-        ("--rank and --tolerance both say how many products", "leave one out")
+        ("--rank and --tolerance both set the number of products", "use one of them")
     } else {
         return Ok(());
     };
@@ -103,7 +103,7 @@ fn given(
     if tables::is_tables(&input.display_name, &input.bytes) {
         if args.reading.is_some() {
             let fault =
-                Diagnostic::of_file(&input.display_name, "does not say what is exact between its stations");
+                Diagnostic::of_file(&input.display_name, "does not contain the exact values between its stations");
             return Err(fault.hint("--reading and --tolerance need a grid file").into());
         }
         return Ok((tables::read(&input.display_name, &input.bytes, units)?, None));
@@ -111,7 +111,7 @@ fn given(
     let source = input.source()?;
     let (mut grid, surface) = grid_file::read(&source)?;
     if units.is_some_and(|units| units != grid.units) {
-        let fault = Diagnostic::of_file(&input.display_name, "a grid says its units itself");
+        let fault = Diagnostic::of_file(&input.display_name, "a grid contains its own units");
         return Err(fault.hint("leave out --length and --force").into());
     }
     if let Some(wanted) = args.reading.map(TableReadingMethod::from).zip(args.tolerance) {

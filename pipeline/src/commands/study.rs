@@ -55,7 +55,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     for (family, who) in [
         (SettingFamily::Written, "as written"),
         (SettingFamily::Auto, "auto's choice"),
-        (SettingFamily::Stepping, "as written, beside other methods on its foundations"),
+        (SettingFamily::Stepping, "as written, compared with other methods on its foundations"),
     ] {
         let excess = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
             let all = study::excesses(&study, family, cost).into_iter();
