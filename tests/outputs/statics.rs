@@ -90,7 +90,7 @@ fn a_span_sags_by_the_classical_share_under_a_wheel_at_its_middle() {
     assert!((found[0].value / classical - 1.0).abs() < 1e-9, "{:?}", found[0]);
     assert_eq!((found[0].x, found[0].time), (5.0, 3.5));
     assert!((found[0].ratio().expect("it sags") / (span / classical) - 1.0).abs() < 1e-9);
-    assert!(found[0].keeps(600.0));
+    assert!(found[0].is_within(600.0));
 }
 
 #[test]

@@ -44,7 +44,8 @@ pub fn build(
     let irregularities = structure.irregularities.clone();
     let mut on = mount::mount(structure)?;
     let is_dragged = structure.longitudinal;
-    let BuiltFoundation { mut foundation, motion } = build_on_ground(cache, structure, solved, lateral)?;
+    let BuiltFoundation { mut foundation, basis: motion } =
+        build_on_ground(cache, structure, solved, lateral)?;
     // where degrees of freedom carry the mass, their own mass matrix replaces the rigid mass of the spec
     if let (Some(on), Some(moving)) = (&mut on, foundation.carrier.take()) {
         (on.mass, on.coupling) = (moving.mass, moving.coupling);
@@ -62,7 +63,7 @@ pub fn build(
     }
     Ok(BuiltFoundation {
         foundation: Foundation { carrier: on, irregularities, is_loaded_along: is_dragged, ..foundation },
-        motion,
+        basis: motion,
     })
 }
 
@@ -133,7 +134,11 @@ fn required_solution<'s>(
 ///
 /// # Errors
 /// [`Error::Chain`] for a girder that does not stand; [`Error::Windows`] for windows that overlap.
-pub fn rigid_parts(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Error> {
+pub fn rigid_parts_foundation(
+    girder: &fea::Girder,
+    count: usize,
+    window: Option<f64>,
+) -> Result<Foundation, Error> {
     Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Excitation::VERTICAL)?
         .foundation)
 }
@@ -142,7 +147,7 @@ pub fn rigid_parts(girder: &fea::Girder, count: usize, window: Option<f64>) -> R
 ///
 /// # Errors
 /// [`Error::Modes`] for a structure without mass, or with too many unknowns.
-pub fn full_mesh(solved: &SolvedModel, elements: usize) -> Result<Foundation, Error> {
+pub fn full_mesh_foundation(solved: &SolvedModel, elements: usize) -> Result<Foundation, Error> {
     Ok(ModeCache::default()
         .full("structure", solved, elements, 0.0, Dampers::NONE, Excitation::VERTICAL)?
         .foundation)

@@ -22,12 +22,12 @@ pub struct BuiltFoundation {
     /// The foundation that carries the rails.
     pub foundation: Foundation,
     /// The model whose motions are the foundation's degrees of freedom; `None` where it has none, being without mass.
-    pub motion: Option<MotionBasis>,
+    pub basis: Option<MotionBasis>,
 }
 
 impl From<Foundation> for BuiltFoundation {
     fn from(foundation: Foundation) -> BuiltFoundation {
-        BuiltFoundation { foundation, motion: None }
+        BuiltFoundation { foundation, basis: None }
     }
 }
 

@@ -35,7 +35,7 @@ mod select;
 mod solved;
 mod tables;
 
-pub use build::{build, full_mesh, rigid_parts};
+pub use build::{build, full_mesh_foundation, rigid_parts_foundation};
 pub use built::{BuiltFoundation, MotionBasis, RigidParts};
 pub use error::Error;
 pub use modal::ModeCache;

@@ -149,7 +149,7 @@ impl MeshModes {
             ..Foundation::default()
         };
         let motion = MotionBasis::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
-        Ok(BuiltFoundation { foundation, motion: Some(motion) })
+        Ok(BuiltFoundation { foundation, basis: Some(motion) })
     }
 }
 

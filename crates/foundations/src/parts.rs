@@ -73,7 +73,7 @@ pub fn foundation(
             Box::new(BlendedParts { surface, chains: vec![chain] })
         });
     }
-    Ok(BuiltFoundation { foundation, motion })
+    Ok(BuiltFoundation { foundation, basis: motion })
 }
 
 /// The `count + 1` ends of parts of equal length over the girder with its overhangs.

@@ -10,10 +10,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use sim::Foundation;
 
 use crate::Error;
+use crate::case_result::CaseResult;
 use crate::codes::CodeCheck;
+use crate::columns::NamedColumns;
 use crate::fatigue;
-use crate::outcome::CaseResult;
-use crate::record::NamedColumns;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
@@ -66,10 +66,7 @@ const RECORDED: f64 = 1e7;
 
 /// Whether the history of a run of `scene` is to hold the degrees of freedom of a structure, by its index, on a foundation:
 /// where columns of reactions or internal forces need them, or where they are fewer than 1e7 values.
-pub fn records_structure(
-    scene: &Scene,
-    known: &[SolvedStructure],
-) -> impl Fn(usize, &Foundation) -> bool + use<> {
+pub fn records_dofs(scene: &Scene, known: &[SolvedStructure]) -> impl Fn(usize, &Foundation) -> bool + use<> {
     let (has_columns, rows) = (response::structures_with_columns(scene, known), scene.end / scene.dt);
     move |s, foundation| {
         let freedoms = foundation.dofs();
@@ -85,7 +82,7 @@ fn run_case(
 ) -> Result<CaseResult, Error> {
     let mut scene = case.scene.clone();
     let cast = simulation_input(&scene)?;
-    let recorded = records_structure(&scene, known);
+    let recorded = records_dofs(&scene, known);
     let chosen = foundations::select_and_run(&mut scene, &cast.scene, known, &recorded, watch);
     let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));
     let foundations::AutoRun { choices, run, built } = chosen.map_err(|error| match error {
@@ -97,12 +94,12 @@ fn run_case(
     })?;
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
-    let lines = response::lines(&scene, &built, &solved)?;
+    let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
     let mut response = Response::new(&scene, &cast, &run.history, &built, &solved, &lines, &mut record)?;
     // figures show the scene itself, not its comparisons
     if case.label.is_none() {
-        response.bend(&scene, &cast, &run.history, &built, &solved)?;
+        response.add_bending(&scene, &cast, &run.history, &built, &solved)?;
     }
     let foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
     response.modes = SceneMode::all(&scene, &cast, &foundations, &run);

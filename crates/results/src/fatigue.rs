@@ -10,7 +10,7 @@ use practice::{Cycle, Damage, Strength, aisc, rainflow};
 use serde_json::{Map, Value, json};
 
 use crate::Error;
-use crate::record::{NamedColumns, bytes};
+use crate::columns::{NamedColumns, bytes};
 use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
@@ -32,7 +32,7 @@ pub struct FatigueResult {
     /// Its cycles, in the order in which they close.
     pub cycles: Vec<Cycle>,
     /// Damage of each cycle.
-    pub each: Vec<f64>,
+    pub cycle_damage: Vec<f64>,
     /// Sum of the damage, and the largest range.
     pub damage: Damage,
     /// Resistance at 2 million cycles: range, with partial factors.
@@ -126,7 +126,7 @@ fn fatigue_result(
         column,
         detail,
         cycles,
-        each,
+        cycle_damage: each,
         damage,
         reference,
         limit,
@@ -180,7 +180,7 @@ pub fn csv(results: &[FatigueResult], record: &NamedColumns) -> Result<Option<Ve
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["point", "range", "mean", "count", "from", "to", "damage"])?;
     for result in results {
-        for (cycle, damage) in result.cycles.iter().zip(&result.each) {
+        for (cycle, damage) in result.cycles.iter().zip(&result.cycle_damage) {
             let [from, to] = cycle.samples.map(|row| time[row]);
             let numbers = [cycle.range(), cycle.mean() + 0.0, cycle.count, from, to, *damage];
             let numbers = numbers.into_iter().map(|number| format!("{number:?}"));

@@ -3,7 +3,7 @@
 
 use sim::{CarriedRail, Carrier};
 
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::{Scene, Truck, root_body};
 use foundations::Error;
 
@@ -30,7 +30,7 @@ impl<'s> ScenePositions<'s> {
 
     /// The line of a rail of the scene on the body that carries it; `None` for a rail on the ground.
     #[must_use]
-    pub fn axle(&self, rail: usize) -> Option<(usize, CarriedRail)> {
+    pub fn rail_line(&self, rail: usize) -> Option<(usize, CarriedRail)> {
         let own = &self.scene.rails[rail];
         let mount = self.mounts[own.structure].as_ref()?;
         Some((mount.body, *mount.rails.get(own.rail)?))
@@ -40,7 +40,8 @@ impl<'s> ScenePositions<'s> {
     #[must_use]
     pub fn track(&self, body: usize) -> Option<(usize, CarriedRail)> {
         let rails = &self.scene.bodies[body].track;
-        let lines: Vec<(usize, CarriedRail)> = rails.iter().filter_map(|rail| self.axle(*rail)).collect();
+        let lines: Vec<(usize, CarriedRail)> =
+            rails.iter().filter_map(|rail| self.rail_line(*rail)).collect();
         let (carrier, first) = *lines.first()?;
         let mean = |k: usize| lines.iter().map(|(_, axle)| axle.origin[k] / lines.len() as f64).sum();
         Some((carrier, CarriedRail { origin: [mean(0), mean(1), mean(2)], along: first.along }))
@@ -56,19 +57,19 @@ impl<'s> ScenePositions<'s> {
         }
         if let Some((to, pin)) = own.pinned {
             let base = self.origin(record, to, row);
-            let arm = self.turned(to, pin);
+            let arm = self.rotated(to, pin);
             return [0, 1, 2].map(|k| base[k] + arm[k]);
         }
         let moved = [at("x"), self.radius(body) - at("deflection"), at("z")];
         let Some((carrier, axle)) = self.track(body) else { return moved };
         let base = self.origin(record, carrier, row);
-        let own = self.turned(body, [0.0, moved[1], moved[2]]);
+        let own = self.rotated(body, [0.0, moved[1], moved[2]]);
         [0, 1, 2].map(|k| base[k] + axle.origin[k] + axle.along[k] * moved[0] + own[k])
     }
 
     /// A vector in the axes of a body as one in the axes of the tracks on the ground; small rotations are left out.
     #[must_use]
-    pub fn turned(&self, body: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
+    pub fn rotated(&self, body: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self.track(root_body(self.scene, body).0) {
             Some((_, CarriedRail { along: [a, _, c], .. })) => [a * x - c * z, y, c * x + a * z],
             None => [x, y, z],

@@ -3,9 +3,9 @@
 use serde_json::{Map, Value, json};
 use sim::{Choice, Fidelity, FidelityTrial, PredictedErrors};
 
+use crate::case_result::CaseResult;
+use crate::columns::NamedColumns;
 use crate::fatigue;
-use crate::outcome::CaseResult;
-use crate::record::NamedColumns;
 use crate::run_error;
 use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};

@@ -23,7 +23,7 @@ pub struct CheckDifference {
     pub states: usize,
     /// Largest difference that passes, relative to the largest force of all states (moments are divided by the largest
     /// wheel's radius); `None` where the difference is reported and not judged.
-    pub asked: Option<f64>,
+    pub limit: Option<f64>,
     /// Largest difference of each component, relative to the same force.
     pub worst: [f64; 6],
     /// Largest force of all states.
@@ -42,7 +42,7 @@ impl CheckDifference {
     /// Whether the difference is within its limit, with forces at every state.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.asked.is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
+        self.limit.is_none_or(|asked| self.failed.is_none() && self.largest_of_all() <= asked)
     }
 }
 
@@ -165,7 +165,8 @@ pub fn compare(
     states: impl Iterator<Item = ModelState>,
 ) -> Result<CheckDifference, Error> {
     let model = AdamsModel::new(set)?;
-    let mut out = CheckDifference { what, states: 0, asked, worst: [0.0; 6], largest: 0.0, failed: None };
+    let mut out =
+        CheckDifference { what, states: 0, limit: asked, worst: [0.0; 6], largest: 0.0, failed: None };
     let radius = (0..plan.wheels.len()).map(|w| plan.kind(w).radius).fold(f64::MIN_POSITIVE, f64::max);
     let scaled = |k: usize, value: f64| if k < 3 { value } else { value / radius };
     for (state, wanted) in states.zip(wanted) {

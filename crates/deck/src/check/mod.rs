@@ -38,11 +38,11 @@ const SAMPLE: usize = 1000;
 
 /// Numbers of random states by what acts in them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Count {
+pub struct StateCounts {
     /// All states.
     pub all: usize,
     /// States in which every wheel has a vertical force.
-    pub pressing: usize,
+    pub loaded: usize,
     /// States in which no wheel has one.
     pub off: usize,
     /// States in which a flange touches.
@@ -51,13 +51,13 @@ pub struct Count {
     pub slide: usize,
 }
 
-impl Count {
-    fn of(cases: &[CheckCase]) -> Count {
+impl StateCounts {
+    fn of(cases: &[CheckCase]) -> StateCounts {
         let count =
             |is: &dyn Fn(&ContactForces) -> bool| cases.iter().filter(|case| is(&case.forces)).count();
-        Count {
+        StateCounts {
             all: cases.len(),
-            pressing: count(&|forces| forces.vertical.iter().all(|force| *force > 0.0)),
+            loaded: count(&|forces| forces.vertical.iter().all(|force| *force > 0.0)),
             off: count(&|forces| forces.vertical.iter().all(|force| *force == 0.0)),
             flange: count(&|forces| forces.lateral.iter().any(|force| *force != 0.0)),
             slide: count(&|forces| forces.traction.iter().any(|force| *force != 0.0)),
@@ -69,7 +69,7 @@ impl Count {
 #[derive(Clone, Debug, PartialEq)]
 pub struct CheckReport {
     /// Numbers of the random states.
-    pub states: Count,
+    pub states: StateCounts,
     /// Differences of forces at random states.
     pub forces: Vec<CheckDifference>,
     /// The quasi-static path; `None` where a body is free along its rail.
@@ -119,5 +119,5 @@ pub fn check(plan: &DeckPlan<'_>, text: &str, count: usize) -> Result<CheckRepor
     let what = ("the same, finite rotations", None);
     forces.push(compare::compare(plan, &stepped, what, &wanted[..sample], finite)?);
     let path = path::path(plan, &model, &foundations)?;
-    Ok(CheckReport { states: Count::of(&cases), forces, path })
+    Ok(CheckReport { states: StateCounts::of(&cases), forces, path })
 }

@@ -35,7 +35,7 @@ pub struct SweepDifference {
 impl SweepDifference {
     /// Largest difference that passes, relative to the largest displacement and force.
     #[must_use]
-    pub fn asked(&self) -> f64 {
+    pub fn limit(&self) -> f64 {
         ASKED
     }
 
@@ -66,7 +66,7 @@ pub(super) fn path(
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
         return Ok(None);
     }
-    let mut scene = plan.cast.scene.clone();
+    let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
     scene.output_dt = scene.end / f64::from(PLACES);
     let run = sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
@@ -89,7 +89,7 @@ pub(super) fn path(
         let wanted = run.history.column(Channel::Displacement(b, BodyDof::Y));
         for (one, wanted) in found.iter().zip(wanted) {
             let y = one.state.parts.get(&body.part).map_or(f64::MAX, |pose| pose.origin[1]);
-            out.height = out.height.max((y - body.datum[0] - wanted).abs());
+            out.height = out.height.max((y - body.position[0] - wanted).abs());
             out.deepest = out.deepest.max(wanted.abs());
         }
     }

@@ -71,7 +71,7 @@ pub fn state(
 fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
     let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
     let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[b];
-    let [height, side] = plan.bodies[b].datum;
+    let [height, side] = plan.bodies[b].position;
     let origin = Vector3::new(x, height + y, side + z);
     let velocity = Vector3::new(vx, vy, vz);
     let (turn, spin) = (Vector3::new(roll, yaw, pitch), Vector3::new(by_roll, by_yaw, by_pitch));

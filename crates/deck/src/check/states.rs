@@ -88,7 +88,7 @@ fn complete(
     mut instant: Instant,
     random: &mut Random,
 ) -> Result<Option<CheckCase>, sim::Error> {
-    let scene = &plan.cast.scene;
+    let scene = &plan.input.scene;
     let one = |instant: &Instant| {
         contact_forces(scene, foundations, std::slice::from_ref(instant)).map(|mut all| all.swap_remove(0))
     };
@@ -196,9 +196,9 @@ struct Scales {
 impl Scales {
     fn of(plan: &DeckPlan<'_>) -> Scales {
         let mut out = Scales { sink: vec![], reach: vec![], side: vec![], speed: vec![], range: vec![] };
-        for (b, body) in plan.cast.scene.bodies.iter().enumerate() {
+        for (b, body) in plan.input.scene.bodies.iter().enumerate() {
             let own: Vec<usize> = (0..plan.wheels.len()).filter(|&w| plan.wheels[w].body == b).collect();
-            let weight = body.mass * plan.cast.scene.gravity.max(f64::MIN_POSITIVE);
+            let weight = body.mass * plan.input.scene.gravity.max(f64::MIN_POSITIVE);
             let of_wheel = weight / own.len().max(1) as f64;
             let largest = |of: &dyn Fn(usize) -> f64| own.iter().map(|&w| of(w)).fold(0.0, f64::max);
             let sink =
@@ -228,7 +228,7 @@ impl Scales {
 
     /// A random state without penetrations; `None` where a wheel would be beyond its rail.
     fn instant(&self, plan: &DeckPlan<'_>, random: &mut Random) -> Option<Instant> {
-        let scene = &plan.cast.scene;
+        let scene = &plan.input.scene;
         let time = random.between(0.0, scene.end);
         let (mut displacement, mut speed) = (Vec::new(), Vec::new());
         for (b, body) in scene.bodies.iter().enumerate() {

@@ -20,7 +20,7 @@ use crate::words::text::{TermList, plain, value};
 use formats::scene::Structure;
 
 /// Fraction of a table's largest entry below which products are left out: no value at a station changes by more.
-pub const SHARE: f64 = 1e-6;
+pub const DROPPED_FRACTION: f64 = 1e-6;
 
 /// A direction of a structure: rail and axis.
 pub type RailAxis = (usize, Axis);
@@ -107,8 +107,8 @@ impl RailCompliance {
         }
         let tables = match form {
             DeckForm::Factored => {
-                let factored =
-                    FactoredTable::new(&sheets, Rank::Tolerance(SHARE)).map_err(|error| error.to_string())?;
+                let factored = FactoredTable::new(&sheets, Rank::Tolerance(DROPPED_FRACTION))
+                    .map_err(|error| error.to_string())?;
                 let mut first = Vec::new();
                 for factor in factored.factors() {
                     let mut starts = Vec::new();

@@ -25,7 +25,7 @@ pub struct DeckPlan<'a> {
     /// How the deck reads tables.
     pub form: DeckForm,
     /// The simulator's scene.
-    pub cast: SimulationInput,
+    pub input: SimulationInput,
     /// The compliance of each structure.
     pub compliances: Vec<RailCompliance>,
     /// Bodies, in the scene's order.
@@ -50,7 +50,7 @@ pub struct BodyPlan {
     /// PART.
     pub part: u32,
     /// Height and lateral coordinate in ground of its origin, where its wheels just touch their rails.
-    pub datum: [f64; 2],
+    pub position: [f64; 2],
     /// MARKER at its origin.
     pub origin: u32,
     /// MARKER at its centre of mass.
@@ -123,7 +123,7 @@ impl DeckPlan<'_> {
     /// The simulator's kind of wheel `w`.
     #[must_use]
     pub fn kind(&self, w: usize) -> &sim::Wheel {
-        &self.cast.scene.wheels[self.wheels[w].kind]
+        &self.input.scene.wheels[self.wheels[w].kind]
     }
 
     /// MARKER of the frame of wheel `w`'s rail.
@@ -169,7 +169,7 @@ pub fn plan<'a>(
     let mut bodies: Vec<BodyPlan> = (0..scene.bodies.len())
         .map(|b| BodyPlan {
             part: number(b) + GROUND,
-            datum: [0.0; 2],
+            position: [0.0; 2],
             origin: markers.take(),
             cm: markers.take(),
             track: markers.take(),
@@ -205,7 +205,19 @@ pub fn plan<'a>(
             });
         }
     }
-    Ok(DeckPlan { scene, form, cast, compliances, bodies, datums, wheels, contacts, start, markers, splines })
+    Ok(DeckPlan {
+        scene,
+        form,
+        input: cast,
+        compliances,
+        bodies,
+        datums,
+        wheels,
+        contacts,
+        start,
+        markers,
+        splines,
+    })
 }
 
 /// Refuses scenes with ropes, stops, events, drives, brakes, loads, irregularities, pinned bodies and the like, which a deck
@@ -344,10 +356,10 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<
             Some([datum.at[0] - y, datum.at[1] - z])
         });
         let free = || trucks().next().map(|(_, truck)| below(truck).map(|value| 0.0 - value));
-        body.datum = fixed.or_else(free).unwrap_or_default();
+        body.position = fixed.or_else(free).unwrap_or_default();
         for (t, truck) in trucks() {
             let [y, z] = below(truck);
-            let at = [body.datum[0] + y, body.datum[1] + z];
+            let at = [body.position[0] + y, body.position[1] + z];
             let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * (1.0 + b.abs());
             let same = |datum: &Datum| {
                 datum.rail == truck.rail && near(datum.at[0], at[0]) && near(datum.at[1], at[1])

@@ -75,7 +75,7 @@ impl Restraints<'_> {
 fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
     let name = &body.name;
-    let [height, side] = own.datum;
+    let [height, side] = own.position;
     let start = plan.start.displacement[b];
     let prescribed = matches!(body.motion, BodyMotion::Prescribed(_));
     let mut held: [bool; 6] = std::array::from_fn(|i| !body.free[i]);

@@ -44,7 +44,7 @@ fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
         out.push(statement);
     }
     for (plan_body, body) in plan.bodies.iter().zip(&plan.scene.bodies) {
-        let [y, z] = plan_body.datum;
+        let [y, z] = plan_body.position;
         out.push(marker(plan_body.track, GROUND, [0.0, y, z], &format!("track_{}", body.name)));
     }
     for wheel in &plan.wheels {
@@ -58,7 +58,7 @@ fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
 /// Position of body `b`'s origin and its rotation matrix at time 0.
 fn place(plan: &DeckPlan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
     let [x, y, z, roll, yaw, pitch] = plan.start.displacement[b];
-    let [height, side] = plan.bodies[b].datum;
+    let [height, side] = plan.bodies[b].position;
     ([x, height + y, side + z], rotation([roll, yaw, pitch]))
 }
 

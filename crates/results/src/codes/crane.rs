@@ -2,8 +2,8 @@
 
 use sim::Action;
 
+use crate::columns::NamedColumns;
 use crate::layout::ScenePositions;
-use crate::record::NamedColumns;
 use formats::scene::motion::SimulationInput;
 use formats::scene::{BodyMotion, Practice, Scene, end_stops, mean_lateral_position, root_body};
 use formats::units::{Dimension, Scale, Units};
@@ -94,7 +94,7 @@ impl CraneData {
         let across = practice.rails.map(|rail| mean_lateral_position(scene, practice.crane, rail));
         let line = practice.trolley.and_then(|trolley| {
             let (_, axle) = layout.track(trolley)?;
-            let [_, _, off] = layout.turned(trolley, scene.bodies[trolley].cg);
+            let [_, _, off] = layout.rotated(trolley, scene.bodies[trolley].cg);
             Some([axle.origin[2] + off, axle.along[2]])
         });
         let wheels = practice.rails.map(|rail| {

@@ -56,8 +56,8 @@ impl CodeValues {
 /// The input of the formulas.
 pub(super) struct CodeCase<'c> {
     pub practice: &'c Practice,
-    pub measures: &'c CraneData,
-    pub found: &'c MeasuredCrane,
+    pub crane: &'c CraneData,
+    pub measured: &'c MeasuredCrane,
     /// Gravity of the scene.
     pub gravity: f64,
     /// Length unit of the scene, m.
@@ -74,38 +74,38 @@ impl<'c> CodeCase<'c> {
     pub fn new(
         scene: &Scene,
         practice: &'c Practice,
-        measures: &'c CraneData,
-        found: &'c MeasuredCrane,
+        crane: &'c CraneData,
+        measured: &'c MeasuredCrane,
     ) -> CodeCase<'c> {
         let metre = to_si(scene.units).factor(Dimension::LENGTH);
         let phi2 = practice
             .hoisting
-            .zip(measures.speeds[2])
+            .zip(crane.speeds[2])
             .and_then(|(class, speed)| factor::phi2(class, speed * metre).ok());
         let released = |action: &sim::Action| matches!(action, sim::Action::Release { .. });
         CodeCase {
             practice,
-            measures,
-            found,
+            crane,
+            measured,
             gravity: scene.gravity,
             metre,
             phi2,
             drops: scene.events.iter().flat_map(|event| &event.rule.actions).any(released),
-            full: measures.crane.wheel_loads(1.0, 1.0).ok(),
+            full: crane.crane.wheel_loads(1.0, 1.0).ok(),
         }
     }
 
     /// Near wheel load with the factors `dead` on dead weight and `hoist` on the load, over that without factors.
-    fn raised(&self, dead: f64, hoist: f64) -> Option<f64> {
+    fn load_factor(&self, dead: f64, hoist: f64) -> Option<f64> {
         let full = self.full?.near;
-        let raised = self.measures.crane.wheel_loads(dead, hoist).ok()?.near;
+        let raised = self.crane.crane.wheel_loads(dead, hoist).ok()?.near;
         (full > 0.0).then(|| raised / full)
     }
 
     /// Factors on the static vertical force of a wheel or rail.
     pub fn vertical(&self) -> CodeValues {
-        let hlf = self.measures.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
-        let dlf = self.measures.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
+        let hlf = self.crane.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
+        let dlf = self.crane.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
         let hoisted = hlf.unwrap_or(0.15);
         let moved = dlf.unwrap_or(1.1);
         CodeValues::default()
@@ -118,13 +118,13 @@ impl<'c> CodeCase<'c> {
                     factor::PHI1[1],
                     self.phi2.unwrap_or_default()
                 ),
-                self.phi2.and_then(|phi2| self.raised(factor::PHI1[1], phi2)),
+                self.phi2.and_then(|phi2| self.load_factor(factor::PHI1[1], phi2)),
             )
             .add(
                 CMAA,
                 "3.3.2.1.4 (2010)",
                 format!("DLF = {moved:.3} on dead weight, 1 + HLF = {:.3} on the load", 1.0 + hoisted),
-                self.raised(moved, 1.0 + hoisted),
+                self.load_factor(moved, 1.0 + hoisted),
             )
             .add(
                 AIST,
@@ -136,7 +136,7 @@ impl<'c> CodeCase<'c> {
 
     /// Factors on the load while it is lifted.
     pub fn lifting(&self) -> CodeValues {
-        let speed = self.measures.speeds[2];
+        let speed = self.crane.speeds[2];
         let hlf = speed.and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
         CodeValues::default().add(EN, "Tables 2.4, 2.5", "phi2 = phi2,min + beta2 v", self.phi2).add(
             CMAA,
@@ -159,11 +159,11 @@ impl<'c> CodeCase<'c> {
 
     /// Lateral force of all wheels together.
     pub fn lateral(&self) -> CodeValues {
-        let crane = &self.measures.crane;
+        let crane = &self.crane.crane;
         let moving = crane.lifted + crane.trolley;
         let thrust = aist::side_thrust(self.practice.kind, crane).ok();
         let shares = self.practice.kind.shares();
-        let inertia = self.found.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
+        let inertia = self.measured.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
         CodeValues::default()
             .add(
                 AIST,
@@ -190,7 +190,7 @@ impl<'c> CodeCase<'c> {
 
     /// Lateral force of one wheel.
     pub fn flange(&self) -> CodeValues {
-        let (span, base) = (self.measures.crane.span, self.measures.base());
+        let (span, base) = (self.crane.crane.span, self.crane.base());
         let near = self.full.map(|full| full.near);
         let of_near = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
         let (guide, angle) = self.skewing().unzip();
@@ -214,7 +214,7 @@ impl<'c> CodeCase<'c> {
 
     /// Guide force and skew angle (rad) of a skewing crane.
     fn skewing(&self) -> Option<(f64, f64)> {
-        let measures = self.measures;
+        let measures = self.crane;
         let play = measures.play[0].or(measures.play[1]);
         let given = play.zip(self.practice.rail_head).and_then(|(play, head)| {
             let m = self.metre;
@@ -235,7 +235,7 @@ impl<'c> CodeCase<'c> {
 
     /// Forces of the drives on the runway while the crane accelerates.
     fn drives(&self) -> Option<drive::DriveForces> {
-        let measures = self.measures;
+        let measures = self.crane;
         let wheels = f64::from(measures.crane.wheels);
         let empty = measures.crane.wheel_loads(1.0, 0.0).ok()?;
         let least = vec![empty.far.min(empty.near); measures.driven[0] + measures.driven[1]];
@@ -253,7 +253,7 @@ impl<'c> CodeCase<'c> {
 
     /// Force of the wheels along one rail.
     pub fn longitudinal(&self) -> CodeValues {
-        let most = self.measures.driven[0].max(self.measures.driven[1]);
+        let most = self.crane.driven[0].max(self.crane.driven[1]);
         let loads = self.full.map(|full| vec![full.near; most]);
         let phi5 = factor::phi5(self.practice.drives)[1];
         CodeValues::default()
@@ -273,12 +273,12 @@ impl<'c> CodeCase<'c> {
 
     /// Force of the end stops together.
     pub fn buffer(&self) -> CodeValues {
-        let crane = &self.measures.crane;
+        let crane = &self.crane.crane;
         let mass = (crane.bridge + crane.trolley) / self.gravity;
         let force = |factor: f64, speed: Option<f64>| {
-            buffer::buffer_force(factor, speed?, mass, self.measures.buffers).ok()
+            buffer::buffer_force(factor, speed?, mass, self.crane.buffers).ok()
         };
-        let rated = |fraction: f64| self.measures.speeds[0].map(|speed| fraction * speed);
+        let rated = |fraction: f64| self.crane.speeds[0].map(|speed| fraction * speed);
         let phi7 = buffer::phi7(0.5).ok();
         CodeValues::default()
             .add(
@@ -291,7 +291,7 @@ impl<'c> CodeCase<'c> {
                 EN,
                 "2.11.1, Table 2.10",
                 "the same with the speed of this run",
-                phi7.and_then(|phi7| force(phi7, self.found.meeting)),
+                phi7.and_then(|phi7| force(phi7, self.measured.meeting)),
             )
             .add(
                 OSHA,
@@ -303,18 +303,18 @@ impl<'c> CodeCase<'c> {
                 "mechanics",
                 "rigid mass",
                 "v sqrt(m S), bridge and trolley as one rigid mass, speed of this run",
-                force(1.0, self.found.meeting),
+                force(1.0, self.measured.meeting),
             )
     }
 
     /// Force of the buffer between two cranes that collide.
     pub fn collision(&self) -> CodeValues {
-        let energy = self.measures.between.zip(self.measures.speeds[0]).and_then(|(other, speed)| {
-            let crane = &self.measures.crane;
+        let energy = self.crane.between.zip(self.crane.speeds[0]).and_then(|(other, speed)| {
+            let crane = &self.crane.crane;
             let own = (crane.bridge + crane.trolley) / self.gravity;
             cmaa::collision_energy([own, other.weight / self.gravity], [speed, other.speed]).ok()
         });
-        let force = energy.zip(self.measures.between);
+        let force = energy.zip(self.crane.between);
         let force = force.map(|(energy, other)| (2.0 * energy * other.stiffness).sqrt());
         let formula = "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
         CodeValues::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
@@ -323,7 +323,7 @@ impl<'c> CodeCase<'c> {
     /// Limit of the distance in which bridge (0) or trolley (1) is braked to a stand.
     pub fn braking_distance(&self, body: usize) -> CodeValues {
         let limit =
-            self.found.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
+            self.measured.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
         CodeValues::default().add(
             OSHA,
             "(f)(4)(vii)",

@@ -20,7 +20,7 @@ pub struct CodeFactor {
 /// All factors of the codes, and the loads of one wheel by them; those that a formula refuses are left out.
 #[must_use]
 pub(super) fn factors(case: &CodeCase) -> Vec<CodeFactor> {
-    let (practice, measures) = (case.practice, case.measures);
+    let (practice, measures) = (case.practice, case.crane);
     let in_si = |speed: Option<f64>| speed.map(|speed| speed * case.metre);
     let phi5 = factor::phi5(practice.drives);
     let phi2 = case.phi2;
@@ -114,7 +114,7 @@ pub struct CodeComparison {
     /// Dimension of all its values.
     pub dimension: Dimension,
     /// Its value in the run, with the time of the extreme.
-    pub found: TimedValue,
+    pub measured: TimedValue,
     /// The values by codes.
     pub values: Vec<CodeValue>,
 }
@@ -126,7 +126,7 @@ impl CodeComparison {
         let values = self.values.iter().map(CodeValue::json);
         json!({
             "what": self.what,
-            "measured": { "value": self.found.value + 0.0, "time": self.found.time },
+            "measured": { "value": self.measured.value + 0.0, "time": self.measured.time },
             "codes": values.collect::<Vec<_>>(),
         })
     }
@@ -135,7 +135,7 @@ impl CodeComparison {
 /// All quantities that the run has, each with the values by codes.
 #[must_use]
 pub(super) fn comparisons(case: &CodeCase) -> Vec<CodeComparison> {
-    let found = case.found;
+    let found = case.measured;
     let list = [
         (
             "rail_factor",
@@ -198,7 +198,7 @@ pub(super) fn comparisons(case: &CodeCase) -> Vec<CodeComparison> {
         ),
     ];
     let kept = list.into_iter().filter_map(|(name, what, dimension, found, values)| {
-        Some(CodeComparison { name, what, dimension, found: found?, values: values.0 })
+        Some(CodeComparison { name, what, dimension, measured: found?, values: values.0 })
     });
     kept.collect()
 }

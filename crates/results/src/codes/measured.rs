@@ -3,7 +3,7 @@
 use practice::TimedValue;
 
 use super::crane::CraneData;
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, end_stops, root_body};
 

@@ -20,7 +20,7 @@ use serde_json::{Map, json};
 
 use self::formulas::CodeCase;
 use self::lists::{comparisons, factors};
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use foundations::Error;
@@ -29,7 +29,7 @@ use foundations::Error;
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeCheck {
     /// The crane as codes describe it.
-    pub measures: CraneData,
+    pub crane: CraneData,
     /// Factors of the codes, and wheel loads by them, whatever the run.
     pub factors: Vec<CodeFactor>,
     /// Each quantity of the run with its values by codes.
@@ -51,21 +51,17 @@ impl CodeCheck {
         let found = MeasuredCrane::new(scene, practice, cast, &measures, record);
         let case = CodeCase::new(scene, practice, &measures, &found);
         let (rows, factors) = (comparisons(&case), factors(&case));
-        Ok(Some(CodeCheck { measures, factors, rows }))
+        Ok(Some(CodeCheck { crane: measures, factors, rows }))
     }
 
     /// As the member `practice` of a run's summary.
     #[must_use]
     pub fn json(&self) -> serde_json::Value {
-        let crane: Map<_, _> = self
-            .measures
-            .list()
-            .into_iter()
-            .map(|(name, value, _)| (name.to_owned(), json!(value)))
-            .collect();
+        let crane: Map<_, _> =
+            self.crane.list().into_iter().map(|(name, value, _)| (name.to_owned(), json!(value))).collect();
         let rows: Map<_, _> = self.rows.iter().map(|row| (row.name.to_owned(), row.json())).collect();
         let factors: Map<_, _> =
             self.factors.iter().map(|factor| (factor.name.to_owned(), factor.value.json())).collect();
-        json!({ "factors": factors, "crane": crane, "approach_from_run": self.measures.approach_is_found, "values": rows })
+        json!({ "factors": factors, "crane": crane, "approach_from_run": self.crane.approach_is_found, "values": rows })
     }
 }

@@ -71,7 +71,7 @@ pub(super) fn moment_envelopes(
     let mut extremes = vec![[f64::NEG_INFINITY, f64::INFINITY]; places.len()];
     for row in spread(history.len(), TIMES) {
         let sample = history.sample(row);
-        let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
+        let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
         lines.at(loaded.on(row).iter(), acceleration, &mut now);
         for ((extreme, value), (_, _, sign)) in extremes.iter_mut().zip(&now).zip(&places) {
             let value = sign * value;

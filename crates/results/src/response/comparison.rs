@@ -4,7 +4,7 @@ use practice::{ResponseSettings, SineComponent, TimedValue, dominant, resample, 
 use serde_json::{Map, Value, json};
 
 use super::{Response, SceneMode};
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use crate::threads::parallel_map;
 
 /// Fraction of the run, at its end, over which the settled mean is taken.

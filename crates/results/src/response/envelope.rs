@@ -4,8 +4,8 @@
 use serde_json::{Map, Value, json};
 use sim::{BodyDof, Channel, History};
 
-use super::loaded::WheelLoadHistories;
-use crate::record::NamedColumns;
+use super::loaded::WheelLoadReader;
+use crate::columns::NamedColumns;
 use formats::scene::Scene;
 use formats::scene::columns::Column;
 use formats::scene::motion::SimulationInput;
@@ -46,7 +46,7 @@ impl ColumnEnvelope {
         scene: &Scene,
         cast: &SimulationInput,
         history: &History,
-        loads: &WheelLoadHistories,
+        loads: &WheelLoadReader,
         record: &NamedColumns,
     ) -> Result<Vec<ColumnEnvelope>, practice::Error> {
         if columns.is_empty() {
@@ -96,7 +96,7 @@ fn scene_at(
     scene: &Scene,
     cast: &SimulationInput,
     history: &History,
-    loads: &WheelLoadHistories,
+    loads: &WheelLoadReader,
 ) -> ColumnExtreme {
     let sample = history.sample(row);
     let of =

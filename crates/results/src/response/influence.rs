@@ -22,7 +22,7 @@ use fea::{CrossSection, Dof, Effect, FactoredFrame, Model};
 use nalgebra::{DMatrix, Vector3};
 use splines::{Axis, InfluenceLines, Probe};
 
-use super::loaded::WheelLoadHistory;
+use super::loaded::WheelLoad;
 use super::part_inertia::part_inertia;
 use formats::grid::effects::COMPONENTS;
 use formats::scene::columns;
@@ -139,7 +139,7 @@ impl ColumnInfluence {
     fn nonzero(&self) -> Vec<bool> {
         let n = self.columns.len();
         let mut units = vec![0.0_f64; n];
-        for cell in self.line().elements() {
+        for cell in self.rails().elements() {
             for fraction in [0.0, 0.3, 0.6, 1.0] {
                 let x = cell.x[0] + fraction * (cell.x[1] - cell.x[0]);
                 for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
@@ -201,19 +201,19 @@ impl ColumnInfluence {
 
     /// Number of degrees of freedom whose accelerations enter.
     #[must_use]
-    pub fn freedoms(&self) -> usize {
+    pub fn dofs(&self) -> usize {
         self.inertia.ncols()
     }
 
     /// Value of each column under the own weight.
     #[must_use]
-    pub fn dead(&self) -> &[f64] {
+    pub fn dead_load(&self) -> &[f64] {
         &self.dead
     }
 
     /// The rail elements.
     #[must_use]
-    pub fn line(&self) -> &Arc<splines::Rails> {
+    pub fn rails(&self) -> &Arc<splines::Rails> {
         self.effects.rails()
     }
 
@@ -221,7 +221,7 @@ impl ColumnInfluence {
     /// the structure resists all of the loads; those that it does not resist are left out.
     pub fn at<'l>(
         &self,
-        loads: impl Iterator<Item = &'l WheelLoadHistory>,
+        loads: impl Iterator<Item = &'l WheelLoad>,
         acceleration: &[f64],
         out: &mut [f64],
     ) -> bool {
@@ -359,7 +359,7 @@ fn inertia(
     built: &BuiltFoundation,
     solved: &SolvedModel,
 ) -> Result<DMatrix<f64>, fea::Error> {
-    match &built.motion {
+    match &built.basis {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
         Some(MotionBasis::Modes { frame, refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();

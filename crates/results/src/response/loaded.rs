@@ -9,7 +9,7 @@ use foundations::BuiltFoundation;
 
 /// The force of one wheel, or of one end stop, on its rail.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelLoadHistory {
+pub struct WheelLoad {
     /// Index of the structure.
     pub structure: usize,
     /// Rail within the structure.
@@ -23,7 +23,7 @@ pub struct WheelLoadHistory {
 /// Reads the loads on rails off the samples of a history.
 ///
 /// The force of a prescribed motion acts on no rail and is none of these loads.
-pub struct WheelLoadHistories {
+pub struct WheelLoadReader {
     wheels: Vec<Wheel>,
     stops: Vec<Stop>,
 }
@@ -44,10 +44,10 @@ struct Wheel {
     first: usize,
 }
 
-impl WheelLoadHistories {
+impl WheelLoadReader {
     /// Of every wheel of `cast`, in its order, and of the end stops of `scene` that stand on rails.
     #[must_use]
-    pub fn new(scene: &Scene, cast: &SimulationInput, history: &History) -> WheelLoadHistories {
+    pub fn new(scene: &Scene, cast: &SimulationInput, history: &History) -> WheelLoadReader {
         let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
         let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
@@ -69,24 +69,24 @@ impl WheelLoadHistories {
                 side: meeting.side,
             })
         });
-        WheelLoadHistories { wheels: wheels.collect(), stops: stops.collect() }
+        WheelLoadReader { wheels: wheels.collect(), stops: stops.collect() }
     }
 
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
     #[must_use]
-    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoadHistory> {
-        let mut loads: Vec<WheelLoadHistory> = self
+    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
+        let mut loads: Vec<WheelLoad> = self
             .wheels
             .iter()
             .map(|wheel| {
                 let [x, vertical, lateral, traction] = std::array::from_fn(|k| sample[wheel.first + k]);
                 let force = [traction, 0.0 - vertical, lateral];
-                WheelLoadHistory { structure: wheel.structure, rail: wheel.rail, x, force }
+                WheelLoad { structure: wheel.structure, rail: wheel.rail, x, force }
             })
             .collect();
         loads.extend(self.stops.iter().map(|stop| {
             let force = [stop.side * sample[stop.channel], 0.0, 0.0];
-            WheelLoadHistory { structure: stop.structure, rail: stop.rail, x: stop.x, force }
+            WheelLoad { structure: stop.structure, rail: stop.rail, x: stop.x, force }
         }));
         loads
     }
@@ -98,13 +98,13 @@ pub(super) struct LoadedStructure<'a> {
     /// Index of the structure in the scene.
     pub s: usize,
     pub history: &'a History,
-    pub loads: &'a WheelLoadHistories,
+    pub loads: &'a WheelLoadReader,
     pub built: &'a BuiltFoundation,
 }
 
 impl LoadedStructure<'_> {
     /// Loads on it at an output time.
-    pub fn on(&self, row: usize) -> Vec<WheelLoadHistory> {
+    pub fn on(&self, row: usize) -> Vec<WheelLoad> {
         let all = self.loads.at(self.history.sample(row)).into_iter();
         all.filter(|load| load.structure == self.s).collect()
     }
@@ -126,7 +126,7 @@ impl LoadedStructure<'_> {
     pub fn displacements(
         &self,
         probes: &[Probe],
-        on: &[WheelLoadHistory],
+        on: &[WheelLoad],
         row: usize,
     ) -> Result<Option<Vec<f64>>, Error> {
         let foundation = &self.built.foundation;
@@ -155,7 +155,7 @@ pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
 fn displacements(
     foundation: &Foundation,
     probes: &[Probe],
-    loads: &[WheelLoadHistory],
+    loads: &[WheelLoad],
     q: &[f64],
 ) -> Result<Vec<f64>, Error> {
     let mut out = vec![0.0; probes.len()];

@@ -19,7 +19,7 @@ pub use bending::Bending;
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
-pub use loaded::{WheelLoadHistories, WheelLoadHistory};
+pub use loaded::{WheelLoad, WheelLoadReader};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift, spans};
 
@@ -28,7 +28,7 @@ use serde_json::{Map, Value, json};
 use sim::{Channel, History};
 
 use crate::Error;
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{ColumnSelection, Origin, Scene};
@@ -81,7 +81,7 @@ pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<
 ///
 /// # Errors
 /// [`Error::Lines`] for a structure that does not stand.
-pub fn lines(
+pub fn influence_lines(
     scene: &Scene,
     built: &[BuiltFoundation],
     solved: &[Option<&SolvedModel>],
@@ -104,7 +104,7 @@ pub fn lines(
 }
 
 impl Response {
-    /// The response of a run, but for bending moments ([`Response::bend`]) and natural modes ([`SceneMode::all`]); adds the
+    /// The response of a run, but for bending moments ([`Response::add_bending`]) and natural modes ([`SceneMode::all`]); adds the
     /// columns of `lines` to `record`. `built`, `solved` and `lines` have one entry for each structure of `scene`.
     ///
     /// # Errors
@@ -118,7 +118,7 @@ impl Response {
         lines: &[Option<ColumnInfluence>],
         record: &mut NamedColumns,
     ) -> Result<Response, Error> {
-        let loads = WheelLoadHistories::new(scene, cast, history);
+        let loads = WheelLoadReader::new(scene, cast, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
             if let Some(lines) = lines {
@@ -144,7 +144,7 @@ impl Response {
         scene: &Scene,
         s: usize,
         history: &History,
-        loads: &WheelLoadHistories,
+        loads: &WheelLoadReader,
         lines: &ColumnInfluence,
         record: &mut NamedColumns,
     ) {
@@ -154,10 +154,10 @@ impl Response {
         let mut is_incomplete = false;
         for i in 0..history.len() {
             let sample = history.sample(i);
-            let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
+            let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
             let on = loads.at(sample);
             is_incomplete |= !lines.at(on.iter().filter(|load| load.structure == s), acceleration, &mut now);
-            let dead = lines.dead().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
+            let dead = lines.dead_load().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
             for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
                 column.push(value + dead);
             }
@@ -168,7 +168,7 @@ impl Response {
                 scene.structures[s].name
             ));
         }
-        self.dead.extend(lines.dead());
+        self.dead.extend(lines.dead_load());
         for (column, values) in lines.columns().iter().zip(values) {
             record.push(column.name.clone(), column.dimension, values);
             self.columns.push(column.clone());
@@ -180,7 +180,7 @@ impl Response {
     ///
     /// # Errors
     /// [`Error::Lines`] for a structure that does not stand.
-    pub fn bend(
+    pub fn add_bending(
         &mut self,
         scene: &Scene,
         cast: &SimulationInput,
@@ -188,7 +188,7 @@ impl Response {
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
     ) -> Result<(), Error> {
-        let loads = WheelLoadHistories::new(scene, cast, history);
+        let loads = WheelLoadReader::new(scene, cast, history);
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
             let is_known = built.foundation.dofs() == 0 || built.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };

@@ -29,7 +29,7 @@ pub struct SceneMode {
     /// The degrees of freedom with most of the kinetic energy, such as `ladle.Y + trolley.y`.
     pub name: String,
     /// Fraction of the kinetic energy of each degree of freedom, the largest first.
-    pub shares: Vec<(String, f64)>,
+    pub fractions: Vec<(String, f64)>,
 }
 
 impl SceneMode {
@@ -66,22 +66,22 @@ impl SceneMode {
     }
 
     fn new(scene: &Scene, mode: &NaturalMode) -> SceneMode {
-        let mut shares: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
+        let mut fractions: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
         for (body, own) in scene.bodies.iter().zip(&mode.fraction) {
             let words = if body.in_space {
                 ["X", "Y", "Z", "", "", ""]
             } else {
                 ["x", "y", "z", "roll", "yaw", "pitch"]
             };
-            shares
+            fractions
                 .extend(words.iter().zip(own).map(|(word, share)| (format!("{}.{word}", body.name), *share)));
         }
-        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-        shares.retain(|(_, share)| *share >= 0.01);
+        fractions.sort_by(|a, b| b.1.total_cmp(&a.1));
+        fractions.retain(|(_, share)| *share >= 0.01);
         let most = |(k, (_, share)): &(usize, &(String, f64))| *k == 0 || *share >= NAMED;
         let names: Vec<&str> =
-            shares.iter().enumerate().filter(most).map(|(_, (name, _))| name.as_str()).collect();
-        SceneMode { hz: mode.omega / TAU, name: names.join(" + "), shares }
+            fractions.iter().enumerate().filter(most).map(|(_, (name, _))| name.as_str()).collect();
+        SceneMode { hz: mode.omega / TAU, name: names.join(" + "), fractions }
     }
 
     /// The mode of `modes` whose frequency is nearest to `hz`, if it is within about 10 %.
@@ -95,7 +95,7 @@ impl SceneMode {
     #[must_use]
     pub fn json(&self) -> Value {
         let fractions: serde_json::Map<String, Value> =
-            self.shares.iter().map(|(name, share)| (name.clone(), json!(share))).collect();
+            self.fractions.iter().map(|(name, share)| (name.clone(), json!(share))).collect();
         json!({"hz": self.hz, "mode": self.name, "fractions": fractions})
     }
 }

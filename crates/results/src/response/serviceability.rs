@@ -10,7 +10,7 @@ use practice::cmaa;
 use serde_json::{Value, json};
 use splines::{Axis, Error, Probe};
 
-use super::loaded::{LoadedStructure, WheelLoadHistory, spread};
+use super::loaded::{LoadedStructure, WheelLoad, spread};
 use formats::scene::Origin;
 use formats::spec::{Form, Spec};
 use formats::units::{Dimension, Scale, Units};
@@ -52,7 +52,7 @@ impl Deflection {
 
     /// Whether the span over the deflection is at least `limit`.
     #[must_use]
-    pub fn keeps(&self, limit: f64) -> bool {
+    pub fn is_within(&self, limit: f64) -> bool {
         self.ratio().is_none_or(|ratio| ratio >= limit)
     }
 
@@ -69,7 +69,7 @@ impl Deflection {
             "x": self.x,
             "time": self.time,
             "span_over_deflection": self.ratio(),
-            "within": { "L/600": self.keeps(vertical), "L/400": self.keeps(lateral) },
+            "within": { "L/600": self.is_within(vertical), "L/400": self.is_within(lateral) },
         })
     }
 }
@@ -93,7 +93,7 @@ pub(super) fn deflections(
     else {
         return Ok(Vec::new());
     };
-    let all: Vec<Vec<WheelLoadHistory>> = (0..history.len()).map(|row| loaded.on(row)).collect();
+    let all: Vec<Vec<WheelLoad>> = (0..history.len()).map(|row| loaded.on(row)).collect();
     let lateral = all.iter().flatten().any(|load| load.force[2] != 0.0);
     let axes: &[(Axis, &'static str)] = match lateral {
         true => &[(Axis::Vertical, "vertical"), (Axis::Lateral, "lateral")],
@@ -106,7 +106,7 @@ pub(super) fn deflections(
             .map_or_else(|| spans(spec, &solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
         for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
             let [from, to] = span;
-            let inside = |load: &WheelLoadHistory| {
+            let inside = |load: &WheelLoad| {
                 load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
             };
             let rows: Vec<usize> = (0..all.len()).filter(|&i| all[i].iter().any(inside)).collect();
@@ -132,7 +132,7 @@ fn largest_deflection(
     none: Deflection,
     (rail, axis): (usize, Axis),
     places: &[f64],
-    (rows, all): (&[usize], &[Vec<WheelLoadHistory>]),
+    (rows, all): (&[usize], &[Vec<WheelLoad>]),
 ) -> Result<Deflection, Error> {
     let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
     let mut largest = none;
@@ -213,7 +213,7 @@ pub(super) fn drifts(
     if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
         return Ok(Vec::new());
     }
-    let all: Vec<(usize, Vec<WheelLoadHistory>)> =
+    let all: Vec<(usize, Vec<WheelLoad>)> =
         spread(history.len(), FRAME_TIMES).map(|row| (row, loaded.on(row))).collect();
     let is_pushed = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
     let mut found = Vec::new();

@@ -12,8 +12,8 @@ pub use spec::spec_warnings;
 
 use sim::Run;
 
-use crate::outcome::CaseResult;
-use crate::record::NamedColumns;
+use crate::case_result::CaseResult;
+use crate::columns::NamedColumns;
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Analysis, Foundation, Origin, Scene, SceneRail, TableInterpolation, root_body};
 use formats::spec::Form;

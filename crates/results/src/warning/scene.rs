@@ -1,7 +1,7 @@
 //! Values of a scene that are probably wrong: weights given as masses, bodies that rotate without inertia, structures that
 //! stand beside the body below them, ropes beyond their strength.
 
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::{Analysis, Body, Origin, Scene, root_body};
 use formats::text::number::number;
 use formats::text::number::rounded;

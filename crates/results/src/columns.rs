@@ -21,7 +21,7 @@ pub struct HistoryColumn {
 ///
 /// ```
 /// use formats::units::Dimension;
-/// use results::record::{NamedColumns, peak};
+/// use results::columns::{NamedColumns, peak};
 ///
 /// let mut record = NamedColumns::default();
 /// record.push("time", Dimension::NUMBER, vec![0.0, 0.5, 1.0]);

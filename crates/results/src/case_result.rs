@@ -4,8 +4,8 @@ use formats::scene::motion::SimulationInput;
 use sim::Run;
 
 use crate::codes::CodeCheck;
+use crate::columns::NamedColumns;
 use crate::fatigue::FatigueResult;
-use crate::record::NamedColumns;
 use crate::response::{ColumnInfluence, Response};
 
 /// The result of one case: its run, and what is computed from it.
@@ -13,7 +13,7 @@ use crate::response::{ColumnInfluence, Response};
 /// ```
 /// use formats::scene::Document;
 /// use foundations::{distinct_specs, solve_specs};
-/// use results::outcome::CaseResult;
+/// use results::case_result::CaseResult;
 ///
 /// let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
 /// let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
