@@ -22,7 +22,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
     for (name, value, dimension) in first.crane.list() {
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
     }
-    if first.crane.approach_is_found {
+    if first.crane.approach_is_from_run {
         section = section.paragraph("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
     }
     let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
