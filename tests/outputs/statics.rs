@@ -71,7 +71,7 @@ fn weight_of_the_structure_is_told_and_added_where_it_is_asked_for() {
         let name = format!("girder.support{support}.vertical");
         let response = &ran.outcomes[0].response;
         let at = response.columns.iter().position(|column| column.name == name).expect("a column");
-        assert!((response.dead[at] / (share * weight) - 1.0).abs() < 1e-10);
+        assert!((response.dead_load[at] / (share * weight) - 1.0).abs() < 1e-10);
         for (with, without) in ran.column(1, &name).iter().zip(ran.column(0, &name)) {
             assert!((with - without - share * weight).abs() < 1e-9 * weight);
         }

@@ -1,9 +1,9 @@
 //! One scene, from checked files to named columns.
 //!
-//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. An [`case_result::CaseResult`] has the run, its columns
-//! ([`columns`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of codes ([`codes`]).
-//! Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are made of it. Nothing here knows a command
-//! line, a progress bar, a figure or an exit status.
+//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. A [`case_result::CaseResult`] contains the run, its
+//! columns ([`columns`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of codes
+//! ([`codes`]). Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are derived from it. The crate does not
+//! depend on a command line, a progress bar, figures or exit statuses.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -23,7 +23,8 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, warning, summary, cases
+//! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, warning,
+//! summary, cases
 
 pub mod case_result;
 pub mod cases;

@@ -126,7 +126,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     columns.extend(scene.bodies.iter().map(|body| TableColumn::new(body.name.as_str(), &length)));
     columns.push(TableColumn::new("own weight", ""));
     let mut rows = Vec::new();
-    let own = response.columns.iter().zip(&response.dead);
+    let own = response.columns.iter().zip(&response.dead_load);
     for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
         let unit = TableCell::from(scene.units.label(column.dimension));
         let range = envelope.max.value - envelope.min.value;

@@ -1,4 +1,4 @@
-//! Loads on rails at one output time, by wheels and end stops, and the displacements of the rails under them.
+//! Loads on rails by wheels and end stops at one output time, and the displacements of the rails under these loads.
 
 use sim::{Channel, Foundation, History};
 use splines::{Axis, Error, Influence, Probe};
@@ -16,13 +16,13 @@ pub struct WheelLoad {
     pub rail: usize,
     /// Rail coordinate.
     pub x: f64,
-    /// Along +x, up, +z of the rail.
+    /// Components along +x, up and along +z of the rail.
     pub force: [f64; 3],
 }
 
-/// Reads the loads on rails off the samples of a history.
+/// Reads the loads on rails from the samples of a history.
 ///
-/// The force of a prescribed motion acts on no rail and is none of these loads.
+/// The force of a prescribed motion does not act on a rail and is not included.
 pub struct WheelLoadReader {
     wheels: Vec<Wheel>,
     stops: Vec<Stop>,
@@ -33,23 +33,23 @@ struct Stop {
     structure: usize,
     rail: usize,
     x: f64,
-    /// 1 where the body comes from below x.
+    /// 1 where the body approaches from smaller x, -1 from larger x.
     side: f64,
 }
 
 struct Wheel {
     structure: usize,
     rail: usize,
-    /// First of four consecutive channels: place, vertical, lateral, traction.
+    /// First of four consecutive channels: position, vertical, lateral, traction.
     first: usize,
 }
 
 impl WheelLoadReader {
-    /// Of every wheel of `cast`, in its order, and of the end stops of `scene` that stand on rails.
+    /// A reader for every wheel of `input`, in its order, and for the end stops of `scene` that stand on rails.
     #[must_use]
-    pub fn new(scene: &Scene, cast: &SimulationInput, history: &History) -> WheelLoadReader {
+    pub fn new(scene: &Scene, input: &SimulationInput, history: &History) -> WheelLoadReader {
         let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
-        let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
+        let wheels = input.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
             Wheel {
                 structure: rail.structure,
@@ -92,7 +92,7 @@ impl WheelLoadReader {
     }
 }
 
-/// A structure under the wheels of a run.
+/// A structure with the wheel loads of a run.
 pub(super) struct LoadedStructure<'a> {
     pub scene: &'a Scene,
     /// Index of the structure in the scene.
@@ -103,13 +103,13 @@ pub(super) struct LoadedStructure<'a> {
 }
 
 impl LoadedStructure<'_> {
-    /// Loads on it at an output time.
+    /// Loads on the structure at an output time.
     pub fn on(&self, row: usize) -> Vec<WheelLoad> {
         let all = self.loads.at(self.history.sample(row)).into_iter();
         all.filter(|load| load.structure == self.s).collect()
     }
 
-    /// Whether its displacements can be computed: it is flexible, and its degrees of freedom, if any, were recorded.
+    /// Whether the displacements can be computed: the structure is flexible, and its degrees of freedom, if any, were recorded.
     pub fn is_known(&self) -> bool {
         let foundation = &self.built.foundation;
         match foundation.structure {
@@ -118,8 +118,8 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Displacements at the probes at output time `row`, under the loads `on` it at that time; `None` where a probe has a
-    /// direction that the structure does not resist.
+    /// Displacements at the probes at output time `row` under the loads `on` the structure at that time; `None` if the
+    /// structure is unrestrained in the direction of a probe.
     ///
     /// # Errors
     /// [`Error::OffRail`] for a place beyond a rail.
@@ -139,7 +139,7 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Channel of its first degree of freedom.
+    /// Channel of the first degree of freedom of the structure.
     fn start(&self) -> Option<usize> {
         self.history.channels().iter().position(|c| *c == Channel::Coordinate(self.s, 0))
     }
@@ -151,7 +151,7 @@ pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..chosen).map(move |k| k * (count - 1) / (chosen - 1).max(1))
 }
 
-/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shapes.
+/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shape functions.
 fn displacements(
     foundation: &Foundation,
     probes: &[Probe],

@@ -1,8 +1,8 @@
 //! The response of structures in a run: reactions, internal forces and stresses, their envelopes, the deflections of rails,
 //! uplift of wheels, natural modes.
 //!
-//! Everything is computed from the history after the run. Reactions and internal forces are influence lines times wheel
-//! forces, less the inertia of the structure ([`ColumnInfluence`]).
+//! All values are computed from the history after the run. Reactions and internal forces are the products of influence lines
+//! and wheel forces, minus the effects of the inertia of the structure ([`ColumnInfluence`]).
 //!
 //! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one, comparison.
 
@@ -34,16 +34,17 @@ use formats::scene::motion::SimulationInput;
 use formats::scene::{ColumnSelection, Origin, Scene};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
-/// The response of a run's structures, beside the columns that it adds to the run's record.
+/// The response of the structures in a run, in addition to the columns in its record.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
     /// The columns of reactions, internal forces and stresses in the record.
     pub columns: Vec<Column>,
-    /// Value of each column under the structures' own weight; part of the columns where the scene's output asks for it.
-    pub dead: Vec<f64>,
+    /// Value of each column under the dead load of the structures. It is included in the columns where the output of the scene
+    /// requests it.
+    pub dead_load: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<ColumnEnvelope>,
-    /// Extremes of the bending moments along the rails, where they were asked for.
+    /// Extremes of the bending moments along the rails, if requested.
     pub bending: Vec<Bending>,
     /// Largest deflection of each span.
     pub deflections: Vec<Deflection>,
@@ -55,7 +56,7 @@ pub struct Response {
     pub sways: Vec<Sway>,
     /// Natural modes of the scene near the end of the run.
     pub modes: Vec<SceneMode>,
-    /// What the columns leave out, and why.
+    /// Notes on contributions that the columns neglect.
     pub notes: Vec<String>,
 }
 
@@ -76,11 +77,11 @@ pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<
         .collect()
 }
 
-/// Influence lines of every structure of `scene` for the columns that its output asks for; `None` for a structure without
-/// such columns. `built` and `solved` have one entry for each structure.
+/// Influence lines of every structure of `scene` for the columns that its output requests; `None` for a structure without
+/// such columns. `built` and `solved` have one entry per structure.
 ///
 /// # Errors
-/// [`Error::Lines`] for a structure that does not stand.
+/// [`Error::Lines`] for a structure that is a mechanism.
 pub fn influence_lines(
     scene: &Scene,
     built: &[BuiltFoundation],
@@ -104,28 +105,28 @@ pub fn influence_lines(
 }
 
 impl Response {
-    /// The response of a run, but for bending moments ([`Response::add_bending`]) and natural modes ([`SceneMode::all`]); adds the
-    /// columns of `lines` to `record`. `built`, `solved` and `lines` have one entry for each structure of `scene`.
+    /// The response of a run without bending moments ([`Response::add_bending`]) and natural modes ([`SceneMode::all`]). The
+    /// columns of `lines` are added to `record`. `built`, `solved` and `lines` have one entry per structure of `scene`.
     ///
     /// # Errors
     /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
     pub fn new(
         scene: &Scene,
-        cast: &SimulationInput,
+        input: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
         lines: &[Option<ColumnInfluence>],
         record: &mut NamedColumns,
     ) -> Result<Response, Error> {
-        let loads = WheelLoadReader::new(scene, cast, history);
+        let loads = WheelLoadReader::new(scene, input, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
             if let Some(lines) = lines {
                 response.add_columns(scene, s, history, &loads, lines, record);
             }
         }
-        response.envelopes = ColumnEnvelope::all(&response.columns, scene, cast, history, &loads, record)
+        response.envelopes = ColumnEnvelope::all(&response.columns, scene, input, history, &loads, record)
             .map_err(Error::Envelope)?;
         for (s, structure) in scene.structures.iter().enumerate() {
             let failed = |source| Error::Rails { structure: structure.name.clone(), source };
@@ -133,7 +134,7 @@ impl Response {
             response.deflections.extend(serviceability::deflections(&loaded, solved[s]).map_err(failed)?);
             response.drifts.extend(serviceability::drifts(&loaded, solved[s]).map_err(failed)?);
         }
-        response.uplifts = envelope::uplifts(cast, record);
+        response.uplifts = envelope::uplifts(input, record);
         response.sways = envelope::sways(scene, record);
         Ok(response)
     }
@@ -164,31 +165,31 @@ impl Response {
         }
         if is_incomplete {
             self.notes.push(format!(
-                "{}: wheel forces in directions that it does not resist are left out of its reactions",
+                "{}: wheel forces in directions in which the structure is unrestrained are neglected in its reactions",
                 scene.structures[s].name
             ));
         }
-        self.dead.extend(lines.dead_load());
+        self.dead_load.extend(lines.dead_load());
         for (column, values) in lines.columns().iter().zip(values) {
             record.push(column.name.clone(), column.dimension, values);
             self.columns.push(column.clone());
         }
     }
 
-    /// Adds the envelopes of the bending moments along the rails, for figures; of those structures that have a beam spec
-    /// and whose degrees of freedom, if any, were recorded.
+    /// Adds the envelopes of the bending moments along the rails for those structures that have a beam spec and whose degrees
+    /// of freedom, if any, were recorded.
     ///
     /// # Errors
-    /// [`Error::Lines`] for a structure that does not stand.
+    /// [`Error::Lines`] for a structure that is a mechanism.
     pub fn add_bending(
         &mut self,
         scene: &Scene,
-        cast: &SimulationInput,
+        input: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
     ) -> Result<(), Error> {
-        let loads = WheelLoadReader::new(scene, cast, history);
+        let loads = WheelLoadReader::new(scene, input, history);
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
             let is_known = built.foundation.dofs() == 0 || built.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
@@ -205,7 +206,7 @@ impl Response {
         let mut out = Map::new();
         if !self.columns.is_empty() {
             let dead =
-                self.columns.iter().zip(&self.dead).map(|(c, dead)| (c.name.clone(), json!(dead + 0.0)));
+                self.columns.iter().zip(&self.dead_load).map(|(c, dead)| (c.name.clone(), json!(dead + 0.0)));
             out.insert("dead_load".into(), Value::Object(dead.collect()));
             let all = self.envelopes.iter().map(|envelope| (envelope.column.clone(), envelope.json()));
             out.insert("envelopes".into(), Value::Object(all.collect()));
