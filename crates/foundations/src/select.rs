@@ -227,7 +227,9 @@ pub fn selection_reason(choice: &Choice) -> String {
     let chosen = fidelity_name(choice.fidelity);
     let mut text = match (choice.reason, choice.estimate) {
         (Reason::NoMass, _) => {
-            format!("auto: {chosen}; the mass is not known, so the error of neglecting it is not known either")
+            format!(
+                "auto: {chosen}; the mass is not known, so the error of neglecting it is not known either"
+            )
         }
         (Reason::QuasiStatic, _) => format!("auto: {chosen}; a quasi-static sweep has no inertia"),
         (Reason::Predicted, estimate) => format!(

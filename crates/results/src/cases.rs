@@ -1,8 +1,8 @@
 //! The cases of a scene (the scene itself and its comparisons), each simulated on its own foundations.
 //!
 //! For each case the simulation input is made from the scene, foundations are chosen and the scene is run
-//! ([`foundations::select_and_run`]), and the history is converted to named columns. Reactions, envelopes, natural modes,
-//! values of codes and fatigue are then computed from these columns.
+//! ([`foundations::select_and_run`]), and the history is converted to named columns. Reactions, envelopes, natural
+//! modes, values of codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -21,8 +21,8 @@ use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
 /// Runs every case, on at most `threads` threads (`None`: as many as the machine has). `progress` is called, from any
-/// thread, with the fraction of all simulated time that is done, 0 to 1. `known` has the solutions of the specs of all
-/// cases.
+/// thread, with the fraction of all simulated time that is done, 0 to 1. `known` has the solutions of the specs of
+/// all cases.
 ///
 /// ```
 /// use formats::scene::Document;
@@ -61,7 +61,8 @@ pub fn simulate(
     outcomes.into_iter().collect()
 }
 
-/// Largest number of values of the degrees of freedom of a structure that a history stores where no column needs them.
+/// Largest number of values of the degrees of freedom of a structure that a history stores where no column needs
+/// them.
 const MAX_RECORDED_VALUES: f64 = 1e7;
 
 /// Criterion for storing the degrees of freedom of a structure (its index, its foundation) in the history of a run of

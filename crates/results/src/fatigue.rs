@@ -1,9 +1,9 @@
 //! Fatigue: cycles of the stress histories of a run, and their damage.
 //!
-//! For each stress point with a detail category, cycles are counted by the rainflow method ([`practice::rainflow()`]). The
-//! damage of each cycle follows from the S-N curve of the detail in the scene's unit of stress, and the damages are added by
-//! Miner's rule. With the damage D of one run and the reference range S_ref at N_ref = 2 million cycles, the equivalent range
-//! of a single cycle is S_ref (D N_ref)^(1/3).
+//! For each stress point with a detail category, cycles are counted by the rainflow method
+//! ([`practice::rainflow()`]). The damage of each cycle follows from the S-N curve of the detail in the scene's unit
+//! of stress, and the damages are added by Miner's rule. With the damage D of one run and the reference range S_ref
+//! at N_ref = 2 million cycles, the equivalent range of a single cycle is S_ref (D N_ref)^(1/3).
 
 use practice::fatigue::Stress;
 use practice::{Cycle, Damage, Strength, aisc, rainflow};

@@ -1,5 +1,5 @@
-//! Positions of bodies and wheels at one row of the columns, in the frame of the tracks on the ground: x along the track, y
-//! up from the unloaded rails, z to the right.
+//! Positions of bodies and wheels at one row of the columns, in the frame of the tracks on the ground: x along the
+//! track, y up from the unloaded rails, z to the right.
 
 use sim::{CarriedRail, Carrier};
 
@@ -36,8 +36,8 @@ impl<'s> ScenePositions<'s> {
         Some((carrier.body, *carrier.rails.get(own.rail)?))
     }
 
-    /// The carrier of a body and the line along which the body moves relative to it, the mean of its rails; `None` for a body
-    /// on the ground.
+    /// The carrier of a body and the line along which the body moves relative to it, the mean of its rails; `None`
+    /// for a body on the ground.
     #[must_use]
     pub fn track(&self, body: usize) -> Option<(usize, CarriedRail)> {
         let rails = &self.scene.bodies[body].track;
@@ -68,7 +68,8 @@ impl<'s> ScenePositions<'s> {
         [0, 1, 2].map(|k| base[k] + line.origin[k] + line.along[k] * moved[0] + own[k])
     }
 
-    /// Transforms a vector from the axes of a body to the axes of the tracks on the ground; small rotations are neglected.
+    /// Transforms a vector from the axes of a body to the axes of the tracks on the ground; small rotations are
+    /// neglected.
     #[must_use]
     pub fn rotated(&self, body: usize, [x, y, z]: [f64; 3]) -> [f64; 3] {
         match self.track(root_body(self.scene, body).0) {

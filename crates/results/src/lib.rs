@@ -1,9 +1,9 @@
 //! One scene, from checked files to named columns.
 //!
-//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. A [`case_result::CaseResult`] contains the run, its
-//! columns ([`columns`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of codes
-//! ([`codes`]). Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are derived from it. The crate does not
-//! depend on a command line, a progress bar, figures or exit statuses.
+//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. A [`case_result::CaseResult`] contains the
+//! run, its columns ([`columns`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of
+//! codes ([`codes`]). Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are derived from it. The
+//! crate does not depend on a command line, a progress bar, figures or exit statuses.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -11,8 +11,8 @@ use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
 use formats::units::Dimension;
 
-/// The summary of the cases of a document as JSON, with the run of the scene itself first; `comparison` has the statistics of its runs
-/// ([`crate::response::RunComparison::json`]).
+/// The summary of the cases of a document as JSON, with the run of the scene itself first; `comparison` has the
+/// statistics of its runs ([`crate::response::RunComparison::json`]).
 #[must_use]
 pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
     let scene = document.scene();

@@ -2,8 +2,8 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine has) and
-/// returns the results in the order of the items. They do not depend on the number of threads.
+/// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine
+/// has) and returns the results in the order of the items. They do not depend on the number of threads.
 ///
 /// ```
 /// use results::threads::parallel_map;

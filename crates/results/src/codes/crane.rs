@@ -1,4 +1,5 @@
-//! Data of a crane as design codes define them: weights, span, approach, wheels and speeds, from the scene and its run.
+//! Data of a crane as design codes define them: weights, span, approach, wheels and speeds, from the scene and its
+//! run.
 
 use sim::Action;
 
@@ -63,8 +64,8 @@ pub(super) fn to_si(units: Units) -> Scale {
 type Roots = [(usize, [f64; 3])];
 
 impl CraneData {
-    /// The data of the crane that `practice` names. The approach of the trolley is taken from the columns `record` where
-    /// the scene does not specify it.
+    /// The data of the crane that `practice` names. The approach of the trolley is taken from the columns `record`
+    /// where the scene does not specify it.
     ///
     /// # Errors
     /// A spec that no model can be made of.
@@ -135,8 +136,8 @@ impl CraneData {
         self.wheel_distances.last().copied().unwrap_or_default()
     }
 
-    /// Static vertical forces of both rails with trolley and load at the lateral coordinate `z`, by equilibrium of moments;
-    /// without trolley and load for `None`.
+    /// Static vertical forces of both rails with trolley and load at the lateral coordinate `z`, by equilibrium of
+    /// moments; without trolley and load for `None`.
     #[must_use]
     pub fn static_rail_forces(&self, z: Option<f64>) -> [f64; 2] {
         let [first, second] = self.rail_positions;
@@ -170,7 +171,8 @@ fn fixed_weights(scene: &Scene, crane: usize, layout: &ScenePositions, roots: &R
     weights
 }
 
-/// Lateral coordinate of the trolley on the bridge as a linear function of its rail coordinate: value at 0, and slope.
+/// Lateral coordinate of the trolley on the bridge as a linear function of its rail coordinate: value at 0, and
+/// slope.
 fn trolley_line(scene: &Scene, trolley: usize, layout: &ScenePositions) -> Option<[f64; 2]> {
     let (_, line) = layout.track(trolley)?;
     let [_, _, offset] = layout.rotated(trolley, scene.bodies[trolley].cg);
@@ -212,7 +214,8 @@ fn commanded_speed(scene: &Scene, body: usize) -> Option<f64> {
     drive.speed.breaks().map(|t| drive.speed.at(t).abs()).reduce(f64::max)
 }
 
-/// Rated speeds of bridge, trolley and hoist, or the largest speeds commanded to drives and hoists where none are specified.
+/// Rated speeds of bridge, trolley and hoist, or the largest speeds commanded to drives and hoists where none are
+/// specified.
 fn speeds(scene: &Scene, practice: &Practice) -> [Option<f64>; 3] {
     let switched =
         scene.events.iter().flat_map(|event| &event.rule.actions).filter_map(|action| match action {

@@ -95,7 +95,8 @@ impl<'c> CodeCase<'c> {
         }
     }
 
-    /// Near wheel load with the factors `dead` on the dead weight and `hoist` on the load, divided by that without factors.
+    /// Near wheel load with the factors `dead` on the dead weight and `hoist` on the load, divided by that without
+    /// factors.
     fn load_factor(&self, dead: f64, hoist: f64) -> Option<f64> {
         let full = self.full?.near;
         let factored = self.crane.model.wheel_loads(dead, hoist).ok()?.near;

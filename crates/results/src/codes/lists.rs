@@ -1,5 +1,5 @@
-//! The two lists of a check: factors of the codes, which do not depend on the run, and measured quantities with the values by
-//! codes.
+//! The two lists of a check: factors of the codes, which do not depend on the run, and measured quantities with the
+//! values by codes.
 
 use practice::{TimedValue, aist, buffer, cmaa, factor};
 use serde_json::json;

@@ -24,8 +24,8 @@ pub struct MeasuredCrane {
     pub rail: Option<TimedValue>,
     /// The same ratio for one wheel.
     pub wheel: Option<TimedValue>,
-    /// Largest and smallest ratio of (force of the trolley on the bridge minus the weight of the trolley) to the lifted
-    /// load.
+    /// Largest and smallest ratio of (force of the trolley on the bridge minus the weight of the trolley) to the
+    /// lifted load.
     pub load: [Option<TimedValue>; 2],
     /// Largest magnitude of the lateral force of all wheels together.
     pub lateral: Option<TimedValue>,
@@ -117,8 +117,8 @@ impl MeasuredCrane {
         raise(&mut self.lateral, lateral.abs(), t);
     }
 
-    /// Adds the ratio of the force of the lifted load to its weight at time `t`, from the vertical `force` of the wheels of
-    /// the trolley.
+    /// Adds the ratio of the force of the lifted load to its weight at time `t`, from the vertical `force` of the
+    /// wheels of the trolley.
     fn add_load_factor(&mut self, crane: &CraneData, force: f64, t: f64) {
         let factor = (force - crane.model.trolley) / crane.model.lifted;
         raise(&mut self.load[0], factor, t);

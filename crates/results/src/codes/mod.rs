@@ -1,9 +1,9 @@
-//! Comparison of a run with design codes: values of EN 1991-3, CMAA 70, AIST TR-13, FEM and OSHA for the crane of a scene,
-//! and the same quantities measured in its run.
+//! Comparison of a run with design codes: values of EN 1991-3, CMAA 70, AIST TR-13, FEM and OSHA for the crane of a
+//! scene, and the same quantities measured in its run.
 //!
-//! The crane is reduced to the data that formulas of codes need ([`CraneData`]: weights, span, approach, wheels, speeds). The
-//! quantities for which codes have values are measured in the columns of the run ([`MeasuredCrane`]). The formulas are
-//! evaluated, and both values are listed.
+//! The crane is reduced to the data that formulas of codes need ([`CraneData`]: weights, span, approach, wheels,
+//! speeds). The quantities for which codes have values are measured in the columns of the run ([`MeasuredCrane`]).
+//! The formulas are evaluated, and both values are listed.
 //!
 //! Files, lowest first: crane, measured, formulas, lists, this one.
 
@@ -63,6 +63,7 @@ impl CodeCheck {
         let rows: Map<_, _> = self.rows.iter().map(|row| (row.name.to_owned(), row.json())).collect();
         let factors: Map<_, _> =
             self.factors.iter().map(|factor| (factor.name.to_owned(), factor.value.json())).collect();
-        json!({ "factors": factors, "crane": crane, "approach_from_run": self.crane.approach_is_from_run, "values": rows })
+        let approach_is_from_run = self.crane.approach_is_from_run;
+        json!({ "factors": factors, "crane": crane, "approach_from_run": approach_is_from_run, "values": rows })
     }
 }

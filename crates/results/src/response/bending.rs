@@ -28,11 +28,12 @@ pub struct Bending {
     pub rows: Vec<[f64; 3]>,
 }
 
-/// The envelopes of every rail of the structure, without dead load; none for a structure with more than 100 rail elements.
+/// The envelopes of every rail of the structure, without dead load; none for a structure with more than 100 rail
+/// elements.
 ///
-/// About 192 sections of the members under each rail are chosen. Their bending moments are computed from influence lines and
-/// inertia like those of columns ([`ColumnInfluence`]), at up to 512 evenly distributed output times. Rails whose moments are
-/// zero throughout are omitted.
+/// About 192 sections of the members under each rail are chosen. Their bending moments are computed from influence
+/// lines and inertia like those of columns ([`ColumnInfluence`]), at up to 512 evenly distributed output times. Rails
+/// whose moments are zero throughout are omitted.
 ///
 /// # Errors
 /// The errors of the frame solver.
@@ -90,8 +91,8 @@ pub(super) fn moment_envelopes(
     Ok(out)
 }
 
-/// The component of the bending moment of a member in its vertical plane, and the sign of a sagging moment; `None` for a
-/// member steeper than about 45 degrees.
+/// The component of the bending moment of a member in its vertical plane, and the sign of a sagging moment; `None`
+/// for a member steeper than about 45 degrees.
 fn sagging(model: &Model, member: usize) -> Option<(ForceComponent, f64)> {
     let member = model.members.get(member)?;
     let end = |k: usize| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]);

@@ -38,8 +38,8 @@ pub struct ColumnStatistics {
     pub waves: Vec<SineComponent>,
 }
 
-/// Statistics of several runs: of every reaction, internal force and stress, and of the sums of each rail's vertical and
-/// lateral wheel forces.
+/// Statistics of several runs: of every reaction, internal force and stress, and of the sums of each rail's vertical
+/// and lateral wheel forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunComparison {
     rows: Vec<Row>,
@@ -56,8 +56,8 @@ struct Row {
 }
 
 impl RunComparison {
-    /// The statistics of `runs` (label, record, response) for the columns of the first, on at most `threads` threads; empty
-    /// for a single run.
+    /// The statistics of `runs` (label, record, response) for the columns of the first, on at most `threads` threads;
+    /// empty for a single run.
     #[must_use]
     pub fn new(runs: &[(&str, &NamedColumns, &Response)], threads: Option<u16>) -> RunComparison {
         let [(_, record, first), _, ..] = runs else { return RunComparison::default() };
@@ -101,7 +101,8 @@ impl RunComparison {
     }
 }
 
-/// For each rail, the names of the columns of the sums of its wheel forces: vertical, then lateral where there is one.
+/// For each rail, the names of the columns of the sums of its wheel forces: vertical, then lateral where there is
+/// one.
 pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
     let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
     let of = |rail: &str| {
@@ -170,9 +171,9 @@ impl ColumnStatistics {
 
 /// Up to [`MAX_OSCILLATIONS`] oscillations of a history in the frequency `band`, largest amplitude first.
 ///
-/// The strongest oscillation of the band is found. The frequencies within the ratio [`MIN_RATIO`] of it are removed, which
-/// divides the band in two. The search continues with the strongest oscillation of all remaining bands and ends when its
-/// amplitude is below the fraction [`MIN_AMPLITUDE`] of the first.
+/// The strongest oscillation of the band is found. The frequencies within the ratio [`MIN_RATIO`] of it are removed,
+/// which divides the band in two. The search continues with the strongest oscillation of all remaining bands and ends
+/// when its amplitude is below the fraction [`MIN_AMPLITUDE`] of the first.
 fn oscillations(values: &[f64], step: f64, band: [f64; 2]) -> Vec<SineComponent> {
     let (mut found, mut bands) = (Vec::<SineComponent>::new(), vec![band]);
     let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();

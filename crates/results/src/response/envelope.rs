@@ -1,5 +1,5 @@
-//! Extremes of a run: envelopes of columns with the state of the scene at each extreme, ranges of bodies in space, and
-//! intervals in which wheels are off their rails.
+//! Extremes of a run: envelopes of columns with the state of the scene at each extreme, ranges of bodies in space,
+//! and intervals in which wheels are off their rails.
 
 use serde_json::{Map, Value, json};
 use sim::{BodyDof, Channel, History};

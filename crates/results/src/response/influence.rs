@@ -1,10 +1,11 @@
-//! Influence lines of the columns of a structure: reactions, internal forces and stresses as linear functions of wheel
-//! forces, accelerations and dead load.
+//! Influence lines of the columns of a structure: reactions, internal forces and stresses as linear functions of
+//! wheel forces, accelerations and dead load.
 //!
-//! A column is a weighted sum of effects of the frame: a reaction may be the sum of several supports and springs at a point,
-//! and a stress is the sum of internal forces divided by section properties. The effects of unit wheel forces are exact
-//! influence lines of the FE model. By d'Alembert's principle the inertia forces of the structure are loads like those of
-//! the wheels. Under wheel forces F, accelerations q'' of the degrees of freedom and gravity g the effects are
+//! A column is a weighted sum of effects of the frame: a reaction may be the sum of several supports and springs at a
+//! point, and a stress is the sum of internal forces divided by section properties. The effects of unit wheel forces
+//! are exact influence lines of the FE model. By d'Alembert's principle the inertia forces of the structure are loads
+//! like those of the wheels. Under wheel forces F, accelerations q'' of the degrees of freedom and gravity g the
+//! effects are
 //!
 //! ```text
 //! E = A F - S q'' + E_0
@@ -12,8 +13,9 @@
 //!
 //! 1. Effects and their columns are listed from the spec ([`ColumnInfluence::new`]).
 //! 2. A: influence lines of the effects, evaluated at the wheels at every output time ([`ColumnInfluence::at`]).
-//! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes ([`fea::FactoredFrame::inertial`]) or
-//!    by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit acceleration upwards of the whole mass.
+//! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes
+//!    ([`fea::FactoredFrame::inertial`]) or by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit
+//!    acceleration upwards of the whole mass.
 //! 4. Columns that are zero under every load, weight and inertia force are dropped ([`ColumnInfluence::nonzero`]).
 
 use std::sync::Arc;
@@ -39,14 +41,14 @@ const ROUNDING: f64 = 1e-12;
 /// E = A F - S q'' + E_0
 ///
 /// A: influence lines of the exact structure; F: wheel forces; q'': accelerations of the degrees of freedom of the
-/// foundation; S: effects of the inertia forces of their motions; E_0: effects of the dead load. Damping forces inside the
-/// structure are included: the sum of all reactions equals the sum of the wheel forces minus the rate of change of the
-/// momentum of the structure.
+/// foundation; S: effects of the inertia forces of their motions; E_0: effects of the dead load. Damping forces
+/// inside the structure are included: the sum of all reactions equals the sum of the wheel forces minus the rate of
+/// change of the momentum of the structure.
 pub struct ColumnInfluence {
     columns: Vec<Column>,
     effects: InfluenceLines,
-    /// Column and factor of each effect. The springs and supports of one degree of freedom of a point form one column, and a
-    /// stress is a sum of internal forces.
+    /// Column and factor of each effect. The springs and supports of one degree of freedom of a point form one
+    /// column, and a stress is a sum of internal forces.
     terms: Vec<ColumnTerm>,
     inertia: DMatrix<f64>,
     dead: Vec<f64>,
@@ -62,8 +64,8 @@ pub(super) struct ColumnTerm {
 }
 
 impl ColumnInfluence {
-    /// The influence lines of those columns of structure `name` for which `wanted` (kind, name) is true; `None` if there are
-    /// none. `built` has the degrees of freedom; `gravity` is the acceleration of gravity of the scene.
+    /// The influence lines of those columns of structure `name` for which `wanted` (kind, name) is true; `None` if
+    /// there are none. `built` has the degrees of freedom; `gravity` is the acceleration of gravity of the scene.
     ///
     /// # Errors
     /// The errors of the frame solver.
@@ -96,7 +98,8 @@ impl ColumnInfluence {
         Ok(Some(out.only(&nonzero, model, &frame, &effects)?))
     }
 
-    /// The influence lines of `columns`. Each column is the weighted sum of the `effects` whose entry in `terms` refers to it.
+    /// The influence lines of `columns`. Each column is the weighted sum of the `effects` whose entry in `terms`
+    /// refers to it.
     ///
     /// # Errors
     /// The errors of the frame solver.
@@ -135,8 +138,8 @@ impl ColumnInfluence {
 
     /// For each column, whether any load, weight or inertia force makes it nonzero beyond rounding errors.
     ///
-    /// Loads are applied at four positions of every rail element: an influence line is a cubic within an element and is
-    /// therefore zero throughout if it is zero at four positions.
+    /// Loads are applied at four positions of every rail element: an influence line is a cubic within an element and
+    /// is therefore zero throughout if it is zero at four positions.
     fn nonzero(&self) -> Vec<bool> {
         let n = self.columns.len();
         let mut units = vec![0.0_f64; n];
@@ -218,8 +221,8 @@ impl ColumnInfluence {
         self.effects.rails()
     }
 
-    /// Writes the value of every column under `loads` and `acceleration` into `out`, without dead load. Returns whether the
-    /// structure resists all of the loads; loads that it does not resist are neglected.
+    /// Writes the value of every column under `loads` and `acceleration` into `out`, without dead load. Returns
+    /// whether the structure resists all of the loads; loads that it does not resist are neglected.
     pub fn at<'l>(
         &self,
         loads: impl Iterator<Item = &'l WheelLoad>,
@@ -282,7 +285,8 @@ impl ColumnList {
         self.columns.push(column);
     }
 
-    /// Adds the wanted reactions: for each degree of freedom of a point on the ground, the sum of its supports and springs.
+    /// Adds the wanted reactions: for each degree of freedom of a point on the ground, the sum of its supports and
+    /// springs.
     fn add_reactions(
         &mut self,
         structure: &str,

@@ -109,7 +109,8 @@ impl LoadedStructure<'_> {
         all.filter(|load| load.structure == self.s).collect()
     }
 
-    /// Whether the displacements can be computed: the structure is flexible, and its degrees of freedom, if any, were recorded.
+    /// Whether the displacements can be computed: the structure is flexible, and its degrees of freedom, if any, were
+    /// recorded.
     pub fn is_known(&self) -> bool {
         let foundation = &self.built.foundation;
         match foundation.structure {
@@ -118,8 +119,8 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Displacements at the probes at output time `row` under the loads `on` the structure at that time; `None` if the
-    /// structure is unrestrained in the direction of a probe.
+    /// Displacements at the probes at output time `row` under the loads `on` the structure at that time; `None` if
+    /// the structure is unrestrained in the direction of a probe.
     ///
     /// # Errors
     /// [`Error::OffRail`] for a place beyond a rail.
@@ -151,7 +152,8 @@ pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..chosen).map(move |k| k * (count - 1) / (chosen - 1).max(1))
 }
 
-/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shape functions.
+/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shape
+/// functions.
 fn displacements(
     foundation: &Foundation,
     probes: &[Probe],

@@ -1,10 +1,11 @@
-//! The response of structures in a run: reactions, internal forces and stresses, their envelopes, the deflections of rails,
-//! uplift of wheels, natural modes.
+//! The response of structures in a run: reactions, internal forces and stresses, their envelopes, the deflections of
+//! rails, uplift of wheels, natural modes.
 //!
-//! All values are computed from the history after the run. Reactions and internal forces are the products of influence lines
-//! and wheel forces, minus the effects of the inertia of the structure ([`ColumnInfluence`]).
+//! All values are computed from the history after the run. Reactions and internal forces are the products of
+//! influence lines and wheel forces, minus the effects of the inertia of the structure ([`ColumnInfluence`]).
 //!
-//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one, comparison.
+//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one,
+//! comparison.
 
 mod bending;
 mod comparison;
@@ -39,8 +40,8 @@ use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 pub struct Response {
     /// The columns of reactions, internal forces and stresses in the record.
     pub columns: Vec<Column>,
-    /// Value of each column under the dead load of the structures. It is included in the columns where the output of the scene
-    /// requests it.
+    /// Value of each column under the dead load of the structures. It is included in the columns where the output of
+    /// the scene requests it.
     pub dead_load: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<ColumnEnvelope>,
@@ -77,8 +78,8 @@ pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<
         .collect()
 }
 
-/// Influence lines of every structure of `scene` for the columns that its output requests; `None` for a structure without
-/// such columns. `built` and `solved` have one entry per structure.
+/// Influence lines of every structure of `scene` for the columns that its output requests; `None` for a structure
+/// without such columns. `built` and `solved` have one entry per structure.
 ///
 /// # Errors
 /// [`Error::Lines`] for a structure that is a mechanism.
@@ -105,8 +106,9 @@ pub fn influence_lines(
 }
 
 impl Response {
-    /// The response of a run without bending moments ([`Response::add_bending`]) and natural modes ([`SceneMode::all`]). The
-    /// columns of `lines` are added to `record`. `built`, `solved` and `lines` have one entry per structure of `scene`.
+    /// The response of a run without bending moments ([`Response::add_bending`]) and natural modes
+    /// ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built`, `solved` and `lines` have one
+    /// entry per structure of `scene`.
     ///
     /// # Errors
     /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
@@ -165,7 +167,7 @@ impl Response {
         }
         if is_incomplete {
             self.notes.push(format!(
-                "{}: wheel forces in directions in which the structure is unrestrained are neglected in its reactions",
+                "{}: its reactions neglect wheel forces in directions in which the structure is unrestrained",
                 scene.structures[s].name
             ));
         }
@@ -176,8 +178,8 @@ impl Response {
         }
     }
 
-    /// Adds the envelopes of the bending moments along the rails for those structures that have a beam spec and whose degrees
-    /// of freedom, if any, were recorded.
+    /// Adds the envelopes of the bending moments along the rails for those structures that have a beam spec and whose
+    /// degrees of freedom, if any, were recorded.
     ///
     /// # Errors
     /// [`Error::Lines`] for a structure that is a mechanism.

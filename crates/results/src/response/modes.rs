@@ -17,8 +17,8 @@ const NAMED: f64 = 0.15;
 /// Largest difference of the logarithms of two frequencies for which an oscillation is attributed to a mode.
 const NEAR: f64 = 0.1;
 
-/// Time at which the positions of the bodies are taken, as a fraction of the run: the middle of its last quarter, over
-/// which means and oscillations are evaluated.
+/// Time at which the positions of the bodies are taken, as a fraction of the run: the middle of its last quarter,
+/// over which means and oscillations are evaluated.
 const INSTANT: f64 = 0.875;
 
 /// A natural mode of a scene.
@@ -33,8 +33,9 @@ pub struct SceneMode {
 }
 
 impl SceneMode {
-    /// Modes of the bodies of `scene` on `foundations`, at their positions near the end of `run`, with at least one period
-    /// within the run, lowest first. The list is empty if they cannot be computed or if events have changed ropes or loads.
+    /// Modes of the bodies of `scene` on `foundations`, at their positions near the end of `run`, with at least one
+    /// period within the run, lowest first. The list is empty if they cannot be computed or if events have changed
+    /// ropes or loads.
     #[must_use]
     pub fn all(
         scene: &Scene,

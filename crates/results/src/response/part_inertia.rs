@@ -6,19 +6,19 @@ use splines::{Axis, InfluenceLines, Probe};
 
 use foundations::{RigidParts, roll_inertia};
 
-/// Abscissas and weights of the three-point Gauss rule on -1..1. It is exact for polynomials of degree five; influence lines
-/// are cubic between breaks, and inertia forces are linear along a part.
+/// Abscissas and weights of the three-point Gauss rule on -1..1. It is exact for polynomials of degree five;
+/// influence lines are cubic between breaks, and inertia forces are linear along a part.
 const GAUSS: [[f64; 2]; 3] =
     [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
 
 /// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
 ///
-/// A part of length l and mass m per length whose centre has the acceleration u'' and the angular acceleration theta''
-/// exerts on the girder the distributed force m (u'' + theta'' x r), with r measured from the centre, and the distributed
-/// torque m i^2 theta_x'' with the radius of gyration i. The moment of the distributed force corresponds to the moment of
-/// inertia m l^3/12. The effects of these loads are integrals of the influence lines of the girder over the part, evaluated
-/// by Gauss's rule between the breaks of the lines. The influence line of a torque is the difference between those of
-/// lateral forces at heights 1 and 0 above the elastic axis.
+/// A part of length l and mass m per length whose centre has the acceleration u'' and the angular acceleration
+/// theta'' exerts on the girder the distributed force m (u'' + theta'' x r), with r measured from the centre, and the
+/// distributed torque m i^2 theta_x'' with the radius of gyration i. The moment of the distributed force corresponds
+/// to the moment of inertia m l^3/12. The effects of these loads are integrals of the influence lines of the girder
+/// over the part, evaluated by Gauss's rule between the breaks of the lines. The influence line of a torque is the
+/// difference between those of lateral forces at heights 1 and 0 above the elastic axis.
 ///
 /// # Errors
 /// The errors of the frame solver for the girder.

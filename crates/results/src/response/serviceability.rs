@@ -1,8 +1,9 @@
-//! Serviceability of rails: deflection of spans relative to their length, and drift of frames relative to their height.
+//! Serviceability of rails: deflection of spans relative to their length, and drift of frames relative to their
+//! height.
 //!
-//! Both are evaluated after a run. At selected output times the displacements of the rail are computed from the wheel forces
-//! and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at several positions within
-//! each span or at the columns of a frame. The largest value is stored with its position and time.
+//! Both are evaluated after a run. At selected output times the displacements of the rail are computed from the wheel
+//! forces and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at several
+//! positions within each span or at the columns of a frame. The largest value is stored with its position and time.
 
 use fea::{Model, Rail};
 use nalgebra::Vector3;
@@ -74,12 +75,12 @@ impl Deflection {
     }
 }
 
-/// The largest deflections of every loaded span of the structure; none for rigid foundations, for tables, for rigid parts
-/// with separate contacts, and where the degrees of freedom of the structure were not recorded.
+/// The largest deflections of every loaded span of the structure; none for rigid foundations, for tables, for rigid
+/// parts with separate contacts, and where the degrees of freedom of the structure were not recorded.
 ///
-/// Each span is evaluated at seven positions and at up to 64 output times, evenly distributed over those with a wheel on the
-/// span. With the displacement u(x) of the rail and the fraction l of the span at x, the deflection from the chord between
-/// the ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards.
+/// Each span is evaluated at seven positions and at up to 64 output times, evenly distributed over those with a wheel
+/// on the span. With the displacement u(x) of the rail and the fraction l of the span at x, the deflection from the
+/// chord between the ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards.
 ///
 /// # Errors
 /// [`Error::OffRail`] for a place beyond a rail.
@@ -125,8 +126,9 @@ pub(super) fn deflections(
     Ok(found)
 }
 
-/// The largest deflection of one span in one direction at `places`, or `none` where there is none; the first and the last
-/// place are the ends of the span. `rows`: output times with a wheel on the span; `all`: the loads at every output time.
+/// The largest deflection of one span in one direction at `places`, or `none` where there is none; the first and the
+/// last place are the ends of the span. `rows`: output times with a wheel on the span; `all`: the loads at every
+/// output time.
 fn largest_deflection(
     loaded: &LoadedStructure<'_>,
     none: Deflection,
@@ -180,7 +182,10 @@ impl Drift {
     /// As an item of `drift`.
     #[must_use]
     pub fn json(&self) -> Value {
-        let limit = |(code, clause, most): &(&str, &str, f64)| json!({ "code": code, "clause": clause, "value": most, "within": self.value <= *most });
+        let limit = |(code, clause, most): &(&str, &str, f64)| {
+            let is_within = self.value <= *most;
+            json!({ "code": code, "clause": clause, "value": most, "within": is_within })
+        };
         json!({
             "rail": self.rail,
             "x": self.x,
@@ -193,9 +198,9 @@ impl Drift {
     }
 }
 
-/// The column with the largest drift of every rail of a frame on the ground, at up to 300 evenly distributed output times;
-/// none for rigid foundations, without lateral wheel forces, and where the degrees of freedom of the structure were not
-/// recorded.
+/// The column with the largest drift of every rail of a frame on the ground, at up to 300 evenly distributed output
+/// times; none for rigid foundations, without lateral wheel forces, and where the degrees of freedom of the structure
+/// were not recorded.
 ///
 /// # Errors
 /// [`Error::OffRail`] for a place beyond a rail.
@@ -245,7 +250,8 @@ pub(super) fn drifts(
 /// Limits of the drift of a rail at `height` over the lowest support: code, clause, displacement.
 ///
 /// # Source
-/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as implemented in a public program: loads without dynamic factors.
+/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as implemented in a public program: loads without
+/// dynamic factors.
 fn drift_limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
     let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
     let mut limits = vec![("EN 1993-6:2007", "Table 7.1 b: height/400", height / 400.0)];
@@ -269,8 +275,8 @@ fn height(model: &Model, rails: &[Rail], rail: usize) -> Option<f64> {
 
 /// Rail coordinates of the ends of the spans of rail `index`, increasing; empty where fewer than two are known.
 ///
-/// The spans of a girder end at its supports. The spans of a frame end at those points of the members under the rail that are
-/// connected to a support, a spring, a link, or a member that is not under a rail, such as a column.
+/// The spans of a girder end at its supports. The spans of a frame end at those points of the members under the rail
+/// that are connected to a support, a spring, a link, or a member that is not under a rail, such as a column.
 #[must_use]
 pub fn spans(spec: &Spec, model: &Model, rails: &[Rail], index: usize) -> Vec<f64> {
     let Some(rail) = rails.get(index) else { return Vec::new() };
@@ -284,7 +290,8 @@ pub fn spans(spec: &Spec, model: &Model, rails: &[Rail], index: usize) -> Vec<f6
     if ends.len() < 2 { Vec::new() } else { ends }
 }
 
-/// Rail coordinates of those points of the members under `rail` that are connected to a support, spring, link or other member.
+/// Rail coordinates of those points of the members under `rail` that are connected to a support, spring, link or
+/// other member.
 fn supported_points(model: &Model, rails: &[Rail], rail: &Rail) -> Vec<f64> {
     let mut carries = vec![false; model.members.len()];
     for segment in rails.iter().flat_map(|rail| &rail.segments) {

@@ -46,8 +46,8 @@ fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: 
     let residual = run.audit.residual();
     if residual > RESIDUAL {
         all.push(format!(
-            "the residual of the energy audit is {residual:.1e} of the peak stored energy; a smaller \"accuracy\" reduces \
-             it, unless it comes from a table that is not symmetric or from a flange that engages abruptly"
+            "the residual of the energy audit is {residual:.1e} of the peak stored energy; a smaller \"accuracy\" \
+             reduces it, unless it comes from a table that is not symmetric or from a flange that engages abruptly"
         ));
     }
     for structure in &scene.structures {
@@ -109,8 +109,8 @@ fn large_deflection(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<
     let what = if span < rail.range[1] - rail.range[0] { "span" } else { "length" };
     (ratio > LARGE_DEFLECTION).then(|| {
         format!(
-            "{} deflects by {ratio:.3} of its {what}, more than {LARGE_DEFLECTION}: the assumption of small displacements \
-             does not hold",
+            "{} deflects by {ratio:.3} of its {what}, more than {LARGE_DEFLECTION}: the assumption of small \
+             displacements does not hold",
             rail.name
         )
     })
@@ -124,8 +124,8 @@ fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
     let growth = tension::stiffness_growth(&frame.model, carried, wheels.deepest());
     let growth = growth.filter(|growth| *growth > TENSION)?;
     Some(format!(
-        "{} lies between supports that restrain it lengthwise: axial tension would increase the bending stiffness of its \
-         members by a fraction of about {growth:.2}, which is neglected; release one end lengthwise if it can slide",
+        "{} lies between supports that restrain it lengthwise: axial tension would increase the bending stiffness of \
+         its members by a fraction of about {growth:.2}, which is neglected; release one end lengthwise if it can slide",
         rail.name
     ))
 }
@@ -175,8 +175,8 @@ fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
         .collect();
     (!used.is_empty()).then(|| {
         format!(
-            "the table of {} is zero at its end {}, and wheels stand in the bay next to it: the table does not determine \
-             whether the rail can rotate there",
+            "the table of {} is zero at its end {}, and wheels stand in the bay next to it: the table does not \
+             determine whether the rail can rotate there",
             rail.name,
             used.join(" and ")
         )

@@ -1,5 +1,5 @@
-//! Warnings about values of a scene that are probably wrong: weights entered as masses, bodies that rotate without moment of
-//! inertia, structures that extend beyond the body below them, ropes beyond their strength.
+//! Warnings about values of a scene that are probably wrong: weights entered as masses, bodies that rotate without
+//! moment of inertia, structures that extend beyond the body below them, ropes beyond their strength.
 
 use crate::columns::NamedColumns;
 use formats::scene::{Analysis, Body, Origin, Scene, root_body};
@@ -7,12 +7,12 @@ use formats::text::number::number;
 use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
 
-/// Wheel load due to the weight of the body alone, divided by the square of the wheel diameter, above which the weight is
-/// implausible, N/m2. Fully loaded steel wheels bear a third of it.
+/// Wheel load due to the weight of the body alone, divided by the square of the wheel diameter, above which the
+/// weight is implausible, N/m2. Fully loaded steel wheels bear a third of it.
 const WHEEL_PRESSURE: f64 = 3e6;
 
-/// Distance beyond its outer wheels at which a body may support a structure, as a fraction of the distance between the outer
-/// wheels.
+/// Distance beyond its outer wheels at which a body may support a structure, as a fraction of the distance between
+/// the outer wheels.
 const OVERHANG: f64 = 0.1;
 
 /// Strain beyond which a rope breaks, for strands of 2000 N/mm2.
@@ -47,8 +47,8 @@ fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
     let [force, mass] = [Dimension::FORCE, Dimension::MASS].map(|of| scene.units.label(of));
     (body.by_mass && !squares.is_empty() && pressure > WHEEL_PRESSURE).then(|| {
         format!(
-            "`mass` of {} is {} {mass}, a weight of {} {force}: its {} wheels are too small for it; enter a weight as \
-             `weight`",
+            "`mass` of {} is {} {mass}, a weight of {} {force}: its {} wheels are too small for it; enter a weight \
+             as `weight`",
             body.name,
             number(body.mass),
             number(rounded(weight, 3)),
@@ -64,8 +64,8 @@ fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
         words.filter(|(k, _)| body.free[3 + k] && body.inertia[*k] == 0.0).map(|(_, word)| word).collect();
     (scene.analysis == Analysis::Dynamic && !free.is_empty()).then(|| {
         format!(
-            "{} can {}, but its `inertia` in this motion is 0: it rotates as if all its mass were concentrated at its \
-             centre; `inertia` is [roll, yaw, pitch]",
+            "{} can {}, but its `inertia` in this motion is 0: it rotates as if all its mass were concentrated at \
+             its centre; `inertia` is [roll, yaw, pitch]",
             body.name,
             free.join(" and ")
         )
@@ -109,8 +109,8 @@ fn overhanging(scene: &Scene, s: usize) -> Option<String> {
     let body = &scene.bodies[on.body].name;
     outside.map(|outside| {
         format!(
-            "{body} supports {} {outside}: `at` of the structure is the position of the origin of its spec relative to \
-             that of the body",
+            "{body} supports {} {outside}: `at` of the structure is the position of the origin of its spec relative \
+             to that of the body",
             structure.name
         )
     })
@@ -129,8 +129,8 @@ fn overstretched(scene: &Scene, record: &NamedColumns) -> Vec<String> {
         let strain = tension / rope.stiffness;
         (strain > BREAKING_STRAIN).then(|| {
             format!(
-                "{} is stretched by {strain:.3} of its length, more than {BREAKING_STRAIN}: a rope breaks at this strain; \
-                 check the `mass` that it carries, and `EA`",
+                "{} is stretched by {strain:.3} of its length, more than {BREAKING_STRAIN}: a rope breaks at this \
+                 strain; check the `mass` that it carries, and `EA`",
                 rope.name
             )
         })

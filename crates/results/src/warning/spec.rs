@@ -13,8 +13,8 @@ const MODULI: [f64; 2] = [2e9, 2e13];
 /// Plausible range of densities of structures with their equipment, kg/m3.
 const DENSITIES: [f64; 2] = [50.0, 4e4];
 
-/// Largest gap between two segments of a rail that causes no warning, as a fraction of the shorter segment. Gaps over column
-/// seats are shorter.
+/// Largest gap between two segments of a rail that causes no warning, as a fraction of the shorter segment. Gaps over
+/// column seats are shorter.
 const GAP: f64 = 0.5;
 
 /// Warnings about values of a spec that are probably wrong.

@@ -1,19 +1,20 @@
-//! Rails that are restrained lengthwise at both ends: bending stretches them, and the axial tension increases their bending
-//! stiffness, which a linear model neglects.
+//! Rails that are restrained lengthwise at both ends: bending stretches them, and the axial tension increases their
+//! bending stiffness, which a linear model neglects.
 
 use std::collections::BTreeSet;
 
 use fea::{Dof, Member, MemberKind, Model};
 
-/// Largest relative increase of the bending stiffness by axial tension, A delta^2 / (4 I), among the members that carry
-/// `rail` between neighbouring points that are restrained along it; `delta`: deflection of the rail, in the length unit of
-/// the model. `None` where no member lies between two such points.
+/// Largest relative increase of the bending stiffness by axial tension, A delta^2 / (4 I), among the members that
+/// carry `rail` between neighbouring points that are restrained along it; `delta`: deflection of the rail, in the
+/// length unit of the model. `None` where no member lies between two such points.
 ///
-/// The members are visited in their order along the rail. A chain of connected members begins at a restrained point, is
-/// abandoned at a gap, a truss or an axial release, and is evaluated where it reaches the next restrained point.
+/// The members are visited in their order along the rail. A chain of connected members begins at a restrained point,
+/// is abandoned at a gap, a truss or an axial release, and is evaluated where it reaches the next restrained point.
 ///
 /// # Source
-/// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17 (1950).
+/// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17
+/// (1950).
 pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
     let translations = [Dof::Ux, Dof::Uy, Dof::Uz];
     let size = rail.axis.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
