@@ -88,7 +88,7 @@ fn rotations_that_nothing_resists_are_refused_by_name() {
     });
     assert_eq!(status, Some(3));
     assert!(
-        errors.contains("\"trolley\" is free in pitch, and nothing has inertia of its own there"),
+        errors.contains("\"trolley\" is free in pitch, but no mass has inertia in this motion"),
         "{errors}"
     );
 }
@@ -99,6 +99,6 @@ fn structures_held_beyond_the_wheels_of_their_body_are_told() {
     assert_eq!(at(7.0), Vec::<String>::new());
     let beside = at(-10.0);
     let expected =
-        "bridge holds girders across its track from -47.5 to 27.5, where its wheels stand from -37.5 to 37.5";
+        "bridge supports girders across its track from -47.5 to 27.5, but its wheels stand from -37.5 to 37.5";
     assert!(beside.len() == 1 && beside[0].starts_with(expected), "{beside:?}");
 }

@@ -52,7 +52,7 @@ fn a_check_says_what_it_found_and_its_status_whether_that_is_enough() {
     let told = String::from_utf8_lossy(&run.stderr).into_owned();
     assert!(told.contains("forces at random states"));
     // Its loops start from IC = 0, its path is found all the same: with the near-diagonal for cross terms it is off.
-    assert!(told.contains("quasi-static path, 41 places: heights differ by 6.2e-3"), "{told}");
+    assert!(told.contains("quasi-static path, 41 positions: heights differ by 6.2e-3"), "{told}");
 }
 
 #[test]

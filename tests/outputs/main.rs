@@ -5,8 +5,8 @@
 use formats::scene::Document;
 use foundations::{BuiltFoundation, ModeCache, MotionBasis, solve};
 use foundations::{SolvedStructure, distinct_specs, solution_of};
+use results::case_result::CaseResult;
 use results::cases::simulate;
-use results::outcome::CaseResult;
 use serde_json::{Value, json};
 use sim::Channel;
 use splines::{Axis, Probe};

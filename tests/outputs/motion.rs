@@ -14,7 +14,7 @@ const GAUSS: [[f64; 2]; 4] = [
 fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     let Some(structure) = &laid.foundation.structure else { return Vec::new() };
     let n = laid.foundation.dofs();
-    if let Some(MotionBasis::Parts(parts)) = &laid.motion {
+    if let Some(MotionBasis::Parts(parts)) = &laid.basis {
         let of = |k: usize| {
             let each = parts.ends.windows(2).enumerate();
             each.map(|(j, ends)| mass * (ends[1] - ends[0]) * parts.basis[(6 * j + 1, k)]).sum()
@@ -25,7 +25,7 @@ fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     let mut cuts: Vec<f64> =
         extent.range.into_iter().flatten().chain(extent.breaks.iter().copied()).collect();
     // shapes are cubics between the joints of the members as they are cut
-    if let Some(MotionBasis::Modes { frame, .. }) = &laid.motion {
+    if let Some(MotionBasis::Modes { frame, .. }) = &laid.basis {
         cuts.extend(frame.line().expect("a rail").breaks(0));
     }
     cuts.sort_by(f64::total_cmp);
@@ -163,7 +163,7 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
         true,
     )
     .expect("a foundation");
-    let Some(MotionBasis::Modes { refined, .. }) = &laid.motion else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else { panic!("natural modes") };
     let record = &ran.outcomes[0].columns;
     let history = &ran.outcomes[0].run.history;
     let wheels = |part: &str, sign: f64| -> Vec<f64> {

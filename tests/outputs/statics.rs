@@ -71,7 +71,7 @@ fn weight_of_the_structure_is_told_and_added_where_it_is_asked_for() {
         let name = format!("girder.support{support}.vertical");
         let response = &ran.outcomes[0].response;
         let at = response.columns.iter().position(|column| column.name == name).expect("a column");
-        assert!((response.dead[at] / (share * weight) - 1.0).abs() < 1e-10);
+        assert!((response.dead_load[at] / (share * weight) - 1.0).abs() < 1e-10);
         for (with, without) in ran.column(1, &name).iter().zip(ran.column(0, &name)) {
             assert!((with - without - share * weight).abs() < 1e-9 * weight);
         }
@@ -90,7 +90,7 @@ fn a_span_sags_by_the_classical_share_under_a_wheel_at_its_middle() {
     assert!((found[0].value / classical - 1.0).abs() < 1e-9, "{:?}", found[0]);
     assert_eq!((found[0].x, found[0].time), (5.0, 3.5));
     assert!((found[0].ratio().expect("it sags") / (span / classical) - 1.0).abs() < 1e-9);
-    assert!(found[0].keeps(600.0));
+    assert!(found[0].is_within(600.0));
 }
 
 #[test]

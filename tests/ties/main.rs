@@ -12,8 +12,8 @@ use formats::units::{Force, Length, Units};
 use foundations::solve;
 use foundations::{SolvedStructure, distinct_specs};
 use nalgebra::DMatrix;
+use results::case_result::CaseResult;
 use results::cases::simulate;
-use results::outcome::CaseResult;
 use sim::{Fidelity, Reason};
 use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
 

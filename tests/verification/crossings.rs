@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 
 use formats::spec::Spec;
 use formats::text::source::Source;
-use foundations::{full_mesh, solve};
+use foundations::{full_mesh_foundation, solve};
 use sim::{BodyDof, Channel, Damper, Foundation, Gauge, Run, Scene, Status};
 use splines::{Axis, Probe};
 
@@ -31,7 +31,7 @@ fn foundation(text: &str, elements: Option<usize>) -> Foundation {
     let solved = solve(&Spec::read(&source, None).expect("a girder")).expect("it stands");
     match elements {
         None => Foundation::massless(Box::new(solved.surface.expect("it is small")), 1),
-        Some(elements) => full_mesh(&solved, elements).expect("it has mass"),
+        Some(elements) => full_mesh_foundation(&solved, elements).expect("it has mass"),
     }
 }
 

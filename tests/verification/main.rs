@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 
 use common::bogie;
 use fea::{BeamTheory, Girder};
-use foundations::rigid_parts;
+use foundations::rigid_parts_foundation;
 use sim::{Analysis, BodyDof, Channel, Damper, Foundation};
 
 fn girder() -> Girder {
@@ -40,7 +40,7 @@ fn parts_converge_with_the_square_of_their_number() {
     let wanted = crossing(Foundation::massless(Box::new(exact.surface), 1));
     let mut errors = Vec::new();
     for count in [6, 12, 24, 48, 96, 192] {
-        let found = crossing(rigid_parts(&girder(), count, None).expect("parts of a girder"));
+        let found = crossing(rigid_parts_foundation(&girder(), count, None).expect("parts of a girder"));
         errors.push(found.iter().zip(&wanted).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())));
     }
     // Least squares of log2(error) over log2(count).

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use formats::scene::Document;
 use foundations::solve;
 use foundations::{SolvedStructure, distinct_specs};
+use results::case_result::CaseResult;
 use results::cases::simulate;
-use results::outcome::CaseResult;
 
 const GIRDER: &str = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "N", "time": "s"},
     "girder": {"spans": [40], "E": 2e11, "A": 0.01, "I_vertical": 1e-3}, "stations": [0, 20, 40]}"#;

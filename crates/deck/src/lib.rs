@@ -1,8 +1,8 @@
 //! A scene as a complete ADAMS/Solver data set, and its comparison with the simulator.
 //!
-//! Every wheel is a GFORCE between its centre and a FLOATING marker on ground, in the frame of its rail. The rail's
-//! displacement under it is a VARIABLE that reads the SPLINEs with the forces of all wheels; ADAMS solves displacements and
-//! forces, which depend on each other, in its own Newton iteration.
+//! Every wheel is a GFORCE between its centre and a FLOATING marker on ground, in the frame of its rail. The
+//! displacement of the rail under it is a VARIABLE that evaluates the SPLINEs with the forces of all wheels. ADAMS
+//! solves the coupled displacements and forces in its own Newton iteration.
 //!
 //! ```
 //! use deck::{DeckForm, check, deck, plan};
@@ -45,11 +45,11 @@ pub struct Deck {
     pub commands: String,
 }
 
-/// The deck of a plan; `known` has the solutions of the scene's specs, for reactions; `model` is the name of its file
-/// without the extension.
+/// The deck of a plan; `known` has the solutions of the specs of the scene, from which reactions are computed;
+/// `model` is the name of the file without the extension.
 ///
 /// # Errors
-/// [`Error::Spline`] for tables that are no SPLINE.
+/// [`Error::Spline`] for tables that do not form a valid SPLINE.
 pub fn deck(plan: &DeckPlan<'_>, known: &[SolvedStructure], model: &str) -> Result<Deck, Error> {
     let (mut markers, mut ids) = (plan.markers, plan.splines);
     let mut statements = statements::solver::head(plan);

@@ -1,4 +1,4 @@
-//! The foundation that a scene asks for, built from a structure's solution or tables.
+//! Builds the foundation that a scene specifies from the solution or the tables of a structure.
 
 use formats::scene::{self, Handover, Origin, Structure};
 use sim::{Extent, Foundation};
@@ -12,10 +12,11 @@ use crate::parts;
 use crate::solved::SolvedModel;
 use crate::tables::influence;
 
-/// The foundation of one structure of a scene, with the model behind it.
+/// Builds the foundation of one structure of a scene, with the model of its degrees of freedom.
 ///
-/// `cache` keeps modes of this structure from one call to the next; `solved` is the solution of its spec
-/// ([`crate::solution_of`]), `None` for a structure of tables; `lateral` says whether wheels of the scene excitation sideways.
+/// `cache` stores modes of this structure between calls; `solved` is the solution of its spec
+/// ([`crate::solution_of`]), `None` for a structure defined by tables; `lateral` is whether wheels of the scene exert
+/// lateral forces.
 ///
 /// ```
 /// use formats::scene::Document;
@@ -33,8 +34,8 @@ use crate::tables::influence;
 ///
 /// # Errors
 /// [`Error::NoLongitudinal`] where the compliance along the rails is needed and not known; [`Error::NoGirder`],
-/// [`Error::NoSpec`], [`Error::Unsolved`] where the foundation needs a solution that is missing; what the tables or the FE
-/// model refuse.
+/// [`Error::NoSpec`], [`Error::Unsolved`] where the foundation needs a solution that is missing; errors of the tables
+/// and of the FE model.
 pub fn build(
     cache: &mut ModeCache,
     structure: &Structure,
@@ -42,15 +43,16 @@ pub fn build(
     lateral: bool,
 ) -> Result<BuiltFoundation, Error> {
     let irregularities = structure.irregularities.clone();
-    let mut on = mount::mount(structure)?;
-    let is_dragged = structure.longitudinal;
-    let BuiltFoundation { mut foundation, motion } = build_on_ground(cache, structure, solved, lateral)?;
-    // where degrees of freedom carry the mass, their own mass matrix replaces the rigid mass of the spec
-    if let (Some(on), Some(moving)) = (&mut on, foundation.carrier.take()) {
-        (on.mass, on.coupling) = (moving.mass, moving.coupling);
+    let mut carrier = mount::mount(structure)?;
+    let is_loaded_along = structure.longitudinal;
+    let BuiltFoundation { mut foundation, basis: motion } =
+        build_on_ground(cache, structure, solved, lateral)?;
+    // where the degrees of freedom represent the mass, their mass matrix replaces the rigid mass of the spec
+    if let (Some(carrier), Some(moving)) = (&mut carrier, foundation.carrier.take()) {
+        (carrier.mass, carrier.coupling) = (moving.mass, moving.coupling);
     }
     if let (true, Some(compliance), Some(rail)) =
-        (is_dragged, &foundation.compliance, structure.rails.first())
+        (is_loaded_along, &foundation.compliance, structure.rails.first())
     {
         let probe = Probe { rail: 0, x: rail.range[0], axis: Axis::Longitudinal };
         let mut influence = Influence::zeros(1);
@@ -61,12 +63,13 @@ pub fn build(
         }
     }
     Ok(BuiltFoundation {
-        foundation: Foundation { carrier: on, irregularities, is_loaded_along: is_dragged, ..foundation },
-        motion,
+        foundation: Foundation { carrier, irregularities, is_loaded_along, ..foundation },
+        basis: motion,
     })
 }
 
-/// The same for a structure on the ground: without its rails' lines on a body, irregularities and compliance along them.
+/// Builds the foundation as if the structure stood on the ground, without the lines of its rails on a carrying body,
+/// without irregularities and without compliance along the rails.
 fn build_on_ground(
     cache: &mut ModeCache,
     structure: &Structure,
@@ -78,7 +81,7 @@ fn build_on_ground(
             |rail: &formats::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let excitation = Excitation { lateral, longitudinal: structure.longitudinal, on: structure.carrier };
+    let excitation = Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier };
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
@@ -128,21 +131,25 @@ fn required_solution<'s>(
     solved.ok_or_else(|| Error::NoSpec { structure: structure.name.clone() })
 }
 
-/// A girder as `count` massless rigid parts; a wheel passes from one part to the next within the length `window` about
-/// their joint, where the two are blended (`None`: from centre to centre). See [`sim::BlendedParts`].
+/// A girder as `count` massless rigid parts. Within the length `window` about a joint the displacements of its two
+/// parts are blended (`None`: from centre to centre). See [`sim::BlendedParts`].
 ///
 /// # Errors
-/// [`Error::Chain`] for a girder that does not stand; [`Error::Windows`] for windows that overlap.
-pub fn rigid_parts(girder: &fea::Girder, count: usize, window: Option<f64>) -> Result<Foundation, Error> {
+/// [`Error::Chain`] for a girder that is a mechanism; [`Error::Windows`] for windows that overlap.
+pub fn rigid_parts_foundation(
+    girder: &fea::Girder,
+    count: usize,
+    window: Option<f64>,
+) -> Result<Foundation, Error> {
     Ok(parts::foundation(girder, count, Handover::Blend { length: window }, 0.0, Excitation::VERTICAL)?
         .foundation)
 }
 
-/// Every mode that vertical wheel forces can excite of a mesh of `elements` elements for each member, undamped.
+/// All modes that vertical wheel forces can excite in a mesh of `elements` elements per member, undamped.
 ///
 /// # Errors
 /// [`Error::Modes`] for a structure without mass, or with too many unknowns.
-pub fn full_mesh(solved: &SolvedModel, elements: usize) -> Result<Foundation, Error> {
+pub fn full_mesh_foundation(solved: &SolvedModel, elements: usize) -> Result<Foundation, Error> {
     Ok(ModeCache::default()
         .full("structure", solved, elements, 0.0, Dampers::NONE, Excitation::VERTICAL)?
         .foundation)

@@ -1,4 +1,4 @@
-//! A built foundation, with the model whose motions are its degrees of freedom.
+//! A built foundation with the motions of its degrees of freedom.
 
 use std::sync::Arc;
 
@@ -6,10 +6,10 @@ use fea::FactoredFrame;
 use nalgebra::DMatrix;
 use sim::Foundation;
 
-/// A foundation of the simulation, with the model behind its degrees of freedom.
+/// A foundation of the simulation, with the motions that its degrees of freedom represent in the FE model.
 ///
-/// The model is needed after a run: the inertia of the structure, which enters reactions and internal forces, is computed
-/// from the accelerations of the degrees of freedom and from this model.
+/// The motions are needed after a run: the inertia forces of the structure, which enter reactions and internal
+/// forces, are computed from them and from the accelerations of the degrees of freedom.
 ///
 /// ```
 /// use foundations::BuiltFoundation;
@@ -21,19 +21,19 @@ use sim::Foundation;
 pub struct BuiltFoundation {
     /// The foundation that carries the rails.
     pub foundation: Foundation,
-    /// The model whose motions are the foundation's degrees of freedom; `None` where it has none, being without mass.
-    pub motion: Option<MotionBasis>,
+    /// Motions of the degrees of freedom; `None` for a foundation without mass, which has no degrees of freedom.
+    pub basis: Option<MotionBasis>,
 }
 
 impl From<Foundation> for BuiltFoundation {
     fn from(foundation: Foundation) -> BuiltFoundation {
-        BuiltFoundation { foundation, motion: None }
+        BuiltFoundation { foundation, basis: None }
     }
 }
 
-/// The model whose motions are the degrees of freedom of a foundation, in their order.
+/// Motions of a structure that are the degrees of freedom of a foundation, in their order.
 pub enum MotionBasis {
-    /// Those natural modes of a frame with subdivided members that wheels can excite.
+    /// Natural modes of a frame with subdivided members, as far as wheels can excite them.
     Modes {
         /// The frame.
         frame: Arc<FactoredFrame>,
@@ -48,7 +48,7 @@ pub enum MotionBasis {
 pub struct RigidParts {
     /// Ends of the parts along the girder, increasing.
     pub ends: Vec<f64>,
-    /// Motion of the parts' centres (three displacements and three rotations each) by the degrees of freedom:
-    /// 6 parts x degrees of freedom.
+    /// Motion of the centres of the parts (three displacements and three rotations each) per unit of each degree of
+    /// freedom: (6 x number of parts) rows, one column per degree of freedom.
     pub basis: DMatrix<f64>,
 }

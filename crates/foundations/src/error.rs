@@ -1,8 +1,8 @@
-//! Why a solved structure cannot be made a foundation.
+//! Errors of building the foundation of a structure and of running a scene on it.
 
 use thiserror::Error;
 
-/// Why a foundation cannot be built, or why a scene cannot run on it.
+/// The reason why a foundation cannot be built, or why a scene cannot run on it.
 #[derive(Debug, Error)]
 pub enum Error {
     /// The frame of a structure cannot be solved.
@@ -10,15 +10,15 @@ pub enum Error {
     Frame {
         /// Name of the structure.
         structure: String,
-        /// What the solver refuses.
+        /// The error of the solver.
         source: fea::Error,
     },
-    /// The natural modes of a structure cannot be found.
+    /// The natural modes of a structure cannot be computed.
     #[error("{structure}: {source}{}", hint(source))]
     Modes {
         /// Name of the structure.
         structure: String,
-        /// What the solver refuses.
+        /// The error of the solver.
         source: fea::Error,
     },
     /// The tables or the rails of a structure cannot be used.
@@ -26,23 +26,23 @@ pub enum Error {
     Rails {
         /// Name of the structure.
         structure: String,
-        /// What is wrong with them.
+        /// The error in them.
         source: splines::Error,
     },
-    /// A chain of rigid parts does not stand.
+    /// A chain of rigid parts is a mechanism.
     #[error(transparent)]
     Chain(#[from] fea::Error),
     /// The rail of a chain of rigid parts cannot be made.
     #[error(transparent)]
     ChainRail(#[from] splines::Error),
-    /// Rigid parts are asked for of a structure that is no straight girder.
-    #[error("{structure}: parts need a beam spec of a straight girder")]
+    /// Rigid parts were requested for a structure that is not a straight girder.
+    #[error("{structure}: rigid parts need a beam spec of a straight girder")]
     NoGirder {
         /// Name of the structure.
         structure: String,
     },
-    /// Modes are asked for of a structure that has no beam spec.
-    #[error("{structure}: modes need a beam spec")]
+    /// Modes were requested for a structure that has no beam spec.
+    #[error("{structure}: natural modes need a beam spec")]
     NoSpec {
         /// Name of the structure.
         structure: String,
@@ -53,19 +53,19 @@ pub enum Error {
         /// Name of the structure.
         structure: String,
     },
-    /// The exact surface of a structure is not known.
-    #[error("{structure}: its surface is not known")]
+    /// The exact influence surface of a structure has not been computed.
+    #[error("{structure}: its influence surface has not been computed")]
     NoSurface {
         /// Name of the structure.
         structure: String,
     },
-    /// The compliance of a structure along its rails is asked for and not known.
-    #[error("{structure}: its give along the rails is not known  hint: leave `longitudinal` out")]
+    /// The compliance of a structure along its rails is needed and cannot be evaluated.
+    #[error("{structure}: its compliance along the rails is not known  hint: leave out `longitudinal`")]
     NoLongitudinal {
         /// Name of the structure.
         structure: String,
     },
-    /// The windows in which neighbouring rigid parts hand a wheel over overlap.
+    /// The windows in which a wheel passes between neighbouring rigid parts overlap.
     #[error("the hand-over windows of neighbouring parts overlap: shorten `blend`")]
     Windows,
     /// The simulator refuses the scene.
@@ -73,29 +73,29 @@ pub enum Error {
     Simulation(#[from] sim::Error),
 }
 
-/// What the user may do about modes that cannot be found.
+/// Suggestion for the user about modes that cannot be computed.
 fn hint(error: &fea::Error) -> &'static str {
     match error {
         fea::Error::NoMass => "  hint: give its materials a density, or the girder `mass_per_length`",
         fea::Error::TooManyModes { .. } => {
-            "  hint: \"modal\" takes the lowest modes alone, as `modes` of \"ties\" does; or fewer `elements`"
+            "  hint: use \"modal\", or `modes` of \"ties\", to compute only the lowest modes, or use fewer `elements`"
         }
         _ => "",
     }
 }
 
 impl Error {
-    /// A frame of `structure` that cannot be solved.
+    /// Attributes an error of the frame solver to `structure`.
     pub fn frame(structure: &str) -> impl Fn(fea::Error) -> Error + '_ {
         move |source| Error::Frame { structure: structure.to_owned(), source }
     }
 
-    /// Modes of `structure` that cannot be found.
+    /// Attributes an error of the eigenvalue solver to `structure`.
     pub fn modes(structure: &str) -> impl Fn(fea::Error) -> Error + '_ {
         move |source| Error::Modes { structure: structure.to_owned(), source }
     }
 
-    /// Tables or rails of `structure` that cannot be used.
+    /// Attributes an error in tables or rails to `structure`.
     pub fn rails(structure: &str) -> impl Fn(splines::Error) -> Error + '_ {
         move |source| Error::Rails { structure: structure.to_owned(), source }
     }

@@ -1,8 +1,9 @@
-//! From FE solutions to the foundations of a simulation: the transfer of data that used to be done by hand.
+//! Foundations of a simulation, built from FE solutions: the transfer of data that the paper did by hand.
 //!
-//! A spec is solved once ([`solve`]). Each foundation of a scene is then built from that solution ([`build`]): rigid, rigid
-//! parts, influence functions, natural modes with the residual flexibility of the modes left out, or all modes of a mesh.
-//! [`select_and_run`] finds the lowest fidelity that suffices for structures whose foundation is "auto".
+//! A spec is solved once ([`solve`]). Each foundation of a scene is then built from that solution ([`build`]): rigid,
+//! rigid parts, influence functions, natural modes with the residual flexibility of the omitted modes, or all modes
+//! of a mesh. For structures whose foundation is "auto", [`select_and_run`] finds the lowest fidelity within the
+//! tolerance.
 //!
 //! ```
 //! use formats::text::source::Source;
@@ -35,7 +36,7 @@ mod select;
 mod solved;
 mod tables;
 
-pub use build::{build, full_mesh, rigid_parts};
+pub use build::{build, full_mesh_foundation, rigid_parts_foundation};
 pub use built::{BuiltFoundation, MotionBasis, RigidParts};
 pub use error::Error;
 pub use modal::ModeCache;

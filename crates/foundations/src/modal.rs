@@ -1,20 +1,23 @@
-//! A structure in natural modes, with the static compliance of the modes that are left out.
+//! A structure in natural modes, with the residual flexibility of the omitted modes.
 //!
-//! The unknowns are the coordinates q of m natural modes of unit modal mass. With the wheel forces F, the values Phi of
-//! the modes under the wheels and the displacements u of the rail there:
+//! The unknowns are the coordinates q of m natural modes of unit modal mass. F are the wheel forces, Phi the values
+//! of the modes under the wheels, and u the displacements of the rail there:
 //!
 //! ```text
 //! q'' + C q' + diag(omega^2) q = Phi^T F,    u = G_res F + Phi q,    G_res = G - sum_r phi_r phi_r^T / omega_r^2
 //! ```
 //!
-//! G_res is the residual flexibility: what the structure would deflect statically in the modes that are left out. With
-//! it the static deflection under F is that of G, however few modes there are. The foundation is built in four steps:
+//! G_res is the residual flexibility: the static deflection in the omitted modes. It makes the static deflection
+//! under F equal to that of G for any number of modes. The foundation is built in four steps:
 //!
-//! 1. Modes: members are subdivided until the frequencies asked for are exact to [`ACCURACY`] ([`search`]).
-//! 2. Excitation: modes that no wheel force and no carrier can excite are dropped ([`excited_by`]). If fewer than m are
-//!    left, or if the last ones share their frequency with a mode that was not found, more modes are found.
-//! 3. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given; all modes of
-//!    a mesh are subtracted from the surface of that mesh, and what remains is its deformation between its points.
+//! 1. Modes: members are subdivided until the relative error of the requested frequencies is at most [`ACCURACY`]
+//!    ([`search`]).
+//! 2. Excitation: modes that no wheel force and no carrier can excite are dropped ([`excited_by`]). If fewer than m
+//!    modes remain, or if the highest ones have the frequency of a mode that was not computed, more modes are
+//!    computed.
+//! 3. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
+//!    of a mesh are subtracted from the surface of that mesh; the remainder is the deformation of its elements
+//!    between nodes.
 //! 4. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
 //!
 //! # Source
@@ -33,32 +36,32 @@ use crate::mount::{self, Excitation};
 use crate::solved::SolvedModel;
 use formats::spec::ties::Pad;
 
-/// Relative error of a frequency that the subdivision of members may leave.
+/// Largest relative error of a frequency due to the subdivision of members.
 const ACCURACY: f64 = 1e-6;
-/// The same where modes are needed only to predict the error of leaving them out.
+/// Largest relative error of a frequency where modes are needed only to predict the error of omitting them.
 const COARSE: f64 = 1e-2;
-/// Largest motion of a mode where wheels excitation, relative to that of the whole mass moving as one, below which wheels are
-/// taken not to excite the mode.
+/// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
+/// are assumed not to excite the mode.
 const STILL: f64 = 1e-6;
-/// Relative difference up to which two frequencies count as equal.
+/// Relative difference up to which two frequencies are treated as equal.
 const EQUAL: f64 = 1e-6;
 
-/// Modes of one mesh that wheels can excite, and the static compliance from which those in use are subtracted.
+/// Modes of one mesh that wheels can excite, and the static compliance from which the retained modes are subtracted.
 pub(super) struct MeshModes {
     refined: RefinedModes,
     excited: Vec<fea::Mode>,
     frame: Arc<FactoredFrame>,
     compliance: StaticCompliance,
-    /// Whether `excited` has every mode of the mesh that wheels can excite.
+    /// Whether `excited` contains every mode of the mesh that wheels can excite.
     is_whole: bool,
 }
 
-/// Static compliance of the structure, before modes are subtracted.
+/// Static compliance of the structure before modes are subtracted.
 enum StaticCompliance {
-    /// Of the members as given: used with the lowest modes, whose mesh is fine.
+    /// Compliance of the members as given, used with the lowest modes, whose mesh is fine.
     Given(ExactSurface),
-    /// Of the members as they are subdivided: used with all modes of a mesh.
-    Cut(ExactSurface),
+    /// Compliance of the subdivided members, used with all modes of a mesh.
+    Subdivided(ExactSurface),
 }
 
 impl MeshModes {
@@ -98,18 +101,18 @@ impl MeshModes {
         let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
         let compliance = match given {
             Some(surface) => StaticCompliance::Given(surface),
-            None => StaticCompliance::Cut(frame.surface().map_err(&frame_error)?.surface),
+            None => StaticCompliance::Subdivided(frame.surface().map_err(&frame_error)?.surface),
         };
         Ok(MeshModes { refined, excited, frame: Arc::new(frame), compliance, is_whole })
     }
 
-    /// Whether it has `count` modes, or all that exist.
+    /// Whether `count` modes, or all that exist, have been computed.
     pub fn has(&self, count: usize) -> bool {
         self.is_whole || self.excited.len() >= count
     }
 
-    /// The foundation of the lowest `count` modes and the residual flexibility of the others; every mode has the fraction
-    /// `ratio` of critical damping, beside that of `dampers`.
+    /// The foundation of the lowest `count` modes and the residual flexibility of the others. Every mode has the
+    /// fraction `ratio` of critical damping in addition to the damping by `dampers`.
     pub fn foundation(
         &self,
         name: &str,
@@ -129,7 +132,7 @@ impl MeshModes {
                 let scaled = shapes(&line, &kept.modes, |mode| mode.omega).map_err(&rail_error)?;
                 Box::new(ResidualFlexibility::new(exact.clone(), scaled))
             }
-            StaticCompliance::Cut(surface) => Box::new(kept.residual(surface).map_err(&frame_error)?),
+            StaticCompliance::Subdivided(surface) => Box::new(kept.residual(surface).map_err(&frame_error)?),
         };
         let own = shapes(&line, &kept.modes, |_| 1.0).map_err(&rail_error)?;
         let rails = (0..refined.rails.len())
@@ -145,11 +148,11 @@ impl MeshModes {
             compliance: Some(residual),
             structure: Some(sim::Structure { dynamics, shapes: Box::new(ModeShapes(own)) }),
             rails,
-            carrier: excitation.on.map(|on| mount::inertia(kept, on)),
+            carrier: excitation.carrier.map(|carrier| mount::inertia(kept, carrier)),
             ..Foundation::default()
         };
         let motion = MotionBasis::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
-        Ok(BuiltFoundation { foundation, motion: Some(motion) })
+        Ok(BuiltFoundation { foundation, basis: Some(motion) })
     }
 }
 
@@ -158,34 +161,34 @@ fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<ExactS
     Ok(found.map_err(Error::frame(name))?.surface)
 }
 
-/// The mesh, at least the lowest `count` modes that wheels can excite, and whether these are all; frequencies have a
-/// relative error of at most `accuracy`.
+/// Returns the mesh, at least the lowest `count` modes that wheels can excite, and whether these are all such modes.
+/// Frequencies have a relative error of at most `accuracy`.
 ///
-/// Asks for `count` modes and drops those that wheels cannot excite. As long as fewer than `count` remain, or the last
-/// frequency found is also that of the next mode, twice as many modes are asked for (at least eight more).
+/// The function computes `count` modes and drops those that wheels cannot excite. While fewer than `count` remain, or
+/// while the highest frequency equals that of the next mode, it computes twice as many modes (at least eight more).
 fn search(
     solved: &SolvedModel,
     count: usize,
     accuracy: f64,
     excitation: Excitation,
 ) -> Result<(RefinedModes, Vec<fea::Mode>, bool), fea::Error> {
-    let mut asked = count;
+    let mut requested = count;
     loop {
-        let refined = fea::refined_modes(&solved.model, &solved.rails, asked, accuracy)?;
+        let refined = fea::refined_modes(&solved.model, &solved.rails, requested, accuracy)?;
         let excited = excited_by(&refined.modes, solved, excitation);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
-        let is_whole = refined.modes.modes.len() < asked || refined.modes.next.is_none();
-        // `excited_by` combines all modes of one frequency: it needs every one of them
+        let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();
+        // `excited_by` combines all modes of one frequency, so that none of them may be missing
         let is_split = refined.modes.next.is_some_and(|next| next <= highest * (1.0 + EQUAL));
         if is_whole || (excited.len() >= count && !is_split) {
             return Ok((refined, excited, is_whole));
         }
-        asked = (2 * asked).max(asked + 8);
+        requested = (2 * requested).max(requested + 8);
     }
 }
 
-/// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh and without damping; `None` where no mass
-/// is given.
+/// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh and without damping; `None` for a
+/// structure without mass.
 pub(super) fn coarse_modes(
     name: &str,
     solved: &SolvedModel,
@@ -209,7 +212,7 @@ pub(super) fn coarse_modes(
 /// Dampers of equal damping constant under the ties of a rail.
 #[derive(Clone, Copy)]
 pub(super) struct Dampers<'p> {
-    /// Where they are.
+    /// Their positions.
     pub pads: &'p [Pad],
     /// Damping constant, force time/length.
     pub c: f64,
@@ -219,7 +222,7 @@ impl Dampers<'_> {
     pub const NONE: Dampers<'static> = Dampers { pads: &[], c: 0.0 };
 }
 
-/// Modes of one structure, kept so that each mesh is solved once however many foundations are built of it.
+/// Cache of the modes of one structure: each mesh is solved once for all foundations that are built from it.
 #[derive(Default)]
 pub struct ModeCache {
     lowest: Option<MeshModes>,
@@ -228,8 +231,8 @@ pub struct ModeCache {
 }
 
 impl ModeCache {
-    /// The foundation of the lowest `count` modes that `excitation` excites, each with the fraction `ratio` of critical
-    /// damping.
+    /// The foundation of the lowest `count` modes that `excitation` excites, each with the fraction `ratio` of
+    /// critical damping.
     pub(super) fn lowest(
         &mut self,
         name: &str,
@@ -270,13 +273,13 @@ impl ModeCache {
 
 /// The modes that `excitation` excites, lowest first.
 ///
-/// Modes of equal frequency are determined only up to a rotation among themselves. With R the motion of the rails in the
-/// modes of one such group (one row for each place and direction of a possible force, one column for each mode), the modes
-/// are rotated by the eigenvectors of R^T R: as few of them as possible then move the rails, and the others are dropped. A
-/// mode is kept where its largest motion exceeds the fraction [`STILL`] of 1/sqrt(mass).
+/// Modes of equal frequency are determined only up to a rotation among themselves. Let R be the motion of the rails
+/// in the modes of one such group, with one row for each position and direction of a possible force and one column
+/// for each mode. The modes are rotated by the eigenvectors of R^T R, after which as few of them as possible move the
+/// rails. A mode is retained if its largest motion exceeds the fraction [`STILL`] of 1/sqrt(mass).
 fn excited_by(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> Vec<fea::Mode> {
     let motions = rail_motions(modes, solved, excitation);
-    // a mode of unit modal mass in which the whole mass moves as one moves by 1/sqrt(mass)
+    // a mode of unit modal mass in which the total mass moves as one rigid body has the displacement 1/sqrt(mass)
     let limit = STILL / modes.rigid_mass[0][0].sqrt();
     let mut kept = Vec::new();
     let mut first = 0;
@@ -300,8 +303,8 @@ fn excited_by(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> Ve
     kept
 }
 
-/// Motion of the rails in each mode where and in the directions in which wheels can excitation, and the momentum of each mode by
-/// the motions of a carrier: rows x modes.
+/// Motion of the rails in each mode at the positions and in the directions of possible wheel forces, followed by the
+/// scaled coupling of each mode with the motions of a carrier: rows x modes.
 fn rail_motions(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> DMatrix<f64> {
     let mut rows = Vec::new();
     for (rail, given) in solved.rails.iter().enumerate() {
@@ -311,7 +314,7 @@ fn rail_motions(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> 
         };
         for x in sampled {
             for axis in excitation.axes() {
-                // no mode moves in a direction that nothing resists
+                // no mode moves in an unrestrained direction
                 if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
                     rows.extend(shapes.into_iter().map(|[value, _]| value));
                 }
@@ -319,13 +322,13 @@ fn rail_motions(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> 
         }
     }
     let count = modes.modes.len();
-    if let Some(on) = excitation.on {
-        rows.extend(mount::coupled_momentum(modes, on));
+    if let Some(carrier) = excitation.carrier {
+        rows.extend(mount::coupled_momentum(modes, carrier));
     }
     DMatrix::from_row_slice(rows.len() / count.max(1), count, &rows)
 }
 
-/// The linear combination of modes of equal frequency by `weights`.
+/// The linear combination of modes of equal frequency with factors `weights`.
 fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     let mut out = modes[0].clone();
     let add = |of: fn(&fea::Mode) -> &Vec<[f64; 6]>, at: usize, i: usize| -> f64 {
@@ -343,14 +346,16 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
 
 /// Rail coordinates at which the motion of modes is sampled: seventeen on each rail element.
 fn sampling_points(line: &Rails, rail: usize) -> Vec<f64> {
-    let cells = line.elements().iter().filter(|cell| cell.rail == rail);
-    cells
-        .flat_map(|cell| (0..=16).map(|k| cell.x[0] + (cell.x[1] - cell.x[0]) * f64::from(k) / 16.0))
+    let elements = line.elements().iter().filter(|element| element.rail == rail);
+    elements
+        .flat_map(|element| {
+            (0..=16).map(|k| element.x[0] + (element.x[1] - element.x[0]) * f64::from(k) / 16.0)
+        })
         .collect()
 }
 
-/// Modal matrices with discrete dampers: M = 1, K = diag(omega^2), C = diag(2 zeta omega) + c D^T D, where D_ir is the
-/// elongation of damper i in mode r. D couples the modes, so that these matrices are not diagonal.
+/// Modal matrices with discrete dampers: M = 1, K = diag(omega^2), C = diag(2 zeta omega) + c D^T D, where D_ir is
+/// the elongation of damper i in mode r. The dampers couple the modes, so that C is not diagonal.
 fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) -> Dynamics {
     let upward = |pad: &Pad, point: usize, arm: [f64; 3], mode: &fea::Mode| {
         let [x, y, z, rx, ry, rz] = mode.points[point];
@@ -369,7 +374,7 @@ fn damped(modes: &[fea::Mode], omega: &[f64], ratio: f64, dampers: Dampers<'_>) 
     Dynamics::Matrices { mass: DMatrix::identity(n, n), damping, stiffness: square }
 }
 
-/// Displacements of the rails in each mode, as shapes of the simulation.
+/// Displacements of the rails in each mode as shape functions of the simulation.
 struct ModeShapes(splines::RailShapes);
 
 impl Shapes for ModeShapes {

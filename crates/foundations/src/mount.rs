@@ -1,5 +1,5 @@
-//! Structures that bodies carry, such as the rails of a trolley on its bridge: the lines of their rails on the body, their
-//! mass, and the coupling of their modes with its motion.
+//! Structures carried by bodies, such as the rails of a trolley on its bridge: the lines of their rails relative to
+//! the body, their mass, and the inertial coupling of their modes with the motion of the body.
 
 use fea::Modes;
 use sim::{CarriedRail, Carrier};
@@ -8,8 +8,8 @@ use splines::Axis;
 use crate::error::Error;
 use formats::scene::{CarriedBy, Origin, Structure};
 
-/// The lines of a structure's rails on the body that carries it, and its rigid mass, 6 x 6 about the body's origin;
-/// `None` for a structure on the ground.
+/// The lines of a structure's rails relative to the body that carries it, and the rigid mass matrix of the structure,
+/// 6 x 6 about the body's origin; `None` for a structure on the ground.
 ///
 /// # Errors
 /// [`Error::Frame`] for a spec that no model can be made of.
@@ -24,7 +24,8 @@ pub fn mount(structure: &Structure) -> Result<Option<Carrier>, Error> {
     let rail_line = |rail: &fea::Rail| {
         let size = rail.axis.iter().map(|a| a * a).sum::<f64>().sqrt();
         let along = rail.axis.map(|a| a / size);
-        // the rail lies at its offset from the member; only the part of it across the rail displaces the rail's line
+        // the rail lies at its offset from the member; only the component across the rail displaces the line of the
+        // rail
         let across = rail.segments.first().and_then(|segment| {
             let member = model.members.get(segment.member)?;
             let point = model.points.get(member.points[0])?;
@@ -42,30 +43,30 @@ pub fn mount(structure: &Structure) -> Result<Option<Carrier>, Error> {
     Ok(Some(Carrier { body, rails: rails.iter().map(rail_line).collect(), mass, coupling: Vec::new() }))
 }
 
-/// What excites a structure: vertical wheel forces, lateral and longitudinal ones where wheels have them, and the motion
-/// of the body that carries it.
+/// Excitation of a structure: vertical wheel forces, lateral and longitudinal forces where wheels exert them, and the
+/// motion of the body that carries the structure.
 #[derive(Clone, Copy)]
 pub(super) struct Excitation {
     pub lateral: bool,
     pub longitudinal: bool,
-    pub on: Option<CarriedBy>,
+    pub carrier: Option<CarriedBy>,
 }
 
 impl Excitation {
     /// Vertical wheel forces on a structure on the ground.
-    pub const VERTICAL: Excitation = Excitation { lateral: false, longitudinal: false, on: None };
+    pub const VERTICAL: Excitation = Excitation { lateral: false, longitudinal: false, carrier: None };
 
     /// Directions of the wheel forces.
     pub fn axes(self) -> Vec<Axis> {
-        let pushes =
+        let loaded =
             [(Axis::Vertical, true), (Axis::Lateral, self.lateral), (Axis::Longitudinal, self.longitudinal)];
-        pushes.into_iter().filter(|(_, pushes)| *pushes).map(|(axis, _)| axis).collect()
+        loaded.into_iter().filter(|(_, is_loaded)| *is_loaded).map(|(axis, _)| axis).collect()
     }
 }
 
-/// Coupling of every mode with each free motion of its carrier, divided by sqrt(m_i m): m_i is the carried mass (or
-/// inertia) in that motion, m the whole mass. One row of modes for each motion, so scaled that it compares with the motion
-/// of a mode in which the whole mass moves as one.
+/// Coupling of every mode with each free motion of its carrier, divided by sqrt(m_i m), where m_i is the carried mass
+/// (or moment of inertia) in that motion and m the total mass. There is one row of modes for each motion. The scaling
+/// makes the values comparable with the motion of a mode in which the total mass moves as one rigid body.
 pub(super) fn coupled_momentum(modes: &Modes, on: CarriedBy) -> Vec<f64> {
     let total = Carrier::mass_about_origin(&modes.rigid_mass, on.at);
     let couplings: Vec<[f64; 6]> =
@@ -79,7 +80,8 @@ pub(super) fn coupled_momentum(modes: &Modes, on: CarriedBy) -> Vec<f64> {
         .collect()
 }
 
-/// Mass of a structure in modes and the coupling of `modes` with its carrier, about the carrier's origin; without rails.
+/// Rigid mass matrix of a modal structure and the coupling of `modes` with its carrier, both about the origin of the
+/// carrier; the list of rails is empty.
 pub(super) fn inertia(modes: &Modes, on: CarriedBy) -> Carrier {
     let coupling = modes.modes.iter().map(|mode| Carrier::load_about_origin(&mode.coupling, on.at)).collect();
     Carrier {

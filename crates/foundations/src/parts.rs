@@ -1,12 +1,12 @@
 //! A straight girder as a chain of rigid parts, joined by elastic beams between their centres.
 //!
-//! This is how girders were modelled by hand in multibody programs. The girder is divided into n parts of equal length;
-//! beams with the girder's section run from centre to centre, and each support holds the part that lies above it. The
-//! compliance C of the centres, 6n x 6n, comes from that frame ([`nodal_compliance`]). A wheel stands on the rigid
-//! extension of the part below it and passes to the next one within a window about their joint.
+//! Girders used to be modelled in this form by hand in multibody programs. The girder is divided into n parts of
+//! equal length. Beams with the section of the girder connect the centres, and each support restrains the part above
+//! it. The compliance C of the centres, 6n x 6n, is computed from this frame ([`nodal_compliance`]). A wheel stands
+//! on the rigid extension of the part below it and passes to the next part within a window about their joint.
 //!
-//! Without mass the displacements of the rail follow from C at once. With mass, C is decomposed into its principal
-//! combinations, C = B diag(1/k) B^T, and B's columns with compliance above [`RIGID`] of the largest are the degrees of
+//! Without mass the displacements of the rail follow directly from C. With mass, C is diagonalised, C = B diag(1/k)
+//! B^T, and those columns of B whose compliance exceeds the fraction [`RIGID`] of the largest are the degrees of
 //! freedom ([`PartsDynamics`]):
 //!
 //! ```text
@@ -25,16 +25,16 @@ use crate::error::Error;
 use crate::mount::Excitation;
 use formats::scene::{CarriedBy, Handover};
 
-/// Compliance of a combination of the parts' motions, relative to the largest, below which it counts as rigid.
+/// Compliance of an eigenvector of C, relative to the largest, below which the eigenvector is treated as rigid.
 const RIGID: f64 = 1e-13;
 
-/// The foundation of `count` rigid parts of equal length. Where the girder has mass, each part has its fraction of it, and
-/// every natural mode of the chain has the fraction `damping` of critical damping. Where wheels do not excitation sideways,
-/// parts with mass move in the vertical plane only.
+/// The foundation of `count` rigid parts of equal length. Where the girder has mass, each part has an equal fraction
+/// of it, and every natural mode of the chain has the fraction `damping` of critical damping. Where wheels exert no
+/// lateral forces, parts with mass move in the vertical plane only.
 ///
 /// # Errors
-/// [`Error::Windows`] where the windows of neighbouring joints overlap; [`Error::Chain`] where the chain is a mechanism;
-/// [`Error::ChainRail`] where its rail cannot be made.
+/// [`Error::Windows`] where the windows of neighbouring joints overlap; [`Error::Chain`] where the chain is a
+/// mechanism; [`Error::ChainRail`] where its rail cannot be made.
 pub fn foundation(
     girder: &Girder,
     count: usize,
@@ -60,7 +60,7 @@ pub fn foundation(
     }
     if let Some(mass) = girder.mass_per_length {
         let dynamics = PartsDynamics::new(girder, mass, &ends, &nodal, excitation.lateral);
-        foundation.carrier = excitation.on.map(|on| dynamics.mount(&centres, on));
+        foundation.carrier = excitation.carrier.map(|carrier| dynamics.carrier(&centres, carrier));
         let basis = dynamics.basis.clone();
         motion = Some(MotionBasis::Parts(RigidParts { ends: ends.clone(), basis: basis.clone() }));
         let shapes = PartShapes { line, basis, chains: vec![chain], separate };
@@ -73,16 +73,16 @@ pub fn foundation(
             Box::new(BlendedParts { surface, chains: vec![chain] })
         });
     }
-    Ok(BuiltFoundation { foundation, motion })
+    Ok(BuiltFoundation { foundation, basis: motion })
 }
 
-/// The `count + 1` ends of parts of equal length over the girder with its overhangs.
+/// The `count + 1` ends of parts of equal length along the girder with its overhangs.
 fn part_ends(girder: &Girder, count: usize) -> Vec<f64> {
     let (from, to) = (-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]);
     (0..=count).map(|j| from + (to - from) * j as f64 / count as f64).collect()
 }
 
-/// Compliance of the parts' centres, six degrees of freedom each: 6 n x 6 n, zero in directions that nothing resists.
+/// Compliance of the centres of the parts, six degrees of freedom each: 6 n x 6 n, zero in unrestrained directions.
 fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DMatrix<f64>, Error> {
     let (whole, _) = girder.model_and_rail()?;
     let mut model =
@@ -101,7 +101,7 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
     }
     let points: Vec<usize> = (0..centres.len()).collect();
     let (mut nodal, _) = fea::point_compliance(&model, &points)?;
-    // the compliance of a direction that nothing resists is infinite: parts are taken not to move there
+    // the compliance of an unrestrained direction is infinite: parts are assumed not to move in it
     for i in 0..nodal.nrows() {
         if !nodal[(i, i)].is_finite() {
             nodal[(i, i)] = 0.0;
@@ -110,11 +110,11 @@ fn nodal_compliance(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<DM
     Ok(nodal)
 }
 
-/// Every part as a rigid extension over the whole length, each on a rail of its own: the chain then selects, or blends,
-/// the rails of the parts below a wheel.
+/// Rail elements of the chain: every part is a rigid extension over the whole length on a rail of its own. The chain
+/// then selects or blends the rails of the parts below a wheel.
 fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Rails, Error> {
     let [from, to] = [ends[0], ends[ends.len() - 1]];
-    let cells = centres.iter().enumerate().map(|(j, centre)| RailElement {
+    let elements = centres.iter().enumerate().map(|(j, centre)| RailElement {
         rail: j,
         x: [from, to],
         ends: [j, j],
@@ -124,21 +124,21 @@ fn line(girder: &Girder, ends: &[f64], centres: &[f64]) -> Result<Rails, Error> 
         flexibility: Flexibility::default(),
         member: None,
     });
-    Ok(Rails::new(cells.collect())?)
+    Ok(Rails::new(elements.collect())?)
 }
 
-/// Moment of inertia of a part of `length` about the girder's axis, divided by its mass: the squared radius of gyration
-/// (I_vertical + I_lateral)/A, at least 1e-6 length^2, so that no degree of freedom is without inertia.
+/// Moment of inertia of a part of `length` about the axis of the girder, divided by its mass: the squared radius of
+/// gyration (I_vertical + I_lateral)/A, at least 1e-6 length^2, so that every degree of freedom has inertia.
 #[must_use]
 pub fn roll_inertia(girder: &Girder, length: f64) -> f64 {
     let polar = girder.area.map_or(0.0, |area| (girder.i_vertical + girder.i_lateral.unwrap_or(0.0)) / area);
     polar.max(1e-6 * length * length)
 }
 
-/// Equations of motion of parts with mass, in the principal combinations of their compliance: what the supports hold has
-/// no compliance and is no degree of freedom. K = diag(1/compliance), M = basis^T diag(lumped) basis.
+/// Equations of motion of parts with mass in the eigenvectors of their compliance. Motions that the supports prevent
+/// have no compliance and are not degrees of freedom. K = diag(1/compliance), M = basis^T diag(lumped) basis.
 struct PartsDynamics {
-    /// Motion of the centres by the degrees of freedom: 6 n x degrees of freedom.
+    /// Motion of the centres per unit of each degree of freedom: 6 n rows, one column per degree of freedom.
     basis: DMatrix<f64>,
     /// Mass or moment of inertia that belongs to each of the 6 n motions.
     lumped: DVector<f64>,
@@ -148,10 +148,11 @@ struct PartsDynamics {
 }
 
 impl PartsDynamics {
-    /// Of parts with `mass` per length between `ends`, whose centres have the compliance `nodal`; with `lateral` motion,
-    /// roll and yaw too, else in the vertical plane.
+    /// The equations of parts with `mass` per length between `ends`, whose centres have the compliance `nodal`. With
+    /// `lateral`, the parts also move laterally, roll and yaw; otherwise they move in the vertical plane.
     fn new(girder: &Girder, mass: f64, ends: &[f64], nodal: &DMatrix<f64>, lateral: bool) -> PartsDynamics {
-        // rotations are scaled by a part's length, so that displacements and rotations are comparable in one eigenproblem
+        // rotations are scaled by a part's length, so that displacements and rotations are comparable in one
+        // eigenproblem
         let length = ends[1] - ends[0];
         let wanted: &[usize] = if lateral { &[1, 5, 2, 3, 4] } else { &[1, 5] };
         let used: Vec<usize> = (0..nodal.nrows()).filter(|i| wanted.contains(&(i % 6))).collect();
@@ -181,13 +182,14 @@ impl PartsDynamics {
         PartsDynamics { mass: basis.transpose() * weighted, stiffness, basis, lumped }
     }
 
-    /// Inertia of the parts as seen by the body that carries them: mass R^T m R, and coupling basis^T m R with the
-    /// degrees of freedom. m: the lumped masses; R: motion of the parts by the six motions of the body, 6 n x 6.
-    fn mount(&self, centres: &[f64], on: CarriedBy) -> Carrier {
+    /// Inertia of the parts in the equations of the body that carries them: mass R^T m R, and coupling basis^T m R
+    /// with the degrees of freedom. m: the lumped masses; R: motion of the parts per unit of each motion of the body,
+    /// 6 n x 6.
+    fn carrier(&self, centres: &[f64], on: CarriedBy) -> Carrier {
         let motion = DMatrix::from_fn(6 * centres.len(), 6, |i, k| {
             let (x, axis) = (centres[i / 6], i % 6);
             match (axis, k) {
-                // yaw and pitch displace what lies at x
+                // yaw and pitch displace a part at x
                 (1, 5) => x,
                 (2, 4) => -x,
                 _ => f64::from(u8::from(axis == k)),
@@ -205,7 +207,7 @@ impl PartsDynamics {
         }
     }
 
-    /// Damping matrix D by which every natural mode has the fraction `zeta` of critical damping:
+    /// Damping matrix D for which every natural mode has the fraction `zeta` of critical damping:
     /// D = 2 zeta K^1/2 (K^-1/2 M K^-1/2)^1/2 K^1/2. For the modes phi of M and K with phi^T M phi = 1,
     /// phi^T D phi = 2 zeta omega.
     fn damping(&self, zeta: f64) -> DMatrix<f64> {
@@ -222,7 +224,7 @@ impl PartsDynamics {
         DMatrix::from_fn(size, size, |r, c| zeta * root[r] * (middle[(r, c)] + middle[(c, r)]) * root[c])
     }
 
-    /// As a structure of the simulation, every natural mode with the fraction `damping` of critical damping.
+    /// The structure of the simulation; every natural mode has the fraction `damping` of critical damping.
     fn structure(&self, shapes: PartShapes, damping: f64) -> Structure {
         Structure {
             dynamics: Dynamics::Matrices {

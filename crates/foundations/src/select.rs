@@ -1,10 +1,11 @@
 //! The choice of a fidelity for structures whose foundation is "auto".
 //!
-//! The algorithm is that of [`sim::choose`]: it predicts the error of leaving mass or compliance out, runs the scene at the
-//! lowest fidelity whose prediction is within the tolerance of the structure, estimates the error by a run at a higher one,
-//! and refines until the estimate is within the tolerance. The order of fidelities is rigid, influence functions, natural
-//! modes, a mesh of half the elements, the mesh. This file builds the foundations that it asks for, from the solutions of a
-//! scene's specs, keeps their modes for all trials, and says why a fidelity was chosen.
+//! The algorithm is that of [`sim::choose`]: it predicts the error of leaving mass or compliance out, runs the scene
+//! at the lowest fidelity whose prediction is within the tolerance of the structure, estimates the error by a run at
+//! a higher one, and refines until the estimate is within the tolerance. The fidelities in ascending order are rigid,
+//! influence functions, natural modes, a mesh of half the elements, and the full mesh. This file builds the requested
+//! foundations from the solutions of a scene's specs, caches their modes for all trials, and explains the choice in
+//! words.
 
 use std::ops::ControlFlow;
 
@@ -19,12 +20,13 @@ use crate::mount::Excitation;
 use crate::solved::{SolvedModel, SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
-/// Elements of the finest mesh, as far as the limits for each member allow.
+/// Number of elements of the finest mesh, within the limits for each member.
 const ELEMENTS: usize = 192;
-/// Fewest and most elements of a member in the finest mesh; half of the fewest must still be a mesh.
+/// Least and largest number of elements of a member in the finest mesh. Half of the least number must still be a
+/// mesh.
 const PER_MEMBER: [usize; 2] = [2, 64];
 
-/// A run of a scene, with the foundations it ran on.
+/// A run of a scene and the foundations of its structures.
 pub struct AutoRun {
     /// The fidelity chosen for each structure whose foundation is "auto", with the reason.
     pub choices: Vec<Choice>,
@@ -36,9 +38,9 @@ pub struct AutoRun {
 
 /// Chooses the foundation of every structure of `scene` that is "auto", enters it in `scene`, and runs the scene.
 ///
-/// `cast` is the simulation input made of `scene`; `known` has the solutions of its specs. The history holds the degrees
-/// of freedom of those structures for which `recorded` (index of the structure, its foundation) is true. `watch` is called
-/// with the simulated time after every step of every trial, and can stop the run.
+/// `input` is the simulation input made from `scene`; `known` has the solutions of its specs. The history contains
+/// the degrees of freedom of those structures for which `recorded` (index of the structure, its foundation) is true.
+/// `watch` is called with the simulated time after every step of every trial, and can stop the run.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -65,7 +67,7 @@ pub struct AutoRun {
 /// A foundation that cannot be built; [`Error::Simulation`] for a scene that cannot start.
 pub fn select_and_run(
     scene: &mut Scene,
-    cast: &sim::Scene,
+    input: &sim::Scene,
     known: &[SolvedStructure],
     recorded: &dyn Fn(usize, &sim::Foundation) -> bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -75,14 +77,14 @@ pub fn select_and_run(
     let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
     let lateral = scene.has_flanges();
     let mut provider = SceneFoundations { scene, known, lateral, mode_caches, recorded };
-    let sim::Selection { choices, run, .. } = sim::choose(cast, &tolerances, &mut provider, watch)?;
+    let sim::Selection { choices, run, .. } = sim::choose(input, &tolerances, &mut provider, watch)?;
     let mut mode_caches = provider.mode_caches;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
         let solved = solution_of(known, &structure.origin);
         structure.foundation = scene_foundation(structure, choice.fidelity, mesh_elements(solved));
     }
-    // the run keeps no foundations: they are built again from the modes that are cached
+    // the run does not return its foundations; they are built again from the cached modes
     let built = scene
         .structures
         .iter()
@@ -92,32 +94,32 @@ pub fn select_and_run(
     Ok(AutoRun { choices, run, built })
 }
 
-/// Number of elements for each member in the finest mesh of "auto": 192 in all, 2 to 64 for a member.
+/// Number of elements of each member in the finest mesh of "auto": about 192 in total, 2 to 64 per member.
 #[must_use]
 pub fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
     let members = solved.map_or(1, |solved| solved.model.members.len());
     (ELEMENTS / members.max(1)).clamp(PER_MEMBER[0], PER_MEMBER[1])
 }
 
-/// The foundation of a solved structure at fidelity `rung`, for vertical wheel forces.
+/// The foundation of a solved structure at one fidelity, for vertical wheel forces.
 ///
-/// `cache` keeps its modes from one call to the next; `damping` is the fraction of critical damping of each mode; the
-/// finest mesh has `finer` times as many elements as that of "auto".
+/// `cache` stores its modes between calls; `damping` is the fraction of critical damping of each mode; the finest
+/// mesh has `finer` times as many elements as that of "auto".
 ///
 /// # Errors
-/// [`Error::Modes`] for a structure without mass where modes are asked for, or with too many unknowns;
-/// [`Error::NoSurface`] for influence functions of a structure whose surface is not known.
+/// [`Error::Modes`] for modes of a structure without mass or with too many unknowns; [`Error::NoSurface`] for
+/// influence functions of a structure whose surface has not been computed.
 pub fn foundation_at(
     cache: &mut ModeCache,
     solved: &SolvedModel,
-    rung: Fidelity,
+    fidelity: Fidelity,
     damping: f64,
     finer: usize,
 ) -> Result<sim::Foundation, Error> {
     let name = "structure";
     let rails = solved.rails.iter().enumerate();
     let elements = finer * mesh_elements(Some(solved));
-    match (rung, &solved.surface) {
+    match (fidelity, &solved.surface) {
         (Fidelity::Modal(modes), _) => {
             Ok(cache.lowest(name, solved, modes, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
         }
@@ -139,19 +141,19 @@ pub fn foundation_at(
     }
 }
 
-/// About the lowest `count` modes of a solved structure that vertical wheel forces excite, with frequencies to 1 %; `None`
-/// without mass.
+/// Approximately the lowest `count` modes of a solved structure that vertical wheel forces excite, with frequencies
+/// within 1 %; `None` for a structure without mass.
 ///
 /// # Errors
-/// [`Error::Modes`] for modes that cannot be found.
+/// [`Error::Modes`] for modes that cannot be computed.
 pub fn excited_modes(solved: &SolvedModel, count: usize) -> Result<Option<sim::Structure>, Error> {
     modal::coarse_modes("structure", solved, count)
 }
 
-/// The foundation of a scene that a fidelity stands for.
-fn scene_foundation(structure: &Structure, rung: Fidelity, elements: usize) -> Foundation {
+/// The foundation in terms of scene files that corresponds to a fidelity.
+fn scene_foundation(structure: &Structure, fidelity: Fidelity, elements: usize) -> Foundation {
     let damping = structure.damping;
-    match rung {
+    match fidelity {
         Fidelity::Rigid => Foundation::Rigid,
         Fidelity::Influence => Foundation::Influence,
         Fidelity::Modal(modes) => Foundation::Modal { modes, damping },
@@ -160,12 +162,12 @@ fn scene_foundation(structure: &Structure, rung: Fidelity, elements: usize) -> F
     }
 }
 
-/// Builds the foundations of a scene's structures at the fidelities that the selection asks for.
+/// Builds the foundations of a scene's structures at the fidelities that the selection requests.
 struct SceneFoundations<'a> {
     scene: &'a Scene,
     known: &'a [SolvedStructure],
     lateral: bool,
-    /// One for each structure.
+    /// Modes of each structure.
     mode_caches: Vec<ModeCache>,
     recorded: &'a dyn Fn(usize, &sim::Foundation) -> bool,
 }
@@ -186,10 +188,10 @@ impl FoundationProvider for SceneFoundations<'_> {
         })
     }
 
-    fn foundation(&mut self, structure: usize, rung: Fidelity) -> Result<sim::Foundation, Error> {
+    fn foundation(&mut self, structure: usize, fidelity: Fidelity) -> Result<sim::Foundation, Error> {
         let mut own = self.scene.structures[structure].clone();
         if own.auto {
-            own.foundation = scene_foundation(&own, rung, mesh_elements(self.solved(structure)));
+            own.foundation = scene_foundation(&own, fidelity, mesh_elements(self.solved(structure)));
         }
         let solved = solution_of(self.known, &own.origin);
         let mut foundation = build(&mut self.mode_caches[structure], &own, solved, self.lateral)?.foundation;
@@ -209,8 +211,8 @@ impl FoundationProvider for SceneFoundations<'_> {
 
 /// A fidelity in words.
 #[must_use]
-pub fn fidelity_name(rung: Fidelity) -> String {
-    match rung {
+pub fn fidelity_name(fidelity: Fidelity) -> String {
+    match fidelity {
         Fidelity::Rigid => "rigid".to_owned(),
         Fidelity::Influence => "influence".to_owned(),
         Fidelity::Modal(modes) => format!("modal, {modes} modes"),
@@ -219,60 +221,68 @@ pub fn fidelity_name(rung: Fidelity) -> String {
     }
 }
 
-/// Why a foundation was chosen, as a sentence without its full stop.
+/// The reason why a foundation was chosen, as a sentence without its full stop.
 #[must_use]
 pub fn selection_reason(choice: &Choice) -> String {
-    let rung = fidelity_name(choice.fidelity);
+    let chosen = fidelity_name(choice.fidelity);
     let mut text = match (choice.reason, choice.estimate) {
         (Reason::NoMass, _) => {
-            format!("auto: {rung}; no mass given: the error of leaving it out is not known")
+            format!(
+                "auto: {chosen}; the mass is not known, so the error of neglecting it is not known either"
+            )
         }
-        (Reason::QuasiStatic, _) => format!("auto: {rung}; a quasi-static sweep has no inertia"),
+        (Reason::QuasiStatic, _) => format!("auto: {chosen}; a quasi-static sweep has no inertia"),
         (Reason::Predicted, estimate) => format!(
-            "auto: {rung}, predicted to err by {:.1e}, so far below the tolerance that no higher rung was run",
+            "auto: {chosen}; its predicted error, {:.1e}, is so far below the tolerance that no higher fidelity \
+             was run",
             estimate.unwrap_or_default()
         ),
         (Reason::Sufficient, estimate) => format!(
-            "auto: {rung}, the lowest rung tried whose estimated error, {:.1e}, is within the tolerance",
+            "auto: {chosen}; it is the lowest fidelity tried whose estimated error, {:.1e}, is within the tolerance",
             estimate.unwrap_or_default()
         ),
         (Reason::Highest, Some(estimate)) => format!(
-            "auto: {rung}, as nothing lower was within the tolerance; half the elements differ by {estimate:.1e}, more \
-             than the tolerance"
+            "auto: {chosen}; no lower fidelity was within the tolerance, and a mesh of half the elements differs by \
+             {estimate:.1e}, which is more than the tolerance"
         ),
         (Reason::Highest, None) => {
-            format!("auto: {rung}, as nothing lower was within the tolerance; its own error is not known")
+            format!(
+                "auto: {chosen}; no lower fidelity was within the tolerance, and its own error is not known"
+            )
         }
         (Reason::Unchecked, _) => {
-            format!("auto: {rung}, which no higher rung could check: its error is not known")
+            format!("auto: {chosen}; no higher fidelity could be run to check it, so its error is not known")
         }
     };
     if let Some(predicted) = &choice.predicted {
-        let PredictedErrors { deflection: give, speed, ripple, step, track, .. } = predicted;
+        let PredictedErrors { deflection, speed, ripple, step, track, .. } = predicted;
         text += &format!(
-            "; predicted without mass: give {give:.1e}, speed {speed:.1e}, ripple {ripple:.1e}, load step {step:.1e}, \
-             track {track:.1e}"
+            "; predicted errors without mass: deflection {deflection:.1e}, speed {speed:.1e}, ripple {ripple:.1e}, \
+             load step {step:.1e}, track {track:.1e}"
         );
     }
     text
 }
 
-/// What a user must know of a choice whose error is not known to be within `tolerance`; `None` where it is.
+/// Warning about a choice whose error is not known to be within `tolerance`; `None` where it is.
 #[must_use]
 pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
-    let rung = fidelity_name(choice.fidelity);
+    let chosen = fidelity_name(choice.fidelity);
     let why = match (choice.reason, choice.estimate) {
         (Reason::Highest, Some(estimate)) => format!(
-            "estimate above tolerance: {rung} is the top, and half its elements differ by {estimate:.1e}, more than \
-             {tolerance}"
+            "the estimated error is above the tolerance: {chosen} is the highest fidelity, and a mesh of half the \
+             elements differs by {estimate:.1e}, which is more than {tolerance}"
         ),
-        (Reason::Highest, None) => {
-            format!("{rung} is the top, and no coarser mesh could be run: its error is not known")
+        (Reason::Highest, None) => format!(
+            "the error of {chosen} is not known: it is the highest fidelity, and no coarser mesh could be run \
+             to check it"
+        ),
+        (Reason::Unchecked, _) => {
+            format!("the error of {chosen} is not known: no higher fidelity could be run to check it")
         }
-        (Reason::Unchecked, _) => format!("the error of {rung} is not known: no higher rung could be run"),
         _ => return None,
     };
-    let failed: Vec<String> = choice.failed.iter().map(|rung| fidelity_name(*rung)).collect();
+    let failed: Vec<String> = choice.failed.iter().map(|fidelity| fidelity_name(*fidelity)).collect();
     let list =
         if failed.is_empty() { String::new() } else { format!(" (could not be run: {})", failed.join("; ")) };
     Some(format!("{name}: {why}{list}"))

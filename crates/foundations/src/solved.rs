@@ -9,28 +9,28 @@ use formats::spec::{SolveError, Spec};
 use formats::text::inputs::Input;
 use splines::ExactSurface;
 
-/// The solution of a structure's FE model.
+/// FE model of a structure and its solution.
 pub struct SolvedModel {
     /// The model.
     pub model: fea::Model,
     /// Its rails.
     pub rails: Vec<fea::Rail>,
-    /// Exact influence surface; `None` where it would be larger than the limit given.
+    /// Exact influence surface; `None` where it would be larger than the limit passed to [`solve_to`].
     pub surface: Option<ExactSurface>,
     /// Grids at the stations.
     pub grid: StationGrid,
-    /// The girder, where the structure is a straight girder.
+    /// The girder; `None` where the structure is not a straight girder.
     pub girder: Option<fea::Girder>,
-    /// Size of the system; `None` where the solution is that of an earlier run.
+    /// Size of the system of equations; `None` where the solution was read from an earlier run.
     pub size: Option<SystemSize>,
 }
 
 /// Size of a system of equations.
 #[derive(Clone, Copy, Debug)]
 pub struct SystemSize {
-    /// Unknown displacements and rotations.
+    /// Number of unknown displacements and rotations.
     pub unknowns: usize,
-    /// Bytes of its factor.
+    /// Size of the factored matrix in bytes.
     pub bytes: u64,
 }
 
@@ -48,8 +48,9 @@ pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
     solve_to(spec, fea::DEFAULT_ACCURACY, usize::MAX)
 }
 
-/// The same, with compliances whose relative error bound is at most `accuracy`, and without a surface where the rail
-/// elements have more than `most` degrees of freedom at their ends (6 for each end; the surface grows with their square).
+/// Solves a spec like [`solve`], with a relative error bound of the compliances of at most `accuracy`. The surface is
+/// omitted where the rail elements have more than `most` degrees of freedom at their ends (6 per end), because its
+/// size grows with the square of their number.
 ///
 /// # Errors
 /// As [`solve`].
@@ -57,12 +58,13 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, 
     let (model, rails) = spec.model()?;
     let frame = FactoredFrame::with_accuracy(&model, &rails, accuracy)?;
     let mut grid = StationGrid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
-    let freedoms = 6 * frame.line()?.state_count();
-    let surface = if freedoms <= most {
+    let dofs = 6 * frame.line()?.state_count();
+    let surface = if dofs <= most {
         Some(frame.surface()?.surface)
     } else {
         grid.notes.push(format!(
-            "no surface: the compliance of {freedoms} freedoms at the ends of the rails' cells is too large for a file"
+            "no influence surface: the compliance matrix of the {dofs} degrees of freedom at the ends of the rail \
+             elements is too large for a file"
         ));
         None
     };
@@ -78,8 +80,8 @@ pub struct SolvedStructure {
     pub solution: SolvedModel,
 }
 
-/// Every different spec of the document, once: the name of its tables, its file, and the spec. The name is that of the
-/// structure, followed by the label of the comparison if the spec is that of a comparison alone.
+/// Lists every distinct spec of the document once, as (name of its tables, file, spec). The name is that of the
+/// structure, followed by the label of the comparison if the spec occurs only in a comparison.
 #[must_use]
 pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
     let mut all: Vec<(String, &str, &Arc<Spec>)> = Vec::new();
@@ -100,7 +102,8 @@ pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
     all
 }
 
-/// The solution of a structure's spec among `known`; `None` for a structure of tables, or one that was not solved.
+/// The solution of a structure's spec among `known`; `None` for a structure defined by tables or a spec that is not
+/// among them.
 #[must_use]
 pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a SolvedModel> {
     match origin {
@@ -114,7 +117,7 @@ pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<
 /// Solves the given specs of a document (see [`distinct_specs`]).
 ///
 /// # Errors
-/// A spec that cannot be solved, with the place in its file where that is known.
+/// A spec that cannot be solved, with the position in its file where that is known.
 pub fn solve_specs(
     document: &Document,
     specs: &[(String, &str, &Arc<Spec>)],

@@ -1,7 +1,7 @@
 //! Foundations without mass: influence functions, either exact or interpolated in tables.
 
 use formats::grid::axes;
-use formats::scene::{Origin, Structure, TableInterpolation as Words};
+use formats::scene::{Origin, Structure, TableInterpolation};
 use nalgebra::DMatrix;
 use sim::Foundation;
 use splines::{Axis, Couplings, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading, Uncoupled};
@@ -9,11 +9,12 @@ use splines::{Axis, Couplings, InfluenceBlock, Probe, ReadingMethod, SplineTable
 use crate::error::Error;
 use crate::solved::SolvedModel;
 
-/// The influence functions of a structure as its foundation: the exact surface of its solution where the scene asks for
-/// the reading "exact" and the surface is known, else tables at the stations and the interpolation that the scene names.
+/// The influence functions of a structure as its foundation. The exact surface of its solution is used where the
+/// scene specifies the reading "exact" and the surface has been computed; otherwise tables at the stations are
+/// interpolated as the scene specifies.
 pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> Result<Foundation, Error> {
     let rails = structure.rails.len();
-    let exact = structure.interpolation == Words::Exact;
+    let exact = structure.interpolation == TableInterpolation::Exact;
     if let (true, Some(surface)) = (exact, solved.and_then(|solved| solved.surface.as_ref())) {
         let surface = surface.clone();
         return Ok(match structure.couplings {
@@ -23,20 +24,21 @@ pub(crate) fn influence(structure: &Structure, solved: Option<&SolvedModel>) -> 
     }
     let blocks = influence_blocks(structure, solved)?;
     let kind = match structure.interpolation {
-        // a table of values has no exact form; natural splines are exact for loads and supports at the stations
-        Words::Exact | Words::Natural => ReadingMethod::Natural,
-        Words::Akispl => ReadingMethod::Akispl,
-        Words::Cubspl => ReadingMethod::Cubspl,
+        // a table of values has no exact surface; natural splines are exact for loads and supports at the stations
+        TableInterpolation::Exact | TableInterpolation::Natural => ReadingMethod::Natural,
+        TableInterpolation::Akispl => ReadingMethod::Akispl,
+        TableInterpolation::Cubspl => ReadingMethod::Cubspl,
     };
     let reading = TableReading::new(kind, &blocks).map_err(Error::rails(&structure.name))?;
     Ok(Foundation::massless(Box::new(reading), rails))
 }
 
-/// The influence coefficients of a structure at its stations: one block for each pair of rail and direction, as far as the
-/// structure's couplings keep it. Values are deflections (rows) by unit loads (columns).
+/// The influence coefficients of a structure at its stations: one block for each pair of (rail, direction) that the
+/// couplings of the structure include. Values are deflections (rows) due to unit loads (columns).
 ///
 /// # Errors
-/// [`Error::Unsolved`] for a spec without solution; [`Error::Rails`] for values or stations that are no table.
+/// [`Error::Unsolved`] for a spec without solution; [`Error::Rails`] for values or stations that are not a valid
+/// table.
 pub fn influence_blocks(
     structure: &Structure,
     solved: Option<&SolvedModel>,
@@ -71,7 +73,7 @@ pub fn influence_blocks(
                     let size = stations.map(<[f64]>::len);
                     for (quantity, grid) in &solved.grid.blocks {
                         let (a, b) = axes(*quantity);
-                        // G is symmetric: of a block and its transpose one is enough
+                        // G is symmetric: only one of a block and its transpose is stored
                         if a != b || r <= c {
                             let block = grid.view((first_row, first_column), (size[0], size[1])).into_owned();
                             add((r, a), (c, b), stations, block)?;

@@ -1,8 +1,8 @@
 //! The cases of a scene (the scene itself and its comparisons), each simulated on its own foundations.
 //!
-//! For each case: the simulation input is made of the scene, foundations are chosen and the scene is run
-//! ([`foundations::select_and_run`]), and the history becomes named columns. Reactions, envelopes, natural modes, values of
-//! codes and fatigue are then computed from these columns.
+//! For each case the simulation input is made from the scene, foundations are chosen and the scene is run
+//! ([`foundations::select_and_run`]), and the history is converted to named columns. Reactions, envelopes, natural
+//! modes, values of codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -10,10 +10,10 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use sim::Foundation;
 
 use crate::Error;
+use crate::case_result::CaseResult;
 use crate::codes::CodeCheck;
+use crate::columns::NamedColumns;
 use crate::fatigue;
-use crate::outcome::CaseResult;
-use crate::record::NamedColumns;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
@@ -21,8 +21,8 @@ use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
 /// Runs every case, on at most `threads` threads (`None`: as many as the machine has). `progress` is called, from any
-/// thread, with the fraction of all simulated time that is done, 0 to 1. `known` has the solutions of the specs of all
-/// cases.
+/// thread, with the fraction of all simulated time that is done, 0 to 1. `known` has the solutions of the specs of
+/// all cases.
 ///
 /// ```
 /// use formats::scene::Document;
@@ -50,7 +50,7 @@ pub fn simulate(
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
     let outcomes = parallel_map(cases, threads, |index, case| {
         let mut watch = |t: f64| {
-            // with "auto" a case is run several times, and its time begins again
+            // with "auto" a case is run several times, and its time starts again from zero in each run
             done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
             let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
             progress(sum as f64 / (1000.0 * cases.len() as f64));
@@ -61,19 +61,17 @@ pub fn simulate(
     outcomes.into_iter().collect()
 }
 
-/// Most values of a structure's degrees of freedom that a history holds where no column needs them.
-const RECORDED: f64 = 1e7;
+/// Largest number of values of the degrees of freedom of a structure that a history stores where no column needs
+/// them.
+const MAX_RECORDED_VALUES: f64 = 1e7;
 
-/// Whether the history of a run of `scene` is to hold the degrees of freedom of a structure, by its index, on a foundation:
-/// where columns of reactions or internal forces need them, or where they are fewer than 1e7 values.
-pub fn records_structure(
-    scene: &Scene,
-    known: &[SolvedStructure],
-) -> impl Fn(usize, &Foundation) -> bool + use<> {
+/// Criterion for storing the degrees of freedom of a structure (its index, its foundation) in the history of a run of
+/// `scene`: columns of reactions or internal forces need them, or they are fewer than 1e7 values.
+pub fn records_dofs(scene: &Scene, known: &[SolvedStructure]) -> impl Fn(usize, &Foundation) -> bool + use<> {
     let (has_columns, rows) = (response::structures_with_columns(scene, known), scene.end / scene.dt);
     move |s, foundation| {
-        let freedoms = foundation.dofs();
-        freedoms > 0 && (has_columns[s] || freedoms as f64 * rows < RECORDED)
+        let dofs = foundation.dofs();
+        dofs > 0 && (has_columns[s] || dofs as f64 * rows < MAX_RECORDED_VALUES)
     }
 }
 
@@ -84,9 +82,9 @@ fn run_case(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<CaseResult, Error> {
     let mut scene = case.scene.clone();
-    let cast = simulation_input(&scene)?;
-    let recorded = records_structure(&scene, known);
-    let chosen = foundations::select_and_run(&mut scene, &cast.scene, known, &recorded, watch);
+    let input = simulation_input(&scene)?;
+    let recorded = records_dofs(&scene, known);
+    let chosen = foundations::select_and_run(&mut scene, &input.scene, known, &recorded, watch);
     let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));
     let foundations::AutoRun { choices, run, built } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {
@@ -97,21 +95,21 @@ fn run_case(
     })?;
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
-    let lines = response::lines(&scene, &built, &solved)?;
+    let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
-    let mut response = Response::new(&scene, &cast, &run.history, &built, &solved, &lines, &mut record)?;
-    // figures show the scene itself, not its comparisons
+    let mut response = Response::new(&scene, &input, &run.history, &built, &solved, &lines, &mut record)?;
+    // bending moments are drawn for the scene itself only, not for its comparisons
     if case.label.is_none() {
-        response.bend(&scene, &cast, &run.history, &built, &solved)?;
+        response.add_bending(&scene, &input, &run.history, &built, &solved)?;
     }
     let foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
-    response.modes = SceneMode::all(&scene, &cast, &foundations, &run);
-    let codes = CodeCheck::new(&scene, &cast, &record)?;
+    response.modes = SceneMode::all(&scene, &input, &foundations, &run);
+    let codes = CodeCheck::new(&scene, &input, &record)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
-    Ok(CaseResult { label, input: cast, run, columns: record, choices, lines, response, codes, fatigue })
+    Ok(CaseResult { label, input, run, columns: record, choices, lines, response, codes, fatigue })
 }
 
-/// Label of the scene's own run: the foundations of its structures.
+/// Label of the run of the scene itself: the foundations of its structures.
 fn foundation_label(scene: &Scene) -> String {
     let mut words: Vec<&str> = scene.structures.iter().map(|structure| structure.foundation.word()).collect();
     words.dedup();

@@ -1,9 +1,9 @@
-//! Why a checked scene has no results.
+//! Errors of the evaluation of a checked scene.
 
 use formats::scene::motion::UnequalFractions;
 use thiserror::Error;
 
-/// Why a scene has no results.
+/// The reason why a scene has no results.
 #[derive(Debug, Error)]
 pub enum Error {
     /// A foundation cannot be built.
@@ -17,15 +17,15 @@ pub enum Error {
     Run {
         /// Label of the case.
         label: String,
-        /// The reason, with names of the scene in place of indices.
+        /// The reason, with names of the scene instead of indices.
         why: String,
     },
-    /// The influence lines of a structure cannot be found.
+    /// The influence lines of a structure cannot be computed.
     #[error("{structure}: {source}")]
     Lines {
         /// Name of the structure.
         structure: String,
-        /// What the solver refuses.
+        /// The error of the solver.
         source: fea::Error,
     },
     /// The deflections of a structure cannot be evaluated.
@@ -33,10 +33,10 @@ pub enum Error {
     Rails {
         /// Name of the structure.
         structure: String,
-        /// What its surface refuses.
+        /// The error of its influence surface.
         source: splines::Error,
     },
-    /// A history has no envelope.
+    /// The envelope of a history cannot be computed.
     #[error(transparent)]
     Envelope(practice::Error),
     /// The cycles of a stress history cannot be counted.
@@ -44,7 +44,7 @@ pub enum Error {
     Cycles {
         /// Name of the column.
         column: String,
-        /// What the count refuses.
+        /// The error of the cycle count.
         source: practice::Error,
     },
 }

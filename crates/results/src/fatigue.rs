@@ -1,16 +1,16 @@
 //! Fatigue: cycles of the stress histories of a run, and their damage.
 //!
-//! For each stress point with a detail category, cycles are counted by the rainflow method ([`practice::rainflow()`]), the
-//! damage of each cycle follows from the S-N curve of the detail in the scene's unit of stress, and the sum is Miner's.
-//! With the damage D of one run and the reference range S_ref at N_ref = 2 million cycles, the equivalent range of a single
-//! cycle is S_ref (D N_ref)^(1/3).
+//! For each stress point with a detail category, cycles are counted by the rainflow method
+//! ([`practice::rainflow()`]). The damage of each cycle follows from the S-N curve of the detail in the scene's unit
+//! of stress, and the damages are added by Miner's rule. With the damage D of one run and the reference range S_ref
+//! at N_ref = 2 million cycles, the equivalent range of a single cycle is S_ref (D N_ref)^(1/3).
 
 use practice::fatigue::Stress;
 use practice::{Cycle, Damage, Strength, aisc, rainflow};
 use serde_json::{Map, Value, json};
 
 use crate::Error;
-use crate::record::{NamedColumns, bytes};
+use crate::columns::{NamedColumns, bytes};
 use formats::scene::{Fatigue, Origin, Scene};
 use formats::spec::Detail;
 use formats::units::{Dimension, Force, Length, Scale, Units};
@@ -32,16 +32,16 @@ pub struct FatigueResult {
     /// Its cycles, in the order in which they close.
     pub cycles: Vec<Cycle>,
     /// Damage of each cycle.
-    pub each: Vec<f64>,
-    /// Sum of the damage, and the largest range.
+    pub cycle_damage: Vec<f64>,
+    /// Total damage and the largest range.
     pub damage: Damage,
-    /// Resistance at 2 million cycles: range, with partial factors.
+    /// Stress range of the resistance at 2 million cycles, with partial factors.
     pub reference: f64,
-    /// Range below which a history does no damage, with partial factors.
+    /// Stress range below which a history causes no damage, with partial factors.
     pub limit: f64,
-    /// Range of one cycle with the damage of the run, on the slope of 3 through the reference.
+    /// Stress range of a single cycle with the damage of the run, on the line of slope 3 through the reference.
     pub equivalent: f64,
-    /// Damage of all runs of a life; `None` where the scene does not give their number.
+    /// Damage of all runs of the service life; `None` where the scene does not specify their number.
     pub life: Option<f64>,
 }
 
@@ -76,7 +76,7 @@ impl Resistance {
         }
     }
 
-    /// Range at 2 million cycles, and range without damage.
+    /// Stress range at 2 million cycles, and largest stress range without damage.
     fn ranges(&self) -> [f64; 2] {
         match self {
             Resistance::Eurocode(strength) => [strength.reference(), strength.fatigue_limit()],
@@ -98,8 +98,8 @@ pub fn fatigue_results(scene: &Scene, record: &NamedColumns) -> Result<Vec<Fatig
                 let column = format!("{}.{}.{}", structure.name, cut.name, point.name);
                 let values = record.values(&column);
                 let Some(detail) = point.detail.filter(|_| !values.is_empty()) else { continue };
-                let found = fatigue_result(scene, column.clone(), detail, values);
-                all.push(found.map_err(|source| Error::Cycles { column: column.clone(), source })?);
+                let result = fatigue_result(scene, column.clone(), detail, values);
+                all.push(result.map_err(|source| Error::Cycles { column: column.clone(), source })?);
             }
         }
     }
@@ -126,7 +126,7 @@ fn fatigue_result(
         column,
         detail,
         cycles,
-        each,
+        cycle_damage: each,
         damage,
         reference,
         limit,
@@ -136,7 +136,7 @@ fn fatigue_result(
 }
 
 impl FatigueResult {
-    /// As a member of `fatigue`.
+    /// The result as a member of `fatigue`.
     #[must_use]
     pub fn json(&self) -> Value {
         let count: f64 = self.cycles.iter().map(|cycle| cycle.count).sum();
@@ -180,7 +180,7 @@ pub fn csv(results: &[FatigueResult], record: &NamedColumns) -> Result<Option<Ve
     let mut writer = csv::Writer::from_writer(Vec::new());
     writer.write_record(["point", "range", "mean", "count", "from", "to", "damage"])?;
     for result in results {
-        for (cycle, damage) in result.cycles.iter().zip(&result.each) {
+        for (cycle, damage) in result.cycles.iter().zip(&result.cycle_damage) {
             let [from, to] = cycle.samples.map(|row| time[row]);
             let numbers = [cycle.range(), cycle.mean() + 0.0, cycle.count, from, to, *damage];
             let numbers = numbers.into_iter().map(|number| format!("{number:?}"));

@@ -1,9 +1,9 @@
 //! One scene, from checked files to named columns.
 //!
-//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. An [`outcome::CaseResult`] has the run, its columns
-//! ([`record`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of codes ([`codes`]).
-//! Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are made of it. Nothing here knows a command
-//! line, a progress bar, a figure or an exit status.
+//! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. A [`case_result::CaseResult`] contains the
+//! run, its columns ([`columns`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of
+//! codes ([`codes`]). Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are derived from it. The
+//! crate does not depend on a command line, a progress bar, figures or exit statuses.
 //!
 //! ```
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -15,7 +15,7 @@
 //! let cases = results::cases::simulate(&document, &solved, None, &|_| ())?;
 //!
 //! let bogie = cases[0].columns.values("bogie.deflection");
-//! let (sample, deepest) = results::record::peak(bogie).expect("a history with rows");
+//! let (sample, deepest) = results::columns::peak(bogie).expect("a history with rows");
 //! assert!((deepest - 0.5473).abs() < 1e-4, "in ft, at row {sample}");
 //! let summary = results::summary::run(document.scene(), &cases[0]);
 //! assert_eq!(summary["status"], "done");
@@ -23,15 +23,16 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, record, layout, response, codes, fatigue, outcome, run_error, warning, summary, cases
+//! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, warning,
+//! summary, cases
 
+pub mod case_result;
 pub mod cases;
 pub mod codes;
+pub mod columns;
 mod error;
 pub mod fatigue;
 pub mod layout;
-pub mod outcome;
-pub mod record;
 pub mod response;
 pub mod run_error;
 pub mod summary;

@@ -1,10 +1,10 @@
-//! Why a run stopped, with the names of its scene in place of the simulator's indices.
+//! The reason why a run stopped, with the names of its scene in place of the indices of the simulator.
 
 use sim::{Error, Status};
 
 use formats::scene::{DOFS, Scene};
 
-/// The word of a run's status in summaries, and a message where the run did not reach its end.
+/// The word for the status of a run in summaries, and a message where the run did not reach its end.
 #[must_use]
 pub fn status(status: &Status) -> (&'static str, Option<String>) {
     match status {
@@ -14,15 +14,15 @@ pub fn status(status: &Status) -> (&'static str, Option<String>) {
         Status::StepTooSmall(t) => (
             "step too small",
             Some(format!(
-                "no step was small enough at t = {t} s, or contacts opened and closed without end: the motion cannot be \
-                 followed"
+                "no step size was small enough at t = {t} s, or contacts opened and closed without end: the \
+                 integration cannot continue"
             )),
         ),
         Status::Failed(t, error) => ("refused", Some(format!("at t = {t} s: {error}"))),
     }
 }
 
-/// Why a run did not reach its end, with the names of `scene`; `None` where it did.
+/// The reason why a run did not reach its end, with the names of `scene`; `None` where it did.
 #[must_use]
 pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     match status {
@@ -47,28 +47,28 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             match found {
                 Some(rail) => format!(
                     "a wheel leaves the end of rail {} at x = {x:.4}: the rail runs from {} to {}  hint: end earlier \
-                     (`end.time`), or hold the body on its rail by a drive, a brake or an end stop (`stops`)",
+                     (`end.time`), or keep the body on its rail by a drive, a brake or an end stop (`stops`)",
                     rail.name, rail.range[0], rail.range[1]
                 ),
                 None => error.to_string(),
             }
         }
         Error::Compliance { structure: s, source } => format!("{}: {source}", structure(*s)),
-        Error::NoInertia { body: b, dof: freedom } => format!(
-            "{} is free in {}, and nothing has inertia of its own there  hint: give `inertia` [roll, yaw, pitch] about the \
-             centre of mass, or take it out of `dof`",
+        Error::NoInertia { body: b, dof } => format!(
+            "{} is free in {}, but no mass has inertia in this motion  hint: give `inertia` [roll, yaw, pitch] about \
+             the centre of mass, or remove the motion from `dof`",
             body(*b),
-            DOFS[*freedom as usize]
+            DOFS[*dof as usize]
         ),
         Error::NoEquilibrium { .. } => {
             let carried = if scene.structures.iter().any(|one| one.carrier.is_some()) {
-                ", at `at` of the structures on bodies"
+                ", and `at` of the structures on bodies"
             } else {
                 ""
             };
             format!(
-                "{error}  hint: each centre of mass (`cg`, and what hangs or rides on the body) must lie between its \
-                 wheels: look at `at` and `tree` of the trucks{carried}, or give the body a `start`"
+                "{error}  hint: the centre of mass of each body (`cg`), including loads that hang or stand on it, \
+                 must lie between its wheels: check `at` and `tree` of the trucks{carried}, or give the body a `start`"
             )
         }
         _ => error.to_string(),

@@ -3,16 +3,16 @@
 use serde_json::{Map, Value, json};
 use sim::{Choice, Fidelity, FidelityTrial, PredictedErrors};
 
+use crate::case_result::CaseResult;
+use crate::columns::NamedColumns;
 use crate::fatigue;
-use crate::outcome::CaseResult;
-use crate::record::NamedColumns;
 use crate::run_error;
 use crate::warning;
 use formats::scene::{Analysis, Document, Event, Scene, Structure, stepper_word};
 use formats::units::Dimension;
 
-/// The summary of a document's cases as JSON, the scene's own run first; `comparison` has the statistics of its runs
-/// ([`crate::response::RunComparison::json`]).
+/// The summary of the cases of a document as JSON, with the run of the scene itself first; `comparison` has the
+/// statistics of its runs ([`crate::response::RunComparison::json`]).
 #[must_use]
 pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
     let scene = document.scene();
@@ -96,12 +96,12 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
     result
 }
 
-/// The foundation of structure `s`, and why it was chosen.
+/// The foundation of structure `s`, with the reason for its choice.
 fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
     let mut entry = json!({
         "foundation": structure.foundation.word(),
         "reading": structure.interpolation.word(),
-        "reason": "asked for",
+        "reason": "specified in the scene",
     });
     if let Some(choice) = choices.iter().find(|choice| choice.structure == s) {
         entry["foundation"] = json!(fidelity_word(choice.fidelity));
@@ -112,23 +112,23 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
         if let Some(own) = &choice.predicted {
             entry["predicted"] = predicted(own);
         }
-        for (key, rungs) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
-            if !rungs.is_empty() {
-                entry[key] = rungs.iter().map(|rung| foundations::fidelity_name(*rung)).collect();
+        for (key, fidelities) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
+            if !fidelities.is_empty() {
+                entry[key] = fidelities.iter().map(|one| foundations::fidelity_name(*one)).collect();
             }
         }
     }
     entry
 }
 
-/// An event that has fired.
+/// An event that occurred in the run.
 fn event(event: &Event, time: f64) -> Value {
     json!({ "time": time, "name": event.name, "when": event.when, "what": event.description })
 }
 
-/// The word of a fidelity in scenes.
-const fn fidelity_word(rung: Fidelity) -> &'static str {
-    match rung {
+/// The word for a fidelity in scene files.
+const fn fidelity_word(fidelity: Fidelity) -> &'static str {
+    match fidelity {
         Fidelity::Rigid => "rigid",
         Fidelity::Influence => "influence",
         Fidelity::Modal(_) => "modal",
@@ -150,7 +150,7 @@ fn tried(tried: &FidelityTrial) -> Value {
 /// Errors of each fidelity, predicted before any run.
 fn predicted(own: &PredictedErrors) -> Value {
     let errors: Map<String, Value> =
-        own.errors.iter().map(|(rung, error)| (foundations::fidelity_name(*rung), json!(error))).collect();
+        own.errors.iter().map(|(one, error)| (foundations::fidelity_name(*one), json!(error))).collect();
     json!({
         "compliance": own.deflection,
         "speed": own.speed,

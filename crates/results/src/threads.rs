@@ -1,9 +1,9 @@
-//! The same work on many items in parallel: the one place of the workspace's libraries where threads are started.
+//! A parallel map over the items of a list. No other module of the libraries of the workspace starts threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-/// `work(index, item)` of each of `items`, in their order, on at most `threads` threads (`None`: as many as the machine
-/// has). The results do not depend on the number of threads.
+/// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine
+/// has) and returns the results in the order of the items. They do not depend on the number of threads.
 ///
 /// ```
 /// use results::threads::parallel_map;
@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 /// ```
 ///
 /// # Panics
-/// Where `work` panics, with its message.
+/// If `work` panics, with its message.
 pub fn parallel_map<T: Sync, R: Send>(
     items: &[T],
     threads: Option<u16>,

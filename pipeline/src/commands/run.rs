@@ -19,9 +19,9 @@ use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, sol
 use report::figures::error::FigureError;
 use report::figures::run::figures;
 use report::text::story;
+use results::case_result::CaseResult;
 use results::cases::simulate;
-use results::outcome::CaseResult;
-use results::record::peak;
+use results::columns::peak;
 use results::response::RunComparison;
 use results::threads::parallel_map;
 use results::{fatigue, run_error, summary, warning};

@@ -1,4 +1,4 @@
-//! The quasi-static path of the deck against the simulator's sweep.
+//! Comparison of the quasi-static path of the deck with the sweep of the simulator.
 
 use std::ops::ControlFlow;
 
@@ -9,11 +9,11 @@ use crate::DeckPlan;
 use crate::Error;
 use crate::words::ids::number;
 
-/// Intervals of time between the equilibria that are compared.
-const PLACES: u32 = 40;
-/// Largest relative difference of heights and forces that passes: parts of ADAMS have finite rotations, bodies of the
-/// simulator small ones.
-const ASKED: f64 = 1e-4;
+/// Number of time intervals between the equilibria that are compared.
+const INTERVALS: u32 = 40;
+/// Limit of the relative differences of heights and forces. They are not zero because parts of ADAMS have finite
+/// rotations and bodies of the simulator small ones.
+const LIMIT: f64 = 1e-4;
 
 /// Differences between the two paths.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,15 +28,15 @@ pub struct SweepDifference {
     pub force: f64,
     /// Largest vertical force.
     pub largest: f64,
-    /// Why one of the two has no path; `None` where both have.
+    /// The reason why one of the two paths could not be computed; `None` if both were.
     pub failed: Option<String>,
 }
 
 impl SweepDifference {
-    /// Largest difference that passes, relative to the largest displacement and force.
+    /// Limit of the differences, relative to the largest displacement and force.
     #[must_use]
-    pub fn asked(&self) -> f64 {
-        ASKED
+    pub fn limit(&self) -> f64 {
+        LIMIT
     }
 
     /// Relative differences of heights and forces.
@@ -46,18 +46,18 @@ impl SweepDifference {
         [of(self.height, self.deepest), of(self.force, self.largest)]
     }
 
-    /// Whether both paths exist and their differences are within the limit.
+    /// Whether both paths were computed and their differences are within the limit.
     #[must_use]
     pub fn holds(&self) -> bool {
-        self.failed.is_none() && self.relative().iter().all(|value| *value <= ASKED)
+        self.failed.is_none() && self.relative().iter().all(|value| *value <= LIMIT)
     }
 }
 
-/// Compares static equilibria along the prescribed motion; `None` where a body is free along its rail, and so has
-/// none.
+/// Compares static equilibria along the prescribed motion; `None` if a body is free along its rail and therefore has
+/// no static equilibrium.
 ///
 /// # Errors
-/// A scene that the simulator refuses.
+/// A scene that the simulator cannot run.
 pub(super) fn path(
     plan: &DeckPlan<'_>,
     model: &AdamsModel,
@@ -66,9 +66,9 @@ pub(super) fn path(
     if plan.scene.bodies.iter().any(|body| body.motion.is_free()) {
         return Ok(None);
     }
-    let mut scene = plan.cast.scene.clone();
+    let mut scene = plan.input.scene.clone();
     scene.analysis = Analysis::QuasiStatic;
-    scene.output_dt = scene.end / f64::from(PLACES);
+    scene.output_dt = scene.end / f64::from(INTERVALS);
     let run = sim::run(&scene, foundations, &mut |_| ControlFlow::Continue(())).map_err(Error::Sweep)?;
     let mut out =
         SweepDifference { places: 0, height: 0.0, deepest: 0.0, force: 0.0, largest: 0.0, failed: None };
@@ -86,20 +86,20 @@ pub(super) fn path(
     };
     out.places = times.len();
     for (b, body) in plan.bodies.iter().enumerate() {
-        let wanted = run.history.column(Channel::Displacement(b, BodyDof::Y));
-        for (one, wanted) in found.iter().zip(wanted) {
+        let expected = run.history.column(Channel::Displacement(b, BodyDof::Y));
+        for (one, expected) in found.iter().zip(expected) {
             let y = one.state.parts.get(&body.part).map_or(f64::MAX, |pose| pose.origin[1]);
-            out.height = out.height.max((y - body.datum[0] - wanted).abs());
-            out.deepest = out.deepest.max(wanted.abs());
+            out.height = out.height.max((y - body.position[0] - expected).abs());
+            out.deepest = out.deepest.max(expected.abs());
         }
     }
     for w in 0..plan.wheels.len() {
-        let wanted = run.history.column(Channel::Vertical(w));
-        for (one, wanted) in found.iter().zip(wanted) {
+        let expected = run.history.column(Channel::Vertical(w));
+        for (one, expected) in found.iter().zip(expected) {
             let load = one.solution.loads.get(&("GFORCE", number(w)));
             let down = load.map_or(f64::MAX, |load| load.components[1]);
-            out.force = out.force.max((down - wanted).abs());
-            out.largest = out.largest.max(wanted.abs());
+            out.force = out.force.max((down - expected).abs());
+            out.largest = out.largest.max(expected.abs());
         }
     }
     Ok(Some(out))

@@ -1,4 +1,5 @@
-//! The simulator's states as states of the deck's parts, on the ground or on a moving carrier of all rails.
+//! Conversion of states of the simulator to states of the parts of the deck, on the ground or on a moving carrier of
+//! all rails.
 
 use std::collections::BTreeMap;
 
@@ -12,12 +13,12 @@ use crate::DeckPlan;
 use crate::model::plan::GROUND;
 use crate::model::start::rotation;
 
-/// How the simulator's small rotations become the parts' rotations.
+/// Conversion of the small rotations of the simulator to rotations of parts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turns {
-    /// I + theta x, with the rate theta' x: what the simulator computes with.
+    /// I + theta x, with the rate theta' x, as in the simulator.
     Small,
-    /// The rotation by the vector theta, as ADAMS turns parts.
+    /// The finite rotation by the vector theta, as in ADAMS.
     Finite,
 }
 
@@ -30,7 +31,7 @@ pub struct CarrierPose {
     pub pose: Pose,
 }
 
-/// The state of the deck's parts at `case`; penetrations are those of one step before it: see [`step`].
+/// The state of the parts of the deck at `case`; penetrations are those one time step earlier (see [`step`]).
 #[must_use]
 pub fn state(
     plan: &DeckPlan<'_>,
@@ -71,7 +72,7 @@ pub fn state(
 fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
     let [x, y, z, roll, yaw, pitch] = case.instant.displacement[b];
     let [vx, vy, vz, by_roll, by_yaw, by_pitch] = case.instant.speed[b];
-    let [height, side] = plan.bodies[b].datum;
+    let [height, side] = plan.bodies[b].position;
     let origin = Vector3::new(x, height + y, side + z);
     let velocity = Vector3::new(vx, vy, vz);
     let (turn, spin) = (Vector3::new(roll, yaw, pitch), Vector3::new(by_roll, by_yaw, by_pitch));
@@ -90,7 +91,7 @@ fn body(plan: &DeckPlan<'_>, case: &CheckCase, b: usize, turns: Turns) -> Pose {
     }
 }
 
-/// A pose given in the axes of a carrier, in ground.
+/// Transforms a pose from the axes of a carrier to those of ground.
 fn carried(by: &Pose, pose: &Pose) -> Pose {
     Pose {
         origin: by.origin + by.rotation * pose.origin,
@@ -101,8 +102,8 @@ fn carried(by: &Pose, pose: &Pose) -> Pose {
     }
 }
 
-/// Moves every MARKER of the ground to a new PART of unit mass, which carries the rails; returns its identifier. Forces
-/// between wheels and rails must not change by it.
+/// Moves every MARKER of the ground to a new PART of unit mass, which carries the rails; returns its identifier.
+/// The forces between wheels and rails must not change.
 pub fn mount_rails(set: &mut DataSet) -> u32 {
     let parts = set.statements.iter().filter(|one| one.keyword == "PART").filter_map(|one| one.id);
     let markers = set.statements.iter().filter(|one| one.keyword == "MARKER").filter_map(|one| one.id);
@@ -125,8 +126,8 @@ pub fn mount_rails(set: &mut DataSet) -> u32 {
     part
 }
 
-/// A random motion of the carrier: any orientation, components of its velocity up to 1 length/s and of its angular
-/// velocity up to 1 rad/s.
+/// A random motion of the carrier with any orientation, components of its velocity up to 1 length/s and of its
+/// angular velocity up to 1 rad/s.
 pub fn random_carrier(part: u32, random: &mut Random) -> CarrierPose {
     let mut vector = |size: f64| std::array::from_fn::<f64, 3, _>(|_| random.around(size));
     let rows = rotation(vector(2.0));

@@ -1,10 +1,10 @@
-//! Random states of a scene, with the simulator's contact forces at them.
+//! Random states of a scene with the contact forces of the simulator.
 //!
-//! Each state is drawn in three steps. Positions, speeds and spins are random within the [`Scales`] of the scene. The
-//! contact forces with all springs and dampers in equilibrium are computed from the simulator. For contacts whose
-//! penetration is a state of its own (a damper on a flexible rail), penetrations are then found that belong to the force of
-//! the spring and a random rate of the damper, p + G F(p, p') = e, by Newton's method ([`penetrations`]). States whose
-//! forces the deck cannot determine are rejected, up to [`TRIES`] times the number asked for.
+//! Each state is generated in three steps. Positions, speeds and spins are random within the [`Scales`] of the scene.
+//! The simulator computes the contact forces with all springs and dampers in equilibrium. For contacts whose
+//! penetration is a state variable (a damper on a flexible rail), the penetrations are then solved from p + G F(p,
+//! p') = e with random rates p' by Newton's method ([`penetrations`]). States whose forces the deck cannot determine
+//! are rejected; at most [`TRIES`] times the requested number of states are generated.
 
 use nalgebra::{DMatrix, DVector};
 use sim::{ContactForces, Foundation, Instant, contact_forces};
@@ -14,44 +14,46 @@ use crate::DeckPlan;
 use crate::Error;
 use formats::scene::BodyMotion;
 
-/// Largest ratio of the force that the simulator finds at a penetration to the force from which the penetration was
-/// computed: where wheels are close, forces are ill conditioned by penetrations.
-const LARGER: f64 = 3.0;
-/// Penetration, relative to the approach, up to which a contact counts as open.
-const OFF: f64 = 1e-9;
-/// Newton iterations for the penetrations of a state.
+/// Largest ratio of the force that the simulator computes from a penetration to the force from which the penetration
+/// was computed. Where wheels are close to each other, the forces are ill conditioned functions of the penetrations.
+const MAX_FORCE_RATIO: f64 = 3.0;
+/// Penetration, relative to the approach, up to which a contact is treated as open.
+const OPEN: f64 = 1e-9;
+/// Number of Newton iterations for the penetrations of a state.
 const ITERATIONS: usize = 40;
-/// Largest force of a damper at full ramp, relative to that of its spring.
-const DAMPER: f64 = 0.6;
-/// Most states drawn for each state asked for.
+/// Largest force of a damper outside its ramp, relative to that of its spring.
+const DAMPER_FORCE: f64 = 0.6;
+/// Largest number of generated states per requested state.
 const TRIES: usize = 50;
-/// Least fraction of the full damping at which the rate of a contact is computed from its force.
-const RAMP: f64 = 0.6;
-/// Least fraction of the spring's force that must remain beside its damper's.
-const CANCELLED: f64 = 1e-2;
+/// Smallest fraction of the full damping at which the rate of a contact is computed from its force.
+const MIN_RAMP: f64 = 0.6;
+/// Smallest accepted sum of the forces of spring and damper, as a fraction of the force of the spring.
+const MIN_FORCE: f64 = 1e-2;
 /// Largest rotation, radians.
-const TURN: f64 = 0.02;
-/// Length at each end of a rail without wheels, as a fraction of its length, where the body's position is free.
+const MAX_ROTATION: f64 = 0.02;
+/// Length without wheels at each end of a rail, as a fraction of the length of the rail, for bodies that are free
+/// along it.
 const MARGIN: f64 = 0.01;
-/// Speed where nothing in the scene has a scale of speed, in length units of the scene per second.
-const SPEED: f64 = 1.0;
+/// Scale of speeds where the scene does not determine one, in length units of the scene per second.
+const DEFAULT_SPEED: f64 = 1.0;
 
 /// A state and its contact forces.
 #[derive(Clone, Debug)]
 pub struct CheckCase {
     /// The state; penetrations are those of active contacts.
     pub instant: Instant,
-    /// The simulator's forces.
+    /// The contact forces of the simulator.
     pub forces: ContactForces,
-    /// Rate of penetration of each contact; zero where the penetration is no state, or the contact is open.
+    /// Rate of penetration of each contact; zero where the penetration is not a state variable or the contact is
+    /// open.
     pub rate: Vec<f64>,
 }
 
-/// `count` random states: positions, speeds, spins, and penetrations that belong to compressive forces; some wheels are off
-/// their rails.
+/// Generates `count` random states with positions, speeds, spins, and penetrations that correspond to compressive
+/// forces; some wheels are off their rails.
 ///
-/// Rejected are states whose forces the deck cannot determine: contacts in tension, dampers that hold a wheel down while it
-/// is off its rail, rates at the beginning of a damper's ramp, and springs and dampers whose forces cancel.
+/// States whose forces the deck cannot determine are rejected: contacts in tension, dampers that act on a wheel that
+/// is off its rail, rates at the beginning of the ramp of a damper, and springs and dampers whose forces cancel.
 ///
 /// # Errors
 /// [`Error::States`] where too few such states were found.
@@ -81,14 +83,14 @@ pub fn states(
     Err(Error::States { found: out.len(), count, last })
 }
 
-/// The state with penetrations of those contacts that have them as states, and its forces; `None` where it is rejected.
+/// Adds the penetrations that are state variables and the contact forces to a state; `None` if the state is rejected.
 fn complete(
     plan: &DeckPlan<'_>,
     foundations: &[Foundation],
     mut instant: Instant,
     random: &mut Random,
 ) -> Result<Option<CheckCase>, sim::Error> {
-    let scene = &plan.cast.scene;
+    let scene = &plan.input.scene;
     let one = |instant: &Instant| {
         contact_forces(scene, foundations, std::slice::from_ref(instant)).map(|mut all| all.swap_remove(0))
     };
@@ -96,7 +98,7 @@ fn complete(
     let mut most = vec![f64::INFINITY; plan.contacts.len()];
     for (c, penetration, force) in penetrations(plan, &open, random) {
         instant.penetration[c] = Some(penetration);
-        most[c] = LARGER * force;
+        most[c] = MAX_FORCE_RATIO * force;
     }
     let forces = one(&instant)?;
     let fits = (0..plan.contacts.len()).all(|c| {
@@ -106,7 +108,7 @@ fn complete(
         let acts = contact.diff.is_none() || instant.penetration[c].is_some();
         if contact.diff.is_some() && instant.penetration[c].is_some() {
             let point = law.at(p, 0.0);
-            if point.by_rate < RAMP * law.damping || force < CANCELLED * point.force || force > most[c] {
+            if point.by_rate < MIN_RAMP * law.damping || force < MIN_FORCE * point.force || force > most[c] {
                 return false;
             }
         }
@@ -116,12 +118,13 @@ fn complete(
     Ok(fits.then_some(CheckCase { instant, forces, rate }))
 }
 
-/// Contact, penetration and force of those contacts that have their penetration as a state and are closed.
+/// Returns (contact, penetration, force) for each closed contact whose penetration is a state variable.
 ///
-/// Unknowns: penetrations p of the active contacts. Equation: p + G F(p, p') = e, with the approach e of wheel and rail
-/// without forces, the compliance G of the rail and the law F of spring and damper. Newton's method is damped so that p
-/// falls by no more than a factor of ten in an iteration. Contacts that open are taken out, and the rest is solved again.
-/// First the rates p' are zero; then each is drawn so that the damper has up to [`DAMPER`] of its spring's force.
+/// Unknowns: penetrations p of the active contacts. Equation: p + G F(p, p') = e, with the approach e of wheel and
+/// rail without forces, the compliance G of the rail and the law F of spring and damper. Newton's method is damped so
+/// that p decreases by at most a factor of ten in an iteration. Contacts that open are removed, and the remaining
+/// system is solved again. The rates p' are zero in the first solution. In the second solution each rate is random,
+/// with a damper force of at most the fraction [`DAMPER_FORCE`] of the spring force.
 fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) -> Vec<(usize, f64, f64)> {
     let law = |c: usize| &plan.kind(plan.contacts[c].wheels.start).normal;
     let approach = |c: usize| open.penetration[c];
@@ -145,13 +148,14 @@ fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) 
                     f64::from(u8::from(r == i)) + compliance(r, i) * point(i).by_penetration
                 });
                 let Some(step) = matrix.lu().solve(&residual) else { break };
-                // a law with an exponent has no force and no slope at p <= 0, where Newton's method would stop
+                // the force and the slope of a law with an exponent are zero at p <= 0, where Newton's method would
+                // stop
                 p = DVector::from_fn(size, |i, _| (p[i] - step[i]).max(0.1 * p[i]));
             }
             found = active.iter().copied().zip(p.iter().copied()).collect();
-            // a penetration that was reduced in every iteration is that of an open contact
+            // a contact is open if its penetration was reduced in every iteration
             let is_closed =
-                |(c, p): &(usize, f64)| *p > OFF * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0;
+                |(c, p): &(usize, f64)| *p > OPEN * approach(*c) && law(*c).at(*p, rate[*c]).force > 0.0;
             let before = active.len();
             found.retain(is_closed);
             active = found.iter().map(|(c, _)| *c).collect();
@@ -161,14 +165,14 @@ fn penetrations(plan: &DeckPlan<'_>, open: &ContactForces, random: &mut Random) 
         }
         if !damped {
             for (c, p) in &found {
-                rate[*c] = random.around(DAMPER) * law(*c).at(*p, 0.0).force / law(*c).damping;
+                rate[*c] = random.around(DAMPER_FORCE) * law(*c).at(*p, 0.0).force / law(*c).damping;
             }
         }
     }
     found.into_iter().map(|(c, p)| (c, p, law(c).at(p, rate[c]).force)).collect()
 }
 
-/// Rate of penetration of contact `c` at its force and penetration.
+/// Rate of penetration of contact `c` that corresponds to its force and penetration.
 fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize) -> f64 {
     let contact = &plan.contacts[c];
     let law = &plan.kind(contact.wheels.start).normal;
@@ -181,10 +185,10 @@ fn rate(plan: &DeckPlan<'_>, instant: &Instant, forces: &ContactForces, c: usize
 
 /// Magnitudes of displacements and speeds of each body in random states.
 struct Scales {
-    /// Approach of wheel and rail under the body's weight.
+    /// Approach of wheel and rail under the weight of the body.
     sink: Vec<f64>,
     /// Half the wheel base and half the gauge.
-    reach: Vec<[f64; 2]>,
+    arms: Vec<[f64; 2]>,
     /// Lateral displacement.
     side: Vec<f64>,
     /// Vertical and sliding speeds.
@@ -195,10 +199,10 @@ struct Scales {
 
 impl Scales {
     fn of(plan: &DeckPlan<'_>) -> Scales {
-        let mut out = Scales { sink: vec![], reach: vec![], side: vec![], speed: vec![], range: vec![] };
-        for (b, body) in plan.cast.scene.bodies.iter().enumerate() {
+        let mut out = Scales { sink: vec![], arms: vec![], side: vec![], speed: vec![], range: vec![] };
+        for (b, body) in plan.input.scene.bodies.iter().enumerate() {
             let own: Vec<usize> = (0..plan.wheels.len()).filter(|&w| plan.wheels[w].body == b).collect();
-            let weight = body.mass * plan.cast.scene.gravity.max(f64::MIN_POSITIVE);
+            let weight = body.mass * plan.input.scene.gravity.max(f64::MIN_POSITIVE);
             let of_wheel = weight / own.len().max(1) as f64;
             let largest = |of: &dyn Fn(usize) -> f64| own.iter().map(|&w| of(w)).fold(0.0, f64::max);
             let sink =
@@ -208,13 +212,16 @@ impl Scales {
                 if law.damping > 0.0 { law.stiffness * sink.powf(law.exponent) / law.damping } else { 0.0 }
             };
             out.sink.push(sink);
-            out.reach
+            out.arms
                 .push([largest(&|w| plan.wheels[w].hub[0].abs()), largest(&|w| plan.wheels[w].hub[2].abs())]);
             out.side
                 .push(largest(&|w| plan.kind(w).flange.as_ref().map_or(0.0, |f| 2.0 * f.clearance + sink)));
             let slip = largest(&|w| plan.kind(w).friction.as_ref().map_or(0.0, |f| f.slip));
             let fall = largest(&damped);
-            out.speed.push([if fall > 0.0 { fall } else { SPEED }, if slip > 0.0 { slip } else { SPEED }]);
+            out.speed.push([
+                if fall > 0.0 { fall } else { DEFAULT_SPEED },
+                if slip > 0.0 { slip } else { DEFAULT_SPEED },
+            ]);
             let range = own.iter().fold([f64::NEG_INFINITY, f64::INFINITY], |range, &w| {
                 let rail = plan.scene.rails[plan.datums[plan.wheels[w].datum].rail].range;
                 let margin = MARGIN * (rail[1] - rail[0]);
@@ -226,17 +233,17 @@ impl Scales {
         out
     }
 
-    /// A random state without penetrations; `None` where a wheel would be beyond its rail.
+    /// A random state without penetrations; `None` if a wheel would be beyond its rail.
     fn instant(&self, plan: &DeckPlan<'_>, random: &mut Random) -> Option<Instant> {
-        let scene = &plan.cast.scene;
+        let scene = &plan.input.scene;
         let time = random.between(0.0, scene.end);
         let (mut displacement, mut speed) = (Vec::new(), Vec::new());
         for (b, body) in scene.bodies.iter().enumerate() {
-            let [length, width] = self.reach[b];
+            let [length, width] = self.arms[b];
             let sink = self.sink[b];
-            let turn = |reach: f64| if reach > 0.0 { (sink / reach).min(TURN) } else { TURN };
+            let rotation = |arm: f64| if arm > 0.0 { (sink / arm).min(MAX_ROTATION) } else { MAX_ROTATION };
             let [fall, slide] = self.speed[b];
-            let size = [0.0, 0.0, self.side[b], turn(width), turn(length), turn(length)];
+            let size = [0.0, 0.0, self.side[b], rotation(width), rotation(length), rotation(length)];
             let rate = [5.0 * slide, fall, fall, fall, fall, fall];
             let mut own = body.start;
             let mut rates = [0.0; 6];
@@ -246,7 +253,11 @@ impl Scales {
                     1 => (random.between(-1.5 * sink, 0.3 * sink), random.around(rate[1])),
                     3 | 5 => (random.around(size[k]), random.around(rate[k] / length.max(width).max(1.0))),
                     4 => {
-                        let yaw = if length > 0.0 { (self.side[b] / length).min(TURN) } else { TURN };
+                        let yaw = if length > 0.0 {
+                            (self.side[b] / length).min(MAX_ROTATION)
+                        } else {
+                            MAX_ROTATION
+                        };
                         (random.around(yaw), random.around(rate[k] / length.max(1.0)))
                     }
                     _ => (random.around(size[k]), random.around(rate[k])),

@@ -1,8 +1,8 @@
-//! The deck's differential equations as one backward Euler step, as a stiff integrator solves them.
+//! Replacement of the differential equations of a deck by one backward Euler step, as in a stiff integrator.
 //!
-//! At given penetrations p the forces F are ill conditioned: where wheels are close, G F = e - p is nearly singular, and
-//! tables read by AKISPL may even have negative eigenvalues. Within an implicit step of length h, the rate is
-//! DIF1 = (DIF - previous value)/h, and the matrix G + 1/(k + c/h) is well conditioned.
+//! At given penetrations p the forces F are ill conditioned: where wheels are close to each other, G F = e - p is
+//! nearly singular, and tables interpolated by AKISPL may even have negative eigenvalues. Within an implicit step of
+//! length h the rate is DIF1 = (DIF - previous value)/h, and the matrix G + 1/(k + c/h) is well conditioned.
 
 use adams::{ArgumentValue, DataSet, Statement};
 
@@ -18,11 +18,11 @@ pub const fn variable(id: u32) -> u32 {
     FIRST + id
 }
 
-/// Length of the step as a fraction of c/k where the damper is ramped.
+/// Length of the time step as a fraction of c/k where the damper has a ramp.
 const RAMPED: f64 = 0.3;
 
-/// Length of the step of each contact: c/k, so that damper and spring have equal weight; less where the damper is ramped,
-/// so that a steep ramp leaves one solution.
+/// Length of the time step of each contact: c/k, so that damper and spring have equal weight, and less where the
+/// damper has a ramp, so that the solution is unique for a steep ramp.
 #[must_use]
 pub fn lengths(plan: &DeckPlan<'_>) -> Vec<f64> {
     let length = |contact: &ContactPlan| {
@@ -33,8 +33,8 @@ pub fn lengths(plan: &DeckPlan<'_>) -> Vec<f64> {
     plan.contacts.iter().map(length).collect()
 }
 
-/// Replaces every implicit DIFF by a VARIABLE for its value at the end of the step; its DIF is then the value before the
-/// step.
+/// Replaces every implicit DIFF by a VARIABLE for its value at the end of the time step. Its DIF is then the value
+/// before the step.
 pub fn discretise(plan: &DeckPlan<'_>, set: &mut DataSet) {
     for (contact, length) in plan.contacts.iter().zip(lengths(plan)) {
         let Some(id) = contact.diff else { continue };

@@ -1,12 +1,13 @@
 //! The compliance of a structure's rails in a deck: SPLINE statements, and the expressions that read them.
 //!
-//! The displacement of a rail at x by forces F_j at x_j is u(x) = sum_j G(x, x_j) F_j. A deck reads G in one of two ways:
+//! The displacement of a rail at x by forces F_j at x_j is u(x) = sum_j G(x, x_j) F_j. A deck reads G in one of two
+//! ways:
 //!
-//! - Families: G of each pair of directions is one SPLINE of two variables. Each wheel reads it with each force, N^2
-//!   look-ups for N wheels.
-//! - Factored: G(x, z) = sum_k phi_k(x) phi_k(z), with one SPLINE for each curve phi_k. The products
-//!   q_k = sum_j F_j phi_k(x_j) are VARIABLEs that all wheels share, and u(x) = sum_k q_k phi_k(x): r N look-ups for r
-//!   curves. The slope du/dx reads the derivatives of the curves.
+//! - Families: G of each pair of directions is one SPLINE of two variables. It is evaluated for each pair of wheel
+//!   and force, which takes N^2 look-ups for N wheels.
+//! - Factored: G(x, z) = sum_k phi_k(x) phi_k(z), with one SPLINE for each curve phi_k. The products q_k = sum_j F_j
+//!   phi_k(x_j) are VARIABLEs that all wheels use, and u(x) = sum_k q_k phi_k(x), which takes r N look-ups for r
+//!   curves. The slope du/dx uses the derivatives of the curves.
 
 use adams::{Spline, SplineValues, Statement};
 use sim::{Extent, Foundation};
@@ -19,13 +20,14 @@ use crate::words::remark;
 use crate::words::text::{TermList, plain, value};
 use formats::scene::Structure;
 
-/// Fraction of a table's largest entry below which products are left out: no value at a station changes by more.
-pub const SHARE: f64 = 1e-6;
+/// Fraction of the largest entry of a table below which products are dropped. It bounds the change of every value at
+/// a station.
+pub const DROPPED_FRACTION: f64 = 1e-6;
 
-/// A direction of a structure: rail and axis.
+/// A direction of forces and displacements of a structure: (rail, axis).
 pub type RailAxis = (usize, Axis);
 
-/// A force on a rail, as expressions.
+/// A force on a rail in terms of expressions.
 pub struct LoadedMarker {
     /// Rail and axis of the force.
     pub direction: RailAxis,
@@ -33,11 +35,11 @@ pub struct LoadedMarker {
     pub place: String,
     /// Expression of its value.
     pub force: String,
-    /// Whether a positive force points along the negative axis: down.
+    /// Whether a positive force acts along the negative axis (downwards).
     pub negative: bool,
 }
 
-/// The compliance of one structure's rails, as its deck reads it.
+/// The compliance of the rails of one structure in the form that the deck uses.
 pub struct RailCompliance {
     name: String,
     rails: Vec<formats::spec::RailOutline>,
@@ -49,7 +51,7 @@ pub struct RailCompliance {
 
 enum Tables {
     Rigid,
-    /// A family for each ordered pair of directions that has a table, and the tables.
+    /// A family for each ordered pair of directions that has a table, and the influence blocks.
     Families(Vec<Family>, Vec<InfluenceBlock>),
     /// The factors, the identifier of the first SPLINE of each direction of each factor, and the number of the first
     /// factor.
@@ -71,27 +73,27 @@ impl RailCompliance {
         RailCompliance { name, rails, form, directions: Vec::new(), tables: Tables::Rigid }
     }
 
-    /// The compliance in `directions` by the tables `sheets`. Identifiers of SPLINEs are taken from `ids`; factors are
-    /// numbered from `factors`, which is increased by their number.
+    /// The compliance in `directions` from the influence `blocks`. Identifiers of SPLINEs are taken from `ids`;
+    /// factors are numbered from `factors`, which is increased by their number.
     ///
     /// # Errors
     /// A direction without a table; fewer stations than a SPLINE must have.
     pub fn new(
         structure: &Structure,
         mut directions: Vec<RailAxis>,
-        sheets: &[InfluenceBlock],
+        blocks: &[InfluenceBlock],
         form: DeckForm,
         ids: &mut NextId,
         factors: &mut usize,
     ) -> Result<RailCompliance, String> {
         directions.sort_unstable();
         directions.dedup();
-        let used = |sheet: &&InfluenceBlock| {
-            directions.contains(&sheet.deflection) && directions.contains(&sheet.load)
+        let used = |block: &&InfluenceBlock| {
+            directions.contains(&block.deflection) && directions.contains(&block.load)
         };
-        let sheets: Vec<InfluenceBlock> = sheets.iter().filter(used).cloned().collect();
+        let blocks: Vec<InfluenceBlock> = blocks.iter().filter(used).cloned().collect();
         for direction in &directions {
-            if !sheets.iter().any(|sheet| sheet.deflection == *direction && sheet.load == *direction) {
+            if !blocks.iter().any(|block| block.deflection == *direction && block.load == *direction) {
                 return Err(format!(
                     "no {} table of rail {}",
                     word(direction.1),
@@ -107,8 +109,8 @@ impl RailCompliance {
         }
         let tables = match form {
             DeckForm::Factored => {
-                let factored =
-                    FactoredTable::new(&sheets, Rank::Tolerance(SHARE)).map_err(|error| error.to_string())?;
+                let factored = FactoredTable::new(&blocks, Rank::Tolerance(DROPPED_FRACTION))
+                    .map_err(|error| error.to_string())?;
                 let mut first = Vec::new();
                 for factor in factored.factors() {
                     let mut starts = Vec::new();
@@ -124,7 +126,7 @@ impl RailCompliance {
                 *factors += factored.factors().len();
                 Tables::Factored(factored, first, number)
             }
-            DeckForm::Akispl | DeckForm::Symmetrised | DeckForm::Paper => families(sheets, ids)?,
+            DeckForm::Akispl | DeckForm::Symmetrised | DeckForm::Paper => families(blocks, ids)?,
         };
         let (name, rails) = (structure.name.clone(), structure.rails.clone());
         Ok(RailCompliance { name, rails, form, directions, tables })
@@ -145,7 +147,7 @@ impl RailCompliance {
         }
     }
 
-    /// The simulator's foundation that interpolates the same tables as the deck does.
+    /// The foundation of the simulator that interpolates the same tables as the deck.
     ///
     /// # Errors
     /// [`Error::Tables`] for tables that cannot be interpolated.
@@ -160,13 +162,13 @@ impl RailCompliance {
                 };
                 Ok(Foundation { rails: self.rails.iter().map(extent).collect(), ..Foundation::rigid() })
             }
-            Tables::Families(_, sheets) => {
+            Tables::Families(_, blocks) => {
                 let kind = if self.form == DeckForm::Symmetrised {
                     ReadingMethod::Symmetrised
                 } else {
                     ReadingMethod::Akispl
                 };
-                let reading = TableReading::new(kind, sheets).map_err(fail)?;
+                let reading = TableReading::new(kind, blocks).map_err(fail)?;
                 Ok(Foundation::massless(Box::new(reading), rails))
             }
             Tables::Factored(factored, ..) => Ok(Foundation::massless(Box::new(factored.clone()), rails)),
@@ -176,7 +178,7 @@ impl RailCompliance {
     /// The SPLINE statements.
     ///
     /// # Errors
-    /// [`Error::Spline`] for tables that are no SPLINE.
+    /// [`Error::Spline`] for tables that do not form a valid SPLINE.
     pub fn splines(&self) -> Result<Vec<Statement>, Error> {
         let mut out = Vec::new();
         match &self.tables {
@@ -213,7 +215,7 @@ impl RailCompliance {
         Ok(out)
     }
 
-    /// VARIABLEs of the products, q_k = sum over the loads of F phi_k(x), which all wheels share.
+    /// VARIABLEs of the products, q_k = sum over the loads of F phi_k(x), which all wheels use.
     #[must_use]
     pub fn products(&self, loads: &[LoadedMarker]) -> Vec<Statement> {
         let Tables::Factored(factored, first, number) = &self.tables else { return Vec::new() };
@@ -235,8 +237,9 @@ impl RailCompliance {
         out
     }
 
-    /// Expression of the displacement of the rail at `place` in `direction`, positive along the axis; with `slope` that of
-    /// its derivative along the rail, `None` for families, whose AKISPL has no derivative.
+    /// Expression of the displacement of the rail at `place` in `direction`, positive along the axis. With `slope` it
+    /// is the expression of the derivative along the rail, `None` for families, because AKISPL of a family has no
+    /// derivative.
     #[must_use]
     pub fn displacement(
         &self,
@@ -291,24 +294,24 @@ fn curve(factor: &splines::TableFactor, first: &[u32], direction: RailAxis, k: u
     Some(first[at] + crate::words::ids::number(k) - 1)
 }
 
-/// Families of every ordered pair of directions that has a table, direct ones first; the transpose of a coupling is the
-/// family of the opposite pair.
-fn families(sheets: Vec<InfluenceBlock>, ids: &mut NextId) -> Result<Tables, String> {
+/// Families of every ordered pair of directions that has a table, pairs of equal directions first. The transpose of a
+/// coupling is the family of the reversed pair.
+fn families(blocks: Vec<InfluenceBlock>, ids: &mut NextId) -> Result<Tables, String> {
     let mut all: Vec<(RailAxis, RailAxis, splines::SplineTable)> = Vec::new();
     for direct in [true, false] {
-        for sheet in sheets.iter().filter(|sheet| (sheet.deflection == sheet.load) == direct) {
-            all.push((sheet.deflection, sheet.load, sheet.table.clone()));
+        for block in blocks.iter().filter(|block| (block.deflection == block.load) == direct) {
+            all.push((block.deflection, block.load, block.table.clone()));
             if !direct {
-                let opposite = sheet.table.transposed().map_err(|error| error.to_string())?;
-                all.push((sheet.load, sheet.deflection, opposite));
+                let opposite = block.table.transposed().map_err(|error| error.to_string())?;
+                all.push((block.load, block.deflection, opposite));
             }
         }
     }
     let family = |(deflection, load, table)| Family { deflection, load, table, id: ids.take() };
-    Ok(Tables::Families(all.into_iter().map(family).collect(), sheets))
+    Ok(Tables::Families(all.into_iter().map(family).collect(), blocks))
 }
 
-/// A SPLINE statement with its View name.
+/// A SPLINE statement with its name in Adams View.
 pub(crate) fn spline(
     id: u32,
     name: &str,
@@ -325,7 +328,7 @@ pub(crate) fn spline(
     Ok(Spline { id, name, units, linear_extrapolate: true, curves }.statement())
 }
 
-/// Word of an axis in names.
+/// The word for an axis in names.
 pub(crate) fn word(axis: Axis) -> &'static str {
     match axis {
         Axis::Longitudinal => "longitudinal",

@@ -1,4 +1,5 @@
-//! A scene as a deck sees it: the bodies, wheels and rails that become statements, and the compliance of its rails.
+//! Intermediate model between a scene and its statements: bodies, wheels and rails with identifiers, and the
+//! compliance of the rails.
 
 pub mod compliance;
 pub mod plan;

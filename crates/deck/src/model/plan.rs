@@ -24,14 +24,14 @@ pub struct DeckPlan<'a> {
     pub scene: &'a Scene,
     /// How the deck reads tables.
     pub form: DeckForm,
-    /// The simulator's scene.
-    pub cast: SimulationInput,
+    /// The simulation input made from the scene.
+    pub input: SimulationInput,
     /// The compliance of each structure.
     pub compliances: Vec<RailCompliance>,
     /// Bodies, in the scene's order.
     pub bodies: Vec<BodyPlan>,
-    /// Frames of rails in ground: one for each rail, and more where the trucks of two bodies have the rail at different
-    /// positions.
+    /// Frames of rails in ground: one per rail, or more where the trucks of two bodies require different positions of
+    /// the rail.
     pub datums: Vec<Datum>,
     /// Wheels, in the simulator's order.
     pub wheels: Vec<WheelPlan>,
@@ -49,13 +49,13 @@ pub struct DeckPlan<'a> {
 pub struct BodyPlan {
     /// PART.
     pub part: u32,
-    /// Height and lateral coordinate in ground of its origin, where its wheels just touch their rails.
-    pub datum: [f64; 2],
+    /// Height and lateral coordinate of its origin in ground at which its wheels touch their rails without load.
+    pub position: [f64; 2],
     /// MARKER at its origin.
     pub origin: u32,
     /// MARKER at its centre of mass.
     pub cm: u32,
-    /// MARKER in ground where its y, z and rotations are zero, at rail coordinate 0.
+    /// MARKER in ground at rail coordinate 0, from which its y, z and rotations are measured.
     pub track: u32,
 }
 
@@ -77,62 +77,62 @@ pub struct WheelPlan {
     pub body: usize,
     /// Its contact.
     pub contact: usize,
-    /// Its kind.
+    /// Index of its kind.
     pub kind: usize,
     /// Its structure.
     pub structure: usize,
     /// Its rail within the structure.
     pub rail: usize,
-    /// Its rail's frame, an index into the datums.
+    /// Index of the frame of its rail in the datums.
     pub datum: usize,
     /// Vector from the body's origin to its centre.
     pub hub: [f64; 3],
     /// MARKER on the body at its centre.
     pub marker: u32,
-    /// PART of its own and the MARKER of its centre there, where its spin is a degree of freedom.
+    /// Its own PART and the MARKER at the centre of this PART, if its spin is a degree of freedom.
     pub spin: Option<(u32, u32)>,
-    /// MARKER on the body at the tread under its centre, where the body can roll and the wheel has a flange.
+    /// MARKER on the body at the tread below its centre, if the body can roll and the wheel has a flange.
     pub tread: Option<u32>,
     /// FLOATING MARKER on ground.
     pub float: u32,
 }
 
 impl WheelPlan {
-    /// The marker that the force acts on.
+    /// The marker on which the contact force acts.
     #[must_use]
     pub fn centre(&self) -> u32 {
         self.spin.map_or(self.marker, |(_, marker)| marker)
     }
 }
 
-/// The statements of a contact: of one wheel, or of the wheels of equalisers, which share one force.
+/// The statements of a contact of one wheel, or of several wheels on equalisers, whose forces are equal.
 pub struct ContactPlan {
     /// Its wheels.
     pub wheels: Range<usize>,
-    /// DIFF of its penetration, where a damper acts between a wheel and a flexible rail.
+    /// DIFF of its penetration, if a damper acts between a wheel and a flexible rail.
     pub diff: Option<u32>,
 }
 
 impl DeckPlan<'_> {
-    /// The direction of vertical or lateral forces of wheel `w`.
+    /// Rail and axis of the forces of wheel `w` along `axis`.
     #[must_use]
     pub fn direction(&self, w: usize, axis: Axis) -> RailAxis {
         (self.wheels[w].rail, axis)
     }
 
-    /// The simulator's kind of wheel `w`.
+    /// The properties of wheel `w` in the simulator.
     #[must_use]
     pub fn kind(&self, w: usize) -> &sim::Wheel {
-        &self.cast.scene.wheels[self.wheels[w].kind]
+        &self.input.scene.wheels[self.wheels[w].kind]
     }
 
-    /// MARKER of the frame of wheel `w`'s rail.
+    /// MARKER of the frame of the rail of wheel `w`.
     #[must_use]
     pub fn datum(&self, w: usize) -> u32 {
         self.datums[self.wheels[w].datum].marker
     }
 
-    /// Foundations of the simulator that interpolate the deck's tables as the deck does.
+    /// Foundations of the simulator that interpolate the tables of the deck by the same method as the deck.
     ///
     /// # Errors
     /// [`Error::Tables`] for tables that cannot be interpolated.
@@ -141,56 +141,80 @@ impl DeckPlan<'_> {
     }
 }
 
-/// The plan of the deck of `scene` in the given `form`; `known` has the solutions of its specs, `file` names the scene in
-/// errors.
+/// The plan of the deck of `scene` in the given `form`; `known` has the solutions of its specs, and `file` names the
+/// scene in errors.
 ///
-/// The steps: refuse what a deck cannot have; list the tables of every structure; compute the state at time 0 on these
-/// tables; number bodies, frames of rails, contacts and wheels.
+/// The function refuses items that decks do not support, lists the tables of every structure, computes the state at
+/// time 0 with these tables, and numbers bodies, frames of rails, contacts and wheels.
 ///
 /// # Errors
-/// [`Error::Refused`] for a scene with something that a deck cannot have, or tables that do not fit; [`Error::Start`] for a
-/// scene that cannot start.
+/// [`Error::Refused`] for a scene with unsupported items or unsuitable tables; [`Error::Start`] for a scene that
+/// cannot start.
 pub fn plan<'a>(
     scene: &'a Scene,
     known: &[SolvedStructure],
     form: DeckForm,
     file: &str,
 ) -> Result<DeckPlan<'a>, Error> {
-    refuse_actuators(scene, file)?;
-    let cast = simulation_input(scene)?;
+    refuse_unsupported(scene, file)?;
+    let input = simulation_input(scene)?;
     let mut splines = NextId::from(6);
-    let compliances = compliances(scene, &cast, known, form, file, &mut splines)?;
+    let compliances = compliances(scene, &input, known, form, file, &mut splines)?;
     let mut foundations = Vec::new();
     for compliance in &compliances {
         foundations.push(compliance.foundation()?);
     }
-    let start = Start::of(&cast.scene, &foundations)?;
+    let start = Start::of(&input.scene, &foundations)?;
     let mut markers = NextId::from(1);
     let mut bodies: Vec<BodyPlan> = (0..scene.bodies.len())
         .map(|b| BodyPlan {
             part: number(b) + GROUND,
-            datum: [0.0; 2],
+            position: [0.0; 2],
             origin: markers.take(),
             cm: markers.take(),
             track: markers.take(),
         })
         .collect();
     let (datums, of_truck) = datums(scene, &mut bodies, &mut markers);
-    let contacts: Vec<ContactPlan> = contacts(&cast, &compliances);
+    let contacts: Vec<ContactPlan> = contacts(&input, &compliances);
+    let wheels = wheels(scene, &input, &contacts, &of_truck, &mut markers);
+    Ok(DeckPlan {
+        scene,
+        form,
+        input,
+        compliances,
+        bodies,
+        datums,
+        wheels,
+        contacts,
+        start,
+        markers,
+        splines,
+    })
+}
+
+/// The wheels of all contacts; `of_truck` has the index of the rail frame of each truck.
+fn wheels(
+    scene: &Scene,
+    input: &SimulationInput,
+    contacts: &[ContactPlan],
+    of_truck: &[usize],
+    markers: &mut NextId,
+) -> Vec<WheelPlan> {
     let mut parts = NextId::from(number(scene.bodies.len()) + GROUND);
     let mut wheels = Vec::new();
-    let mut trucks = scene.trucks.iter().zip(&of_truck).flat_map(|(truck, &datum)| {
+    let mut trucks = scene.trucks.iter().zip(of_truck).flat_map(|(truck, &datum)| {
         let count: usize = truck.tree.iter().map(|node| node.wheels().len()).sum();
         std::iter::repeat_n(datum, count)
     });
     for (c, contact) in contacts.iter().enumerate() {
-        let given = &cast.scene.contacts[c];
+        let given = &input.scene.contacts[c];
         for (w, offset) in contact.wheels.clone().zip(&given.offsets) {
-            let kind = &cast.scene.wheels[given.wheel];
+            let kind = &input.scene.wheels[given.wheel];
             let [x, y, z] = given.at;
-            let rolls = cast.scene.bodies[given.body].free[3];
+            let rolls = input.scene.bodies[given.body].free[3];
             wheels.push(WheelPlan {
-                name: cast.wheels[w].name.clone(),
+                name: input.wheels[w].name.clone(),
                 body: given.body,
                 contact: c,
                 kind: given.wheel,
@@ -199,19 +223,19 @@ pub fn plan<'a>(
                 datum: trucks.next().unwrap_or_default(),
                 hub: [x + offset, y, z],
                 marker: markers.take(),
-                spin: cast.wheels[w].spins.then(|| (parts.take(), markers.take())),
+                spin: input.wheels[w].spins.then(|| (parts.take(), markers.take())),
                 tread: (rolls && kind.flange.is_some()).then(|| markers.take()),
                 float: markers.take(),
             });
         }
     }
-    Ok(DeckPlan { scene, form, cast, compliances, bodies, datums, wheels, contacts, start, markers, splines })
+    wheels
 }
 
-/// Refuses scenes with ropes, stops, events, drives, brakes, loads, irregularities, pinned bodies and the like, which a deck
-/// does not have yet.
-fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
-    let refuse = |why: String, hint: &str| Err(Error::from(Diagnostic::of_file(file, why).hint(hint)));
+/// Refuses scenes with ropes, stops, events, drives, brakes, loads, irregularities, pinned bodies and similar items,
+/// which decks do not support.
+fn refuse_unsupported(scene: &Scene, file: &str) -> Result<(), Error> {
+    let refuse = |why: String, hint: &str| Err(refusal(file, why, hint));
     if let Some(rope) = scene.ropes.first() {
         let why = format!("a deck cannot have ropes: \"{}\"", rope.name);
         return refuse(
@@ -224,7 +248,7 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
         return refuse(why, "leave the motion out, and add a MOTION to the deck by hand");
     }
     if let Some(structure) = scene.structures.iter().find(|structure| structure.longitudinal) {
-        let why = format!("a deck cannot have give along its rails: structure \"{}\"", structure.name);
+        let why = format!("a deck cannot have compliance along its rails: structure \"{}\"", structure.name);
         return refuse(why, "leave `longitudinal` out");
     }
     if let Some(event) = scene.events.first() {
@@ -247,22 +271,7 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
         let why = format!("structure \"{}\": a deck cannot have structures on bodies", structure.name);
         return refuse(why, "leave out the trolley, and put its mass into the bridge");
     }
-    for body in &scene.bodies {
-        if body.pinned.is_some() {
-            let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);
-            return refuse(
-                why,
-                "model its mass with the body that carries it, and give the truck a nested `tree`",
-            );
-        }
-        let what = match (&body.motion, body.brake) {
-            (BodyMotion::Driven(_), _) => "drive",
-            (_, Some(_)) => "brake",
-            _ => continue,
-        };
-        let why = format!("body \"{}\": a deck cannot have its {what}", body.name);
-        return refuse(why, "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand");
-    }
+    refuse_actuated_bodies(scene, file)?;
     match scene.loads.first() {
         Some(load) => {
             let why = format!("body \"{}\": a deck cannot have its load", scene.bodies[load.body].name);
@@ -272,10 +281,35 @@ fn refuse_actuators(scene: &Scene, file: &str) -> Result<(), Error> {
     }
 }
 
-/// The compliance of each structure; refuses foundations that a deck cannot have.
+/// Refuses bodies that are pinned to others, driven or braked.
+fn refuse_actuated_bodies(scene: &Scene, file: &str) -> Result<(), Error> {
+    for body in &scene.bodies {
+        if body.pinned.is_some() {
+            let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);
+            let hint = "model its mass with the body that carries it, and give the truck a nested `tree`";
+            return Err(refusal(file, why, hint));
+        }
+        let what = match (&body.motion, body.brake) {
+            (BodyMotion::Driven(_), _) => "drive",
+            (_, Some(_)) => "brake",
+            _ => continue,
+        };
+        let why = format!("body \"{}\": a deck cannot have its {what}", body.name);
+        let hint = "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand";
+        return Err(refusal(file, why, hint));
+    }
+    Ok(())
+}
+
+/// The refusal of the scene `file`.
+fn refusal(file: &str, why: String, hint: &str) -> Error {
+    Error::from(Diagnostic::of_file(file, why).hint(hint))
+}
+
+/// The compliance of each structure; refuses foundations that decks do not support.
 fn compliances(
     scene: &Scene,
-    cast: &SimulationInput,
+    input: &SimulationInput,
     known: &[SolvedStructure],
     form: DeckForm,
     file: &str,
@@ -284,24 +318,22 @@ fn compliances(
     let mut out = Vec::new();
     let mut factors = 0;
     for (s, structure) in scene.structures.iter().enumerate() {
-        let refuse = |why: String, hint: &str| {
-            let place = format!("structure \"{}\": {why}", structure.name);
-            Error::from(Diagnostic::of_file(file, place).hint(hint))
-        };
+        let refuse =
+            |why: String, hint: &str| refusal(file, format!("structure \"{}\": {why}", structure.name), hint);
         let mut directions: Vec<RailAxis> = Vec::new();
-        for contact in cast.scene.contacts.iter().filter(|contact| contact.structure == s) {
+        for contact in input.scene.contacts.iter().filter(|contact| contact.structure == s) {
             directions.push((contact.rail, Axis::Vertical));
-            if cast.scene.wheels[contact.wheel].flange.is_some() {
+            if input.scene.wheels[contact.wheel].flange.is_some() {
                 directions.push((contact.rail, Axis::Lateral));
             }
         }
         match structure.foundation {
             scene::Foundation::Influence if !directions.is_empty() => {
-                let sheets = foundations::influence_blocks(structure, solution_of(known, &structure.origin))?;
+                let blocks = foundations::influence_blocks(structure, solution_of(known, &structure.origin))?;
                 let compliance = RailCompliance::new(
                     structure,
                     directions,
-                    &sheets,
+                    &blocks,
                     form,
                     splines,
                     &mut factors,
@@ -329,9 +361,9 @@ fn compliances(
     Ok(out)
 }
 
-/// Positions of rails and bodies in ground. The first truck of a body whose rail has a frame already fixes the position of
-/// the body; a rail that another body needs at a different position gets one more frame. Returns the frames, and the index
-/// of each truck's frame.
+/// Determines the positions of rails and bodies in ground. The first truck of a body whose rail already has a frame
+/// fixes the position of the body. A rail that another body requires at a different position has an additional frame.
+/// Returns the frames and the index of the frame of each truck.
 fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<Datum>, Vec<usize>) {
     let mut datums: Vec<Datum> = Vec::new();
     let mut of_truck = vec![0; scene.trucks.len()];
@@ -344,10 +376,10 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<
             Some([datum.at[0] - y, datum.at[1] - z])
         });
         let free = || trucks().next().map(|(_, truck)| below(truck).map(|value| 0.0 - value));
-        body.datum = fixed.or_else(free).unwrap_or_default();
+        body.position = fixed.or_else(free).unwrap_or_default();
         for (t, truck) in trucks() {
             let [y, z] = below(truck);
-            let at = [body.datum[0] + y, body.datum[1] + z];
+            let at = [body.position[0] + y, body.position[1] + z];
             let near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * (1.0 + b.abs());
             let same = |datum: &Datum| {
                 datum.rail == truck.rail && near(datum.at[0], at[0]) && near(datum.at[1], at[1])
@@ -361,15 +393,15 @@ fn datums(scene: &Scene, bodies: &mut [BodyPlan], markers: &mut NextId) -> (Vec<
     (datums, of_truck)
 }
 
-/// The contacts of the simulator, with a DIFF where a damper acts on a flexible rail.
-fn contacts(cast: &SimulationInput, compliances: &[RailCompliance]) -> Vec<ContactPlan> {
+/// The contacts of the simulator; a contact whose damper acts on a flexible rail has a DIFF.
+fn contacts(input: &SimulationInput, compliances: &[RailCompliance]) -> Vec<ContactPlan> {
     let mut first = 0;
     let mut out = Vec::new();
-    for (c, contact) in cast.scene.contacts.iter().enumerate() {
+    for (c, contact) in input.scene.contacts.iter().enumerate() {
         let wheels = first..first + contact.offsets.len();
         first = wheels.end;
-        let remembers = cast.scene.wheels[contact.wheel].normal.has_memory();
-        let diff = (remembers && compliances[contact.structure].is_flexible()).then(|| number(c));
+        let has_memory = input.scene.wheels[contact.wheel].normal.has_memory();
+        let diff = (has_memory && compliances[contact.structure].is_flexible()).then(|| number(c));
         out.push(ContactPlan { wheels, diff });
     }
     out

@@ -1,4 +1,4 @@
-//! The state at time 0, in static equilibrium where the scene asks for it, as the simulator computes it.
+//! The state at time 0 as the simulator computes it, in static equilibrium if the scene specifies this.
 
 use std::ops::ControlFlow;
 
@@ -6,7 +6,7 @@ use sim::{BodyDof, Channel, Foundation};
 
 use crate::Error;
 
-/// The values of bodies and wheels at time 0.
+/// State of bodies and wheels at time 0.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Start {
     /// Displacements (x, y, z) and rotations (roll, yaw, pitch) of each body; x is its rail coordinate.
@@ -42,7 +42,7 @@ impl Start {
         Ok(Start {
             displacement: bodies
                 .clone()
-                .map(|b| BodyDof::ALL.map(|freedom| at(Channel::Displacement(b, freedom))))
+                .map(|b| BodyDof::ALL.map(|dof| at(Channel::Displacement(b, dof))))
                 .collect(),
             speed: bodies.map(|b| at(Channel::Speed(b, BodyDof::X))).collect(),
             place: of_wheels(Channel::Position),
@@ -56,7 +56,7 @@ impl Start {
 }
 
 /// Rotation matrix of the rotation vector a, by Rodrigues' formula: R = I + (sin t/t) A + ((1 - cos t)/t^2) A^2 with
-/// the angle t = |a| and the cross-product matrix A of a. Below 1e-4 the coefficients are their series.
+/// the angle t = |a| and the cross-product matrix A of a. Below 1e-4 the coefficients are evaluated by their series.
 #[must_use]
 pub fn rotation(a: [f64; 3]) -> [[f64; 3]; 3] {
     let [x, y, z] = a;
@@ -90,20 +90,20 @@ pub fn euler(r: [[f64; 3]; 3]) -> [f64; 3] {
 
 /// The vector `v` rotated by `r`.
 #[must_use]
-pub fn turned(r: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
+pub fn rotated(r: [[f64; 3]; 3], v: [f64; 3]) -> [f64; 3] {
     r.map(|row| row[0] * v[0] + row[1] * v[1] + row[2] * v[2])
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{euler, rotation, turned};
+    use super::{euler, rotated, rotation};
 
     fn times(a: [[f64; 3]; 3], b: [[f64; 3]; 3]) -> [[f64; 3]; 3] {
         std::array::from_fn(|i| std::array::from_fn(|j| (0..3).map(|k| a[i][k] * b[k][j]).sum()))
     }
 
     #[test]
-    fn angles_3_1_3_make_the_rotation_again() {
+    fn angles_3_1_3_reproduce_the_rotation() {
         for vector in [[0.0, 0.0, 0.02], [0.01, -0.03, 0.02], [1.0, -0.4, 0.7], [0.0, 0.0, -2.0], [0.0; 3]] {
             let r = rotation(vector);
             let [a, b, c] = euler(r);
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_small_rotation_is_its_cross_product() {
-        let turned = turned(rotation([0.0, 0.0, 1e-6]), [2.0, 1.0, 0.0]);
-        assert!((turned[0] - (2.0 - 1e-6)).abs() < 1e-11 && (turned[1] - (1.0 + 2e-6)).abs() < 1e-11);
+        let rotated = rotated(rotation([0.0, 0.0, 1e-6]), [2.0, 1.0, 0.0]);
+        assert!((rotated[0] - (2.0 - 1e-6)).abs() < 1e-11 && (rotated[1] - (1.0 + 2e-6)).abs() < 1e-11);
     }
 }

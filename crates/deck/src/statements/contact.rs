@@ -1,10 +1,11 @@
 //! Contacts of wheels and rails: VARIABLE, DIFF and GFORCE statements.
 //!
-//! For each wheel: its rail coordinate x, the displacements of its rail there as functions of all forces, the penetration
-//! p = r - (height of the wheel's centre over the displaced rail), the vertical force k p^e + c p', the lateral overlap of
-//! its flange with the rail and the flange force, friction by the sliding speed, and the components of these forces along
-//! the rail by its slope. The penetration is a DIFF of its own where a damper acts on a flexible rail, because only then
-//! does the rate of the rail's displacement enter. The GFORCE of the wheel has all six components.
+//! For each wheel the statements define its rail coordinate x, the displacements of the rail at x as functions of all
+//! forces, the penetration p = r - (height of the wheel centre above the displaced rail), the vertical force k p^e +
+//! c p', the lateral overlap of the flange with the rail and the flange force, the friction as a function of the
+//! sliding speed, and the components of these forces along the rail due to its slope. The penetration is a DIFF where
+//! a damper acts on a flexible rail, because only then does the rate of the displacement of the rail enter. The
+//! GFORCE of the wheel has all six components.
 
 use adams::Statement;
 use sim::{FrictionLaw, NormalLaw};
@@ -52,7 +53,7 @@ struct WrittenRemarks {
     slope: bool,
 }
 
-/// The statement with the remark `text`, unless that has been written before.
+/// Adds the remark `text` to the statement unless it has been written before.
 fn once(written: &mut bool, statement: Statement, text: &str) -> Statement {
     if std::mem::replace(written, true) { statement } else { statement.remark(text) }
 }
@@ -82,12 +83,12 @@ fn named(plan: &DeckPlan<'_>, w: usize, slot: VariableSlot, what: &str) -> State
     Statement::new("VARIABLE", variable(w, slot)).named(plain(&format!("{}_{what}", plan.wheels[w].name)))
 }
 
-/// The statement with its initial value `at`, which is 0 in the paper's form.
+/// Adds the initial value `at` to the statement; it is 0 in the form of the paper.
 fn starting(plan: &DeckPlan<'_>, statement: Statement, at: f64) -> Statement {
     statement.numbers("IC", &[if plan.form == DeckForm::Paper { 0.0 } else { at }])
 }
 
-/// The rail coordinate of a wheel, and the displacements of its rail there.
+/// The rail coordinate of a wheel, and the displacements of the rail under it.
 fn place(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut Vec<Statement>) {
     let wheel = &plan.wheels[w];
     let rail = plan.datum(w);
@@ -110,7 +111,7 @@ fn place(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut 
     }
 }
 
-/// Height of a wheel's centre over its displaced rail; the radius less this height is the penetration.
+/// Height of the centre of a wheel above its displaced rail; the radius minus this height is the penetration.
 fn height(plan: &DeckPlan<'_>, w: usize) -> String {
     let rail = plan.datum(w);
     let mut text = format!("DY({},{rail},{rail})", plan.wheels[w].marker);
@@ -120,7 +121,7 @@ fn height(plan: &DeckPlan<'_>, w: usize) -> String {
     text
 }
 
-/// Penetration of contact `c` in its force law.
+/// The penetration of contact `c` as it enters the force law.
 fn depth(plan: &DeckPlan<'_>, c: usize) -> String {
     let contact = &plan.contacts[c];
     match contact.diff.filter(|_| plan.form != DeckForm::Paper) {
@@ -170,7 +171,7 @@ fn vertical(plan: &DeckPlan<'_>, c: usize, written: &mut WrittenRemarks, out: &m
     out.push(statement.function("FUNCTION", text));
 }
 
-/// Mean height of the contact's wheels over their displaced rail, in brackets.
+/// Mean height of the wheels of a contact above their displaced rail, in brackets.
 fn mean_height(plan: &DeckPlan<'_>, c: usize) -> String {
     let wheels = plan.contacts[c].wheels.clone();
     let mut sum = TermList::default();
@@ -181,7 +182,7 @@ fn mean_height(plan: &DeckPlan<'_>, c: usize) -> String {
     if wheels.len() == 1 { format!("({text})") } else { mean(text, wheels.len()) }
 }
 
-/// Mean upward velocity of the contact's wheels: the rate of penetration on a rigid rail, with the opposite sign.
+/// Mean upward velocity of the wheels of a contact, which is the negative rate of penetration on a rigid rail.
 fn speed(plan: &DeckPlan<'_>, c: usize) -> String {
     let wheels = plan.contacts[c].wheels.clone();
     let mut sum = TermList::default();
@@ -225,12 +226,12 @@ fn press(plan: &DeckPlan<'_>, c: usize) -> String {
     } else if contact.diff.is_some() || law.damping == 0.0 {
         format!("MAX(0,{force})")
     } else {
-        // a damper against the ground, or on a rigid rail, acts only while wheel and rail touch
+        // a damper to ground or on a rigid rail acts only while wheel and rail are in contact
         format!("IF({p}:0,0,MAX(0,{force}))")
     }
 }
 
-/// k p^e; an odd function of p where the contact is bilateral.
+/// The spring force k p^e; an odd function of p if the contact is bilateral.
 fn spring(law: &NormalLaw, p: &str) -> String {
     let k = number(law.stiffness);
     if law.exponent == 1.0 {
@@ -242,7 +243,7 @@ fn spring(law: &NormalLaw, p: &str) -> String {
     }
 }
 
-/// Height of wheel `w`'s centre over the rail: the lever arm of friction and flange force.
+/// Height of the centre of wheel `w` above the rail, which is the lever arm of friction and flange force.
 fn arm(plan: &DeckPlan<'_>, w: usize) -> String {
     let radius = number(plan.kind(w).radius);
     format!("({radius}-{})", depth(plan, plan.wheels[w].contact))
@@ -301,7 +302,8 @@ fn slope(plan: &DeckPlan<'_>, w: usize, written: &mut WrittenRemarks, out: &mut 
     let loads = loads(plan, wheel.structure);
     let first = plan.contacts[wheel.contact].wheels.start;
     let lateral = plan.kind(w).flange.is_some();
-    // vertical displacements are positive upwards and the vertical force acts downwards, hence the sign
+    // the negative sign arises because vertical displacements are positive upwards and the vertical force acts
+    // downwards
     for (axis, slot, press, negative, what, acts) in [
         (Axis::Vertical, VariableSlot::Slope, variable(first, VariableSlot::Press), true, "slope", true),
         (Axis::Lateral, VariableSlot::Tilt, variable(w, VariableSlot::Flange), false, "tilt", lateral),

@@ -1,20 +1,20 @@
-//! What restraints bodies to their tracks: JOINT, JPRIM and MOTION statements.
+//! Restraints of bodies to their tracks: JOINT, JPRIM and MOTION statements.
 
 use adams::{ArgumentValue, Statement};
 use sim::Profile;
 
-use crate::model::plan::{DeckPlan, GROUND};
+use crate::model::plan::{BodyPlan, DeckPlan, GROUND};
 use crate::words::ids::{NextId, number};
 use crate::words::text::{number as expression_number, plain};
 use formats::scene::{BodyMotion, DOFS};
 
-/// Angles of a marker whose z points along x, y or z of its part.
-const ALONG: [[f64; 3]; 3] = [[90.0, 90.0, 0.0], [0.0, -90.0, 0.0], [0.0, 0.0, 0.0]];
+/// Euler angles of a marker whose z axis points along x, y or z of its part.
+const MARKER_ANGLES: [[f64; 3]; 3] = [[90.0, 90.0, 0.0], [0.0, -90.0, 0.0], [0.0, 0.0, 0.0]];
 
 /// All joints and motions, with the markers that they need.
 pub(crate) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<Statement> {
     let mut out = Vec::new();
-    // axles have the first numbers
+    // the revolute joints of spinning wheels have the first numbers
     let mut restraints = Restraints {
         joints: NextId::from(number(plan.wheels.len())),
         prims: NextId::from(1),
@@ -29,18 +29,19 @@ pub(crate) fn statements(plan: &DeckPlan<'_>, markers: &mut NextId) -> Vec<State
     out
 }
 
-/// The statements that restrain bodies, as they are written.
+/// State of writing the statements that restrain bodies.
 struct Restraints<'a> {
     joints: NextId,
     prims: NextId,
     markers: &'a mut NextId,
-    /// Markers of the present body: part, axis, position, identifier.
+    /// Markers of the current body: part, axis, position, identifier.
     made: Vec<(u32, usize, [f64; 3], u32)>,
     out: &'a mut Vec<Statement>,
 }
 
 impl Restraints<'_> {
-    /// A marker on `part` at `at` whose z points along axis 0, 1 or 2.
+    /// Returns a marker on `part` at `at` whose z axis points along axis 0, 1 or 2; writes it unless it exists
+    /// already.
     fn marker(&mut self, part: u32, at: [f64; 3], axis: usize, name: &str) -> u32 {
         let known = self.made.iter().find(|made| (made.0, made.1, made.2) == (part, axis, at));
         if let Some(made) = known {
@@ -54,7 +55,7 @@ impl Restraints<'_> {
             .reference("PART", part)
             .numbers("QP", &at);
         if axis != 2 {
-            statement = statement.with("REULER", ArgumentValue::Degrees(ALONG[axis].to_vec()));
+            statement = statement.with("REULER", ArgumentValue::Degrees(MARKER_ANGLES[axis].to_vec()));
         }
         self.out.push(statement);
         id
@@ -68,66 +69,40 @@ impl Restraints<'_> {
     }
 }
 
-/// Restrains the degrees of freedom of body `b` that its track holds, and prescribes its travel.
+/// Restrains those degrees of freedom of body `b` that its track restrains, and prescribes its travel.
 ///
-/// A body held in z, roll and yaw has a PLANAR joint. Other held displacements are one INPLANE each. Three held rotations
-/// are an ORIENTATION, two are PARALLEL_AXES with the axis that remains free, one is a PERPENDICULAR of two axes.
+/// A body that is restrained in z, roll and yaw has a PLANAR joint. Every other restrained displacement is one
+/// INPLANE, and restrained rotations are one JPRIM ([`restrain_rotations`]).
 fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
     let (own, body) = (&plan.bodies[b], &plan.scene.bodies[b]);
-    let name = &body.name;
-    let [height, side] = own.datum;
     let start = plan.start.displacement[b];
-    let prescribed = matches!(body.motion, BodyMotion::Prescribed(_));
-    let mut held: [bool; 6] = std::array::from_fn(|i| !body.free[i]);
-    held[0] = matches!(body.motion, BodyMotion::Held);
-    let planar = held[2] && held[3] && held[4] && start[2] == 0.0;
-    if planar {
+    let mut restrained: [bool; 6] = std::array::from_fn(|i| !body.free[i]);
+    restrained[0] = matches!(body.motion, BodyMotion::Held);
+    let is_planar = restrained[2] && restrained[3] && restrained[4] && start[2] == 0.0;
+    if is_planar {
         let id = restraints.joints.take();
         restraints.out.push(
             Statement::new("JOINT", id)
-                .named(plain(&format!("plane_{name}")))
-                .remark(format!("{name}: z, roll and yaw are held by its track"))
+                .named(plain(&format!("plane_{}", body.name)))
+                .remark(format!("{}: z, roll and yaw are restrained by its track", body.name))
                 .flag("PLANAR")
                 .reference("I", own.origin)
                 .reference("J", own.track),
         );
     }
-    let zero = [0.0, height, side];
-    for axis in (0..3).filter(|&axis| held[axis] && !(planar && axis == 2)) {
-        let mut at = zero;
+    let [height, side] = own.position;
+    for axis in (0..3).filter(|&axis| restrained[axis] && !(is_planar && axis == 2)) {
+        let mut at = [0.0, height, side];
         at[axis] += start[axis];
-        let j = restraints.marker(GROUND, at, axis, &format!("hold_{name}"));
-        restraints.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{name}", DOFS[axis]));
+        let j = restraints.marker(GROUND, at, axis, &format!("hold_{}", body.name));
+        restraints.prim("INPLANE", [own.origin, j], format!("hold_{}_of_{}", DOFS[axis], body.name));
     }
-    let turns: Vec<usize> = (0..3).filter(|&axis| held[3 + axis]).collect();
-    let both = |restraints: &mut Restraints<'_>, axis: usize| {
-        let i = restraints.marker(own.part, [0.0; 3], axis, name);
-        let j = restraints.marker(GROUND, zero, axis, &format!("track_{name}"));
-        [i, j]
-    };
-    match turns[..] {
-        [_, _, _] if !planar => {
-            restraints.prim("ORIENTATION", [own.origin, own.track], format!("hold_turns_of_{name}"))
-        }
-        [a, c] if !planar => {
-            let pair = both(restraints, 3 - a - c);
-            restraints.prim("PARALLEL_AXES", pair, format!("hold_two_turns_of_{name}"));
-        }
-        [] => {}
-        _ if planar && turns.len() == 2 => {}
-        _ => {
-            // roll: the body's y keeps off z; yaw: its x keeps off z; pitch: its x keeps off y
-            let axis = turns.last().copied().unwrap_or_default();
-            let [own_axis, ground_axis] = [[1, 2], [0, 2], [0, 1]][axis];
-            let i = restraints.marker(own.part, [0.0; 3], own_axis, name);
-            let j = restraints.marker(GROUND, zero, ground_axis, &format!("track_{name}"));
-            restraints.prim("PERPENDICULAR", [i, j], format!("hold_{}_of_{name}", DOFS[3 + axis]));
-        }
-    }
-    if prescribed && let BodyMotion::Prescribed(profile) = &body.motion {
+    let rotations: Vec<usize> = (0..3).filter(|&axis| restrained[3 + axis]).collect();
+    restrain_rotations(own, &body.name, &rotations, is_planar, restraints);
+    if let BodyMotion::Prescribed(profile) = &body.motion {
         restraints.out.push(
             Statement::new("MOTION", number(b))
-                .named(plain(&format!("travel_{name}")))
+                .named(plain(&format!("travel_{}", body.name)))
                 .reference("I", own.origin)
                 .reference("J", own.track)
                 .flag("X")
@@ -137,11 +112,48 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
     }
 }
 
-/// Position along the rail as an expression of TIME: the exact polynomial of each interval of the profile, selected by
-/// nested IFs.
+/// Restrains the rotations of a body about the axes `rotations`; a PLANAR joint already restrains roll and yaw.
 ///
-/// Position is continuous, so that it does not matter to which interval a break belongs. The IFs are nested as a binary
-/// tree: a table of n rows takes log2 n comparisons.
+/// Three restrained rotations are an ORIENTATION, two are PARALLEL_AXES with the remaining free axis, and one is a
+/// PERPENDICULAR of two axes.
+fn restrain_rotations(
+    own: &BodyPlan,
+    name: &str,
+    rotations: &[usize],
+    is_planar: bool,
+    restraints: &mut Restraints<'_>,
+) {
+    let [height, side] = own.position;
+    let zero = [0.0, height, side];
+    let pair = |axes: [usize; 2], restraints: &mut Restraints<'_>| {
+        let i = restraints.marker(own.part, [0.0; 3], axes[0], name);
+        let j = restraints.marker(GROUND, zero, axes[1], &format!("track_{name}"));
+        [i, j]
+    };
+    match rotations[..] {
+        [_, _, _] if !is_planar => {
+            restraints.prim("ORIENTATION", [own.origin, own.track], format!("hold_turns_of_{name}"))
+        }
+        [a, c] if !is_planar => {
+            let markers = pair([3 - a - c; 2], restraints);
+            restraints.prim("PARALLEL_AXES", markers, format!("hold_two_turns_of_{name}"));
+        }
+        [] => {}
+        _ if is_planar && rotations.len() == 2 => {}
+        _ => {
+            // roll: y of the body stays perpendicular to z of the track; yaw: x to z; pitch: x to y
+            let axis = rotations.last().copied().unwrap_or_default();
+            let markers = pair([[1, 2], [0, 2], [0, 1]][axis], restraints);
+            restraints.prim("PERPENDICULAR", markers, format!("hold_{}_of_{name}", DOFS[3 + axis]));
+        }
+    }
+}
+
+/// Position along the rail as an expression of TIME: the exact polynomial of each interval of the profile, selected
+/// by nested IFs.
+///
+/// The position is continuous, so that a break may belong to either of its intervals. The IFs are nested as a binary
+/// tree: a table of n rows needs log2 n comparisons.
 pub(crate) fn motion_expression(profile: &Profile) -> String {
     let mut starts = vec![0.0];
     starts.extend_from_slice(profile.breaks());
@@ -164,10 +176,10 @@ fn tree(pieces: &[(f64, String)]) -> String {
     }
 }
 
-/// x + v s + a s^2/2 + j s^3/6, with s the time since the start of the interval.
+/// The polynomial x + v s + a s^2/2 + j s^3/6 of one interval, where s is the time since its start.
 fn piece(profile: &Profile, start: f64, end: Option<f64>) -> String {
     let at = profile.at(start);
-    // within the interval acceleration is linear in time
+    // within an interval the acceleration is linear in time
     let middle = end.map_or(start + 1.0, |end| f64::midpoint(start, end));
     let jerk = (profile.at(middle).a - at.a) / (middle - start);
     let s = if start == 0.0 { "TIME".to_owned() } else { format!("(TIME-{})", expression_number(start)) };
@@ -189,7 +201,7 @@ mod tests {
     use sim::{MotionKind, Profile};
 
     #[test]
-    fn a_speed_table_is_a_polynomial_a_stretch() {
+    fn a_speed_table_is_a_polynomial_in_each_interval() {
         let table = [[0.0, 0.0], [4.0, 6.0], [8.0, 6.0]];
         let profile = Profile::new(MotionKind::Speed, &table, 20.0, 0.0).expect("a valid table");
         assert_eq!(

@@ -1,4 +1,4 @@
-//! The statements of a deck, one file a kind.
+//! The statements of a deck, one file per kind.
 
 pub mod contact;
 pub(crate) mod joints;

@@ -1,21 +1,21 @@
-//! PART and MARKER statements: ground, rails, bodies, wheels with a spin.
+//! PART and MARKER statements of ground, rails, bodies and spinning wheels.
 
 use adams::Statement;
 
 use crate::model::plan::{DeckPlan, GROUND};
-use crate::model::start::{euler, rotation, turned};
+use crate::model::start::{euler, rotated, rotation};
 use crate::words::remark;
 use crate::words::text::plain;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 
-/// A pound, 0.45359237 kg, and a kilogram as whole numbers of 1e-8 kg.
+/// A pound (0.45359237 kg) and a kilogram in integer multiples of 1e-8 kg.
 const POUND: u128 = 45_359_237;
 const KILOGRAM: u128 = 100_000_000;
 
-/// Fraction of a body's mass that each of its spinning wheels has.
-const WHEEL: f64 = 1e-9;
+/// Mass of each spinning wheel as a fraction of the mass of its body.
+const WHEEL_MASS: f64 = 1e-9;
 
-/// All parts with their markers, and the axles of spinning wheels.
+/// All parts with their markers, and the revolute joints of spinning wheels.
 pub(crate) fn statements(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut out = ground(plan);
     for b in 0..plan.bodies.len() {
@@ -44,7 +44,7 @@ fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
         out.push(statement);
     }
     for (plan_body, body) in plan.bodies.iter().zip(&plan.scene.bodies) {
-        let [y, z] = plan_body.datum;
+        let [y, z] = plan_body.position;
         out.push(marker(plan_body.track, GROUND, [0.0, y, z], &format!("track_{}", body.name)));
     }
     for wheel in &plan.wheels {
@@ -55,10 +55,10 @@ fn ground(plan: &DeckPlan<'_>) -> Vec<Statement> {
     out
 }
 
-/// Position of body `b`'s origin and its rotation matrix at time 0.
+/// Position of the origin of body `b` and its rotation matrix at time 0.
 fn place(plan: &DeckPlan<'_>, b: usize) -> ([f64; 3], [[f64; 3]; 3]) {
     let [x, y, z, roll, yaw, pitch] = plan.start.displacement[b];
-    let [height, side] = plan.bodies[b].datum;
+    let [height, side] = plan.bodies[b].position;
     ([x, height + y, side + z], rotation([roll, yaw, pitch]))
 }
 
@@ -68,7 +68,7 @@ fn placed(id: u32, name: &str, at: [f64; 3], turn: [[f64; 3]; 3]) -> Statement {
     if angles == [0.0; 3] { statement } else { statement.numbers("REULER", &angles) }
 }
 
-/// The statement with the speed along the rail at time 0.
+/// Adds the speed along the rail at time 0 to a PART statement.
 fn moving(statement: Statement, speed: f64) -> Statement {
     if speed == 0.0 { statement } else { statement.numbers("VX", &[speed]) }
 }
@@ -78,7 +78,7 @@ fn body(plan: &DeckPlan<'_>, b: usize, out: &mut Vec<Statement>) {
     let (at, turn) = place(plan, b);
     let unit = mass_factor(plan.scene.units);
     let spinning = plan.wheels.iter().filter(|wheel| wheel.body == b && wheel.spin.is_some()).count();
-    let mass = body.mass * unit * (1.0 - WHEEL * spinning as f64);
+    let mass = body.mass * unit * (1.0 - WHEEL_MASS * spinning as f64);
     let statement = placed(own.part, &body.name, at, turn)
         .numbers("MASS", &[mass])
         .reference("CM", own.cm)
@@ -101,11 +101,11 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, written: &mut bool, out: &mut Vec<Statem
     let Some((part, centre)) = wheel.spin else { return };
     let unit = mass_factor(plan.scene.units);
     let (origin, turn) = place(plan, wheel.body);
-    let arm = turned(turn, wheel.hub);
+    let arm = rotated(turn, wheel.hub);
     let at = std::array::from_fn(|i| origin[i] + arm[i]);
     let inertia = plan.kind(w).spin_inertia.unwrap_or_default() * unit;
     let mut statement = placed(part, &wheel.name, at, turn)
-        .numbers("MASS", &[plan.scene.bodies[wheel.body].mass * unit * WHEEL])
+        .numbers("MASS", &[plan.scene.bodies[wheel.body].mass * unit * WHEEL_MASS])
         .reference("CM", centre)
         .numbers("IP", &[0.0, 0.0, inertia]);
     if !*written {
@@ -125,8 +125,9 @@ fn wheel(plan: &DeckPlan<'_>, w: usize, written: &mut bool, out: &mut Vec<Statem
 
 /// The scene's unit of mass, force time^2 / length, in the mass unit of [`Units::to_adams`].
 ///
-/// ADAMS computes F UCF = M a by the units of its UNITS statement. With masses in that unit F = m a holds in the units of
-/// the scene: 1 lbf s^2/ft = 1 slug, 1 lbf s^2/in = 386.0886 lb, 1 N s^2/mm = 1000 kg. The relative error is below 4e-16.
+/// ADAMS computes F UCF = M a by the units of its UNITS statement. With masses in that unit F = m a holds in the
+/// units of the scene: 1 lbf s^2/ft = 1 slug, 1 lbf s^2/in = 386.0886 lb, 1 N s^2/mm = 1000 kg. The relative error is
+/// below 4e-16.
 #[must_use]
 pub(crate) fn mass_factor(units: Units) -> f64 {
     match units.to_adams().mass {
@@ -148,7 +149,7 @@ mod tests {
     use formats::units::{Force, Length, Units};
 
     #[test]
-    fn masses_are_those_of_their_definitions() {
+    fn mass_factors_follow_from_the_definitions_of_units() {
         // 1 lbf = 0.45359237 kg x 9.80665 m/s^2; 1 in = 0.0254 m
         for (length, force, expected) in [
             (Length::Foot, Force::Pound, 1.0),

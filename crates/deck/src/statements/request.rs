@@ -14,15 +14,15 @@ use formats::grid::effects::{Reaction, ReactionPoint};
 use formats::scene::BodyMotion;
 use foundations::{SolvedStructure, solution_of};
 
-/// Reactions in one REQUEST: their names must fit on a line.
-const MOST: usize = 4;
-/// Reaction per unit load up to which it counts as zero.
-const NONE: f64 = 1e-9;
+/// Largest number of reactions in one REQUEST, whose names must fit on a line.
+const REACTIONS_PER_REQUEST: usize = 4;
+/// Reaction per unit load up to which the reaction is treated as zero.
+const NEGLIGIBLE: f64 = 1e-9;
 
-/// All requests, and the SPLINEs that they read.
+/// All requests, and the SPLINEs that they use.
 ///
 /// # Errors
-/// Influence lines that are no SPLINE.
+/// Influence lines that do not form a valid SPLINE.
 pub(crate) fn statements(
     plan: &DeckPlan<'_>,
     known: &[SolvedStructure],
@@ -119,7 +119,8 @@ fn body(plan: &DeckPlan<'_>, b: usize, id: u32) -> Statement {
     request(id, &format!("motion_of_{name}"), parts)
 }
 
-/// Reactions of the ground on structure `s`: sums of forces times influence lines, each a SPLINE at the stations.
+/// Reactions of the ground on structure `s`: sums of forces times influence lines. Each influence line is a SPLINE at
+/// the stations.
 fn reactions(
     plan: &DeckPlan<'_>,
     known: &[SolvedStructure],
@@ -162,23 +163,23 @@ fn reactions(
             named.push((name, sum.text()));
         }
     }
-    for (k, parts) in named.chunks(MOST).enumerate() {
+    for (k, parts) in named.chunks(REACTIONS_PER_REQUEST).enumerate() {
         out.push(request(ids.take(), &format!("reactions_of_{}_{}", structure.name, k + 1), parts.to_vec()));
     }
     Ok(())
 }
 
-/// A reaction's influence line along the rail of a load; `None` where the load has no effect on it.
+/// Influence line of a reaction along the rail of a load; `None` if the load has no effect on the reaction.
 fn line(plan: &DeckPlan<'_>, s: usize, reaction: &Reaction, load: &LoadedMarker) -> Option<Vec<f64>> {
     let (rail, axis): (usize, Axis) = load.direction;
     let rails = &plan.scene.structures[s].rails;
     let first: usize = rails[..rail].iter().map(|rail| rail.stations.len()).sum();
     let (_, all) = reaction.lines.iter().find(|(known, _)| *known == axis)?;
     let own = all.get(first..first + rails[rail].stations.len())?;
-    own.iter().any(|value| value.abs() > NONE).then(|| own.to_vec())
+    own.iter().any(|value| value.abs() > NEGLIGIBLE).then(|| own.to_vec())
 }
 
-/// Name of a reaction, such as `uy_60` for a girder and `uy_p12` for a frame.
+/// The name of a reaction, such as `uy_60` for a girder and `uy_p12` for a frame.
 fn label(reaction: &Reaction) -> String {
     let place = match reaction.at {
         ReactionPoint::Along(x) => plain(&format!("{x}")),

@@ -6,10 +6,10 @@ use crate::model::plan::DeckPlan;
 use crate::words::remark;
 use formats::scene::Analysis;
 
-/// Largest ERROR of the integrator.
-const LARGEST: f64 = 1e-3;
+/// Upper limit of ERROR of the integrator.
+const MAX_ERROR: f64 = 1e-3;
 
-/// UNITS and gravity.
+/// UNITS and ACCGRAV.
 pub(crate) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let mut units = plan.scene.units.to_adams().statement().remark(remark::UNITS);
     if plan.form == crate::DeckForm::Paper {
@@ -22,13 +22,13 @@ pub(crate) fn head(plan: &DeckPlan<'_>) -> Vec<Statement> {
     vec![units, gravity]
 }
 
-/// Integrator and output.
+/// INTEGRATOR, OUTPUT and RESULTS.
 pub(crate) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
     let integrator = Statement::without_id("INTEGRATOR")
         .remark(remark::INTEGRATOR)
         .flag("GSTIFF")
         .flag("SI2")
-        .numbers("ERROR", &[plan.scene.accuracy.min(LARGEST)])
+        .numbers("ERROR", &[plan.scene.accuracy.min(MAX_ERROR)])
         .numbers("HMAX", &[plan.scene.dt]);
     let output = Statement::without_id("OUTPUT").flag("REQSAVE").flag("GRSAVE");
     let results = Statement::without_id("RESULTS").flag("XRF");
@@ -38,7 +38,8 @@ pub(crate) fn tail(plan: &DeckPlan<'_>) -> Vec<Statement> {
 /// The command file that runs the data set `model`, a file name without its extension.
 pub(crate) fn commands(plan: &DeckPlan<'_>, model: &str) -> String {
     let (end, dt) = (adams::number::write(plan.scene.end), adams::number::write(plan.scene.dt));
-    // no static analysis first: the start is in equilibrium, and a body that is free along its rail has no static one
+    // a static analysis is not run first: the scene starts in equilibrium, and a body that is free along its rail has
+    // no static equilibrium
     let simulate = match plan.scene.analysis {
         Analysis::Dynamic => "SIMULATE/DYNAMIC",
         Analysis::QuasiStatic => "SIMULATE/STATIC",

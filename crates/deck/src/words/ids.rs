@@ -1,6 +1,6 @@
 //! Identifiers of the statements, unique within each kind.
 
-/// The VARIABLEs of a wheel; the value is that of the last two digits of their identifiers.
+/// The VARIABLEs of a wheel; the value of a variant is the last two digits of the identifier.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum VariableSlot {
     /// Rail coordinate of the wheel.
@@ -9,9 +9,9 @@ pub enum VariableSlot {
     Rise = 2,
     /// Lateral displacement of the rail under the wheel.
     Shift = 3,
-    /// Penetration of a contact, at its first wheel.
+    /// Penetration of a contact; at the first wheel of the contact.
     Penetration = 4,
-    /// Vertical force on the rail, down, of each wheel of a contact; at its first wheel.
+    /// Downward force of each wheel of a contact on the rail; at the first wheel of the contact.
     Press = 5,
     /// Lateral displacement of the wheel's contact from the rail.
     Sideways = 6,
@@ -19,9 +19,9 @@ pub enum VariableSlot {
     Flange = 7,
     /// Friction on the rail, +x.
     Traction = 8,
-    /// Component of the vertical force along the rail, by the slope of the deflected rail.
+    /// Component of the vertical force along the rail due to the slope of the deflected rail.
     Slope = 9,
-    /// Component of the flange force along the rail, likewise.
+    /// Component of the flange force along the rail due to the lateral slope of the deflected rail.
     Tilt = 10,
 }
 
@@ -37,13 +37,13 @@ pub fn product(factor: usize, k: usize) -> u32 {
     1_000_000 * number(factor) + number(k)
 }
 
-/// An index as an identifier: counted from 1.
+/// The identifier of an index; identifiers are counted from 1.
 #[must_use]
 pub fn number(index: usize) -> u32 {
     u32::try_from(index).unwrap_or(u32::MAX - 1).saturating_add(1)
 }
 
-/// Identifiers in succession.
+/// Generator of successive identifiers.
 #[derive(Clone, Copy, Debug)]
 pub struct NextId(u32);
 

@@ -1,4 +1,5 @@
-//! The parts of a deck's text: identifiers, names, expressions, remarks, and the form in which tables are read.
+//! Elements of the text of a deck: identifiers, names, expressions, remarks, and the form in which tables are
+//! evaluated.
 
 pub(crate) mod form;
 pub mod ids;

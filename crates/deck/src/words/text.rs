@@ -1,16 +1,16 @@
-//! Names as Adams View takes them, and parts of function expressions.
+//! Names that Adams View accepts, and parts of function expressions.
 
-/// Longest name: its comment must fit on a line.
-const LONGEST: usize = 56;
+/// Largest length of a name, whose comment must fit on a line.
+const MAX_LENGTH: usize = 56;
 
-/// `name` with letters, digits and underscores only, cut to 56 characters.
+/// `name` reduced to letters, digits and underscores, and truncated to 56 characters.
 #[must_use]
 pub(crate) fn plain(name: &str) -> String {
     let clean = |c: char| if c.is_ascii_alphanumeric() { c } else { '_' };
-    name.chars().map(clean).take(LONGEST).collect()
+    name.chars().map(clean).take(MAX_LENGTH).collect()
 }
 
-/// Makes the names of statements of one kind unique: a name that stands already gets a number.
+/// Makes the names of statements of one kind unique by appending a number to repeated names.
 pub(crate) fn distinct(statements: &mut [adams::Statement]) {
     let mut seen: Vec<(String, String)> = Vec::new();
     for statement in statements {

@@ -12,7 +12,7 @@ use formats::scene::motion::{NamedWheel, SimulationInput};
 use formats::scene::{Body, Scene};
 use formats::units::{Dimension, Units};
 use foundations::SolvedModel;
-use results::record::{NamedColumns, peak};
+use results::columns::{NamedColumns, peak};
 
 /// Number of points along a rail at which smooth curves are sampled.
 const SAMPLES: usize = 61;

@@ -5,7 +5,7 @@ use crate::figures::pictures::{LabelledRun, RunFigure};
 use crate::number;
 use formats::scene::Scene;
 use formats::units::Dimension;
-use results::record::NamedColumns;
+use results::columns::NamedColumns;
 use results::response::{ColumnStatistics, RunComparison, rail_sums};
 
 /// Largest number of rails that are drawn.

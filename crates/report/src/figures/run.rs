@@ -2,7 +2,7 @@
 
 use formats::scene::Document;
 use foundations::{SolvedStructure, solution_of};
-use results::outcome::CaseResult;
+use results::case_result::CaseResult;
 use results::response::{Response, RunComparison};
 
 use super::error::FigureError;

@@ -19,10 +19,10 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
          values for design, with their own partial factors on top: a run that stays below one is no proof, a run above \
          one is a question.",
     );
-    for (name, value, dimension) in first.measures.list() {
+    for (name, value, dimension) in first.crane.list() {
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
     }
-    if first.measures.approach_is_found {
+    if first.crane.approach_is_from_run {
         section = section.paragraph("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
     }
     let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
@@ -36,7 +36,7 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
                 .rows
                 .iter()
                 .find(|other| other.name == row.name)
-                .map(|other: &CodeComparison| other.found.value)
+                .map(|other: &CodeComparison| other.measured.value)
         };
         let mut head = vec![TableCell::from(row.what), TableCell::from(scene.units.label(row.dimension))];
         head.extend(all.iter().map(|(_, codes)| {

@@ -4,7 +4,7 @@ use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;
 use formats::text::number::rounded;
 use formats::units::Dimension;
-use results::record::NamedColumns;
+use results::columns::NamedColumns;
 use results::response::{Response, RunComparison};
 
 /// Largest number of rows of a table.
@@ -126,7 +126,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     columns.extend(scene.bodies.iter().map(|body| TableColumn::new(body.name.as_str(), &length)));
     columns.push(TableColumn::new("own weight", ""));
     let mut rows = Vec::new();
-    let own = response.columns.iter().zip(&response.dead);
+    let own = response.columns.iter().zip(&response.dead_load);
     for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
         let unit = TableCell::from(scene.units.label(column.dimension));
         let range = envelope.max.value - envelope.min.value;
@@ -224,7 +224,7 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         rows: Vec::new(),
     };
     for found in response.deflections.iter().take(ROWS) {
-        let kept = match (found.keeps(600.0), found.keeps(400.0)) {
+        let kept = match (found.is_within(600.0), found.is_within(400.0)) {
             (true, _) => "L/600",
             (false, true) => "L/400, not L/600",
             (false, false) => "not L/400",

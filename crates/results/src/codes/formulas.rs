@@ -1,4 +1,4 @@
-//! Formulas of codes for one crane and its run: one method for each quantity.
+//! Formulas of design codes for one crane and its run, one method for each quantity.
 
 use practice::skew::WheelPairs;
 use practice::{aist, buffer, cmaa, drive, factor, osha, skew};
@@ -9,7 +9,7 @@ use super::measured::MeasuredCrane;
 use formats::scene::{Practice, Scene};
 use formats::units::Dimension;
 
-/// A value by a code, with the clause that it comes from.
+/// A value by a code, with its clause.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CodeValue {
     /// The code.
@@ -34,7 +34,7 @@ pub(super) const AIST: &str = "AIST TR-13";
 const FEM: &str = "FEM 1.001";
 const OSHA: &str = "29 CFR 1910.179";
 
-/// Values for one quantity; those that a formula refuses are left out.
+/// Values for one quantity; values outside the domain of a formula are omitted.
 #[derive(Default)]
 pub(super) struct CodeValues(pub Vec<CodeValue>);
 
@@ -56,8 +56,8 @@ impl CodeValues {
 /// The input of the formulas.
 pub(super) struct CodeCase<'c> {
     pub practice: &'c Practice,
-    pub measures: &'c CraneData,
-    pub found: &'c MeasuredCrane,
+    pub crane: &'c CraneData,
+    pub measured: &'c MeasuredCrane,
     /// Gravity of the scene.
     pub gravity: f64,
     /// Length unit of the scene, m.
@@ -65,7 +65,7 @@ pub(super) struct CodeCase<'c> {
     /// Dynamic factor phi2 of lifting, where hoisting class and speed are known.
     pub phi2: Option<f64>,
     /// Whether an event of the scene releases a load.
-    pub drops: bool,
+    pub releases_load: bool,
     /// Static loads of a wheel of the loaded crane on the near and the far rail.
     pub full: Option<practice::StaticWheelLoads>,
 }
@@ -74,38 +74,39 @@ impl<'c> CodeCase<'c> {
     pub fn new(
         scene: &Scene,
         practice: &'c Practice,
-        measures: &'c CraneData,
-        found: &'c MeasuredCrane,
+        crane: &'c CraneData,
+        measured: &'c MeasuredCrane,
     ) -> CodeCase<'c> {
         let metre = to_si(scene.units).factor(Dimension::LENGTH);
         let phi2 = practice
             .hoisting
-            .zip(measures.speeds[2])
+            .zip(crane.speeds[2])
             .and_then(|(class, speed)| factor::phi2(class, speed * metre).ok());
         let released = |action: &sim::Action| matches!(action, sim::Action::Release { .. });
         CodeCase {
             practice,
-            measures,
-            found,
+            crane,
+            measured,
             gravity: scene.gravity,
             metre,
             phi2,
-            drops: scene.events.iter().flat_map(|event| &event.rule.actions).any(released),
-            full: measures.crane.wheel_loads(1.0, 1.0).ok(),
+            releases_load: scene.events.iter().flat_map(|event| &event.rule.actions).any(released),
+            full: crane.model.wheel_loads(1.0, 1.0).ok(),
         }
     }
 
-    /// Near wheel load with the factors `dead` on dead weight and `hoist` on the load, over that without factors.
-    fn raised(&self, dead: f64, hoist: f64) -> Option<f64> {
+    /// Near wheel load with the factors `dead` on the dead weight and `hoist` on the load, divided by that without
+    /// factors.
+    fn load_factor(&self, dead: f64, hoist: f64) -> Option<f64> {
         let full = self.full?.near;
-        let raised = self.measures.crane.wheel_loads(dead, hoist).ok()?.near;
-        (full > 0.0).then(|| raised / full)
+        let factored = self.crane.model.wheel_loads(dead, hoist).ok()?.near;
+        (full > 0.0).then(|| factored / full)
     }
 
     /// Factors on the static vertical force of a wheel or rail.
     pub fn vertical(&self) -> CodeValues {
-        let hlf = self.measures.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
-        let dlf = self.measures.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
+        let hlf = self.crane.speeds[2].and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
+        let dlf = self.crane.speeds[0].and_then(|v| cmaa::dead_load_factor(v * self.metre).ok());
         let hoisted = hlf.unwrap_or(0.15);
         let moved = dlf.unwrap_or(1.1);
         CodeValues::default()
@@ -118,13 +119,13 @@ impl<'c> CodeCase<'c> {
                     factor::PHI1[1],
                     self.phi2.unwrap_or_default()
                 ),
-                self.phi2.and_then(|phi2| self.raised(factor::PHI1[1], phi2)),
+                self.phi2.and_then(|phi2| self.load_factor(factor::PHI1[1], phi2)),
             )
             .add(
                 CMAA,
                 "3.3.2.1.4 (2010)",
                 format!("DLF = {moved:.3} on dead weight, 1 + HLF = {:.3} on the load", 1.0 + hoisted),
-                self.raised(moved, 1.0 + hoisted),
+                self.load_factor(moved, 1.0 + hoisted),
             )
             .add(
                 AIST,
@@ -136,7 +137,7 @@ impl<'c> CodeCase<'c> {
 
     /// Factors on the load while it is lifted.
     pub fn lifting(&self) -> CodeValues {
-        let speed = self.measures.speeds[2];
+        let speed = self.crane.speeds[2];
         let hlf = speed.and_then(|v| cmaa::hoist_load_factor(v * self.metre).ok());
         CodeValues::default().add(EN, "Tables 2.4, 2.5", "phi2 = phi2,min + beta2 v", self.phi2).add(
             CMAA,
@@ -152,18 +153,18 @@ impl<'c> CodeCase<'c> {
         CodeValues::default().add(
             EN,
             "Table 2.4",
-            "phi3 = 1 - (dm/m)(1 + beta3), all of the load let go",
+            "phi3 = 1 - (dm/m)(1 + beta3), the whole load released",
             phi3,
         )
     }
 
     /// Lateral force of all wheels together.
     pub fn lateral(&self) -> CodeValues {
-        let crane = &self.measures.crane;
+        let crane = &self.crane.model;
         let moving = crane.lifted + crane.trolley;
         let thrust = aist::side_thrust(self.practice.kind, crane).ok();
         let shares = self.practice.kind.shares();
-        let inertia = self.found.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
+        let inertia = self.measured.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
         CodeValues::default()
             .add(
                 AIST,
@@ -190,7 +191,7 @@ impl<'c> CodeCase<'c> {
 
     /// Lateral force of one wheel.
     pub fn flange(&self) -> CodeValues {
-        let (span, base) = (self.measures.crane.span, self.measures.base());
+        let (span, base) = (self.crane.model.span, self.crane.wheel_base());
         let near = self.full.map(|full| full.near);
         let of_near = |s: Result<f64, practice::Error>| s.ok().zip(near).map(|(s, near)| s * near);
         let (guide, angle) = self.skewing().unzip();
@@ -214,37 +215,37 @@ impl<'c> CodeCase<'c> {
 
     /// Guide force and skew angle (rad) of a skewing crane.
     fn skewing(&self) -> Option<(f64, f64)> {
-        let measures = self.measures;
-        let play = measures.play[0].or(measures.play[1]);
+        let crane = self.crane;
+        let play = crane.flange_play[0].or(crane.flange_play[1]);
         let given = play.zip(self.practice.rail_head).and_then(|(play, head)| {
             let m = self.metre;
-            skew::angle(self.practice.guide, play * m, head * m, measures.base() * m).ok()
+            skew::angle(self.practice.guide, play * m, head * m, crane.wheel_base() * m).ok()
         });
         let angle = given.unwrap_or(skew::MAX_ANGLE).min(skew::MAX_ANGLE);
         let full = self.full?;
-        let kind = if measures.play.iter().all(Option::is_some) {
+        let kind = if crane.flange_play.iter().all(Option::is_some) {
             WheelPairs::AloneFixed
         } else {
             WheelPairs::AloneFree
         };
         let near = full.near / (full.near + full.far);
-        let skewing = skew::skewing(kind, measures.crane.span, near, &measures.pairs).ok()?;
-        let force = skew::friction(angle).ok()? * skewing.guide * measures.crane.weight();
+        let skewing = skew::skewing(kind, crane.model.span, near, &crane.wheel_distances).ok()?;
+        let force = skew::friction(angle).ok()? * skewing.guide * crane.model.weight();
         Some((force, angle))
     }
 
     /// Forces of the drives on the runway while the crane accelerates.
     fn drives(&self) -> Option<drive::DriveForces> {
-        let measures = self.measures;
-        let wheels = f64::from(measures.crane.wheels);
-        let empty = measures.crane.wheel_loads(1.0, 0.0).ok()?;
-        let least = vec![empty.far.min(empty.near); measures.driven[0] + measures.driven[1]];
+        let crane = self.crane;
+        let wheels = f64::from(crane.model.wheels);
+        let empty = crane.model.wheel_loads(1.0, 0.0).ok()?;
+        let least = vec![empty.far.min(empty.near); crane.driven[0] + crane.driven[1]];
         let travel = drive::AcceleratingCrane {
-            span: measures.crane.span,
-            guides: measures.base(),
+            span: crane.model.span,
+            guides: crane.wheel_base(),
             heavy: wheels * self.full?.near,
             light: wheels * self.full?.far,
-            drive: drive::drive_force(measures.friction?, &least).ok()?,
+            drive: drive::drive_force(crane.friction?, &least).ok()?,
             factor: factor::phi5(self.practice.drives)[1],
             rails: 2,
         };
@@ -253,7 +254,7 @@ impl<'c> CodeCase<'c> {
 
     /// Force of the wheels along one rail.
     pub fn longitudinal(&self) -> CodeValues {
-        let most = self.measures.driven[0].max(self.measures.driven[1]);
+        let most = self.crane.driven[0].max(self.crane.driven[1]);
         let loads = self.full.map(|full| vec![full.near; most]);
         let phi5 = factor::phi5(self.practice.drives)[1];
         CodeValues::default()
@@ -271,14 +272,14 @@ impl<'c> CodeCase<'c> {
             )
     }
 
-    /// Force of the end stops together.
+    /// Force of all end stops together.
     pub fn buffer(&self) -> CodeValues {
-        let crane = &self.measures.crane;
+        let crane = &self.crane.model;
         let mass = (crane.bridge + crane.trolley) / self.gravity;
         let force = |factor: f64, speed: Option<f64>| {
-            buffer::buffer_force(factor, speed?, mass, self.measures.buffers).ok()
+            buffer::buffer_force(factor, speed?, mass, self.crane.stop_stiffness).ok()
         };
-        let rated = |fraction: f64| self.measures.speeds[0].map(|speed| fraction * speed);
+        let rated = |fraction: f64| self.crane.speeds[0].map(|speed| fraction * speed);
         let phi7 = buffer::phi7(0.5).ok();
         CodeValues::default()
             .add(
@@ -291,7 +292,7 @@ impl<'c> CodeCase<'c> {
                 EN,
                 "2.11.1, Table 2.10",
                 "the same with the speed of this run",
-                phi7.and_then(|phi7| force(phi7, self.found.meeting)),
+                phi7.and_then(|phi7| force(phi7, self.measured.impact_speed)),
             )
             .add(
                 OSHA,
@@ -303,31 +304,31 @@ impl<'c> CodeCase<'c> {
                 "mechanics",
                 "rigid mass",
                 "v sqrt(m S), bridge and trolley as one rigid mass, speed of this run",
-                force(1.0, self.found.meeting),
+                force(1.0, self.measured.impact_speed),
             )
     }
 
     /// Force of the buffer between two cranes that collide.
     pub fn collision(&self) -> CodeValues {
-        let energy = self.measures.between.zip(self.measures.speeds[0]).and_then(|(other, speed)| {
-            let crane = &self.measures.crane;
+        let energy = self.crane.buffer.zip(self.crane.speeds[0]).and_then(|(other, speed)| {
+            let crane = &self.crane.model;
             let own = (crane.bridge + crane.trolley) / self.gravity;
             cmaa::collision_energy([own, other.weight / self.gravity], [speed, other.speed]).ok()
         });
-        let force = energy.zip(self.measures.between);
+        let force = energy.zip(self.crane.buffer);
         let force = force.map(|(energy, other)| (2.0 * energy * other.stiffness).sqrt());
         let formula = "sqrt(2 k E), E = m1 m2 (0.4 v1 + 0.4 v2)^2/(2 (m1 + m2)) without the loads on ropes";
         CodeValues::default().add(CMAA, "3.3.2.1.3.2 (1983)", formula, force)
     }
 
-    /// Limit of the distance in which bridge (0) or trolley (1) is braked to a stand.
+    /// Limit of the braking distance of bridge (0) or trolley (1) to standstill.
     pub fn braking_distance(&self, body: usize) -> CodeValues {
         let limit =
-            self.found.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
+            self.measured.brakes[body].and_then(|(_, speed)| osha::brake_distance(speed * self.metre).ok());
         CodeValues::default().add(
             OSHA,
             "(f)(4)(vii)",
-            "at most the way of 6 s at the speed when they come on",
+            "at most the distance of 6 s at the speed when the brakes are applied",
             limit.map(|distance| distance / self.metre),
         )
     }

@@ -10,16 +10,16 @@ use formats::scene::columns::{Column, Kind};
 use formats::units::Dimension;
 use foundations::SolvedModel;
 
-/// Approximate number of sections along a rail.
+/// Approximate number of sections per rail.
 const SECTIONS: usize = 192;
-/// Fewest and most intervals between the sections of a rail element.
-const PER_ELEMENT: [usize; 2] = [2, 24];
-/// Most rail elements of a structure.
-const ELEMENTS: usize = 100;
-/// Most output times that are evaluated.
-const TIMES: usize = 512;
+/// Smallest and largest number of intervals between the sections of a rail element.
+const INTERVALS: [usize; 2] = [2, 24];
+/// Largest number of rail elements of a structure for which envelopes are computed.
+const MAX_ELEMENTS: usize = 100;
+/// Largest number of output times that are evaluated.
+const MAX_TIMES: usize = 512;
 
-/// Largest and smallest bending moment along the members under a rail, positive where they sag.
+/// Largest and smallest bending moment along the members under a rail, positive for sagging moments.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Bending {
     /// Index of the rail in the scene.
@@ -28,14 +28,15 @@ pub struct Bending {
     pub rows: Vec<[f64; 3]>,
 }
 
-/// The envelopes of every rail of the structure, without own weight; none for a structure with more than 100 rail elements.
+/// The envelopes of every rail of the structure, without dead load; none for a structure with more than 100 rail
+/// elements.
 ///
-/// About 192 sections of the members under each rail are chosen. Their bending moments follow from influence lines and
-/// inertia as columns do ([`ColumnInfluence`]), at up to 512 evenly distributed output times. Rails whose moments are zero
-/// throughout are left out.
+/// About 192 sections of the members under each rail are chosen. Their bending moments are computed from influence
+/// lines and inertia like those of columns ([`ColumnInfluence`]), at up to 512 evenly distributed output times. Rails
+/// whose moments are zero throughout are omitted.
 ///
 /// # Errors
-/// What the frame refuses.
+/// The errors of the frame solver.
 pub(super) fn moment_envelopes(
     loaded: &LoadedStructure<'_>,
     solved: &SolvedModel,
@@ -43,21 +44,21 @@ pub(super) fn moment_envelopes(
     let LoadedStructure { scene, s, history, built, .. } = *loaded;
     let (model, rails) = (&solved.model, &solved.rails);
     let frame = FactoredFrame::new(model, rails)?;
-    let line = frame.line()?;
-    let count = line.elements().len();
-    if count > ELEMENTS || history.is_empty() {
+    let rail_elements = frame.line()?;
+    let count = rail_elements.elements().len();
+    if count > MAX_ELEMENTS || history.is_empty() {
         return Ok(Vec::new());
     }
-    let intervals = (SECTIONS * rails.len().max(1) / count.max(1)).clamp(PER_ELEMENT[0], PER_ELEMENT[1]);
+    let intervals = (SECTIONS * rails.len().max(1) / count.max(1)).clamp(INTERVALS[0], INTERVALS[1]);
     let (mut effects, mut places) = (Vec::new(), Vec::new());
-    for cell in line.elements() {
-        let Some(carrier) = cell.member.filter(|_| cell.ends[0] != cell.ends[1]) else { continue };
-        let Some((component, sign)) = sagging(model, carrier.id) else { continue };
+    for element in rail_elements.elements() {
+        let Some(member) = element.member.filter(|_| element.ends[0] != element.ends[1]) else { continue };
+        let Some((component, sign)) = sagging(model, member.id) else { continue };
         for k in 0..=intervals {
-            let x = cell.x[0] + (cell.x[1] - cell.x[0]) * k as f64 / intervals as f64;
-            let place = (cell.place_on_member(x) / cell.length).clamp(0.0, 1.0);
-            effects.push(Effect::InternalForce { member: carrier.id, place, component });
-            places.push((cell.rail, x, sign));
+            let x = element.x[0] + (element.x[1] - element.x[0]) * k as f64 / intervals as f64;
+            let place = (element.place_on_member(x) / element.length).clamp(0.0, 1.0);
+            effects.push(Effect::InternalForce { member: member.id, place, component });
+            places.push((element.rail, x, sign));
         }
     }
     let column =
@@ -69,9 +70,9 @@ pub(super) fn moment_envelopes(
     let start = history.channels().iter().position(|c| *c == Channel::Acceleration(s, 0));
     let mut now = vec![0.0; places.len()];
     let mut extremes = vec![[f64::NEG_INFINITY, f64::INFINITY]; places.len()];
-    for row in spread(history.len(), TIMES) {
+    for row in spread(history.len(), MAX_TIMES) {
         let sample = history.sample(row);
-        let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
+        let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
         lines.at(loaded.on(row).iter(), acceleration, &mut now);
         for ((extreme, value), (_, _, sign)) in extremes.iter_mut().zip(&now).zip(&places) {
             let value = sign * value;
@@ -90,8 +91,8 @@ pub(super) fn moment_envelopes(
     Ok(out)
 }
 
-/// The component of bending in the vertical plane of a member, and its sign where the member sags; `None` for a member
-/// steeper than about 45 degrees.
+/// The component of the bending moment of a member in its vertical plane, and the sign of a sagging moment; `None`
+/// for a member steeper than about 45 degrees.
 fn sagging(model: &Model, member: usize) -> Option<(ForceComponent, f64)> {
     let member = model.members.get(member)?;
     let end = |k: usize| Vector3::from(model.points[member.points[k]]) + Vector3::from(member.offsets[k]);
@@ -103,10 +104,10 @@ fn sagging(model: &Model, member: usize) -> Option<(ForceComponent, f64)> {
     if x.dot(&up).abs() > 0.7 {
         None
     } else if along_y.abs() >= along_z.abs() {
-        // Mz > 0 puts the fibres at -y into tension
+        // Mz > 0 causes tension in the fibres at -y
         Some((ForceComponent::BendingZ, along_y.signum()))
     } else {
-        // My > 0 puts those at +z into tension
+        // My > 0 causes tension in the fibres at +z
         Some((ForceComponent::BendingY, -along_z.signum()))
     }
 }

@@ -1,27 +1,27 @@
-//! Comparison of the force histories of several runs by a few statistics: mean, extremes, excursions, oscillations.
+//! Comparison of the force histories of several runs by statistics: mean, extremes, excursions, oscillations.
 
 use practice::{ResponseSettings, SineComponent, TimedValue, dominant, resample, response};
 use serde_json::{Map, Value, json};
 
 use super::{Response, SceneMode};
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use crate::threads::parallel_map;
 
-/// Fraction of the run, at its end, over which the settled mean is taken.
+/// Fraction of the run, at its end, over which the settled mean is computed.
 const SETTLED: f64 = 0.25;
 
-/// Half width of the band about the settled mean that an excursion leaves, as a fraction of the mean.
+/// Half width of the band about the settled mean outside which an excursion is counted, as a fraction of the mean.
 const BAND: f64 = 0.05;
 
-/// Most oscillations that are reported.
-const WAVES: usize = 3;
-/// Amplitude, as a fraction of the largest, below which an oscillation is not reported.
-const FAINT: f64 = 0.1;
-/// Least ratio of the frequencies of two oscillations.
-const APART: f64 = 1.15;
+/// Largest number of oscillations that are reported.
+const MAX_OSCILLATIONS: usize = 3;
+/// Amplitude, as a fraction of the largest amplitude, below which an oscillation is not reported.
+const MIN_AMPLITUDE: f64 = 0.1;
+/// Smallest ratio of the frequencies of two reported oscillations.
+const MIN_RATIO: f64 = 1.15;
 
-/// Fewest samples from which a dominant frequency is computed.
-const FEWEST: usize = 64;
+/// Smallest number of samples from which a dominant frequency is computed.
+const MIN_SAMPLES: usize = 64;
 
 /// Statistics of a history.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,14 +32,14 @@ pub struct ColumnStatistics {
     pub peak: TimedValue,
     /// Smallest value.
     pub least: TimedValue,
-    /// Number of times it leaves the band of 5 % about the settled mean.
+    /// Number of times the history leaves the band of 5 % about the settled mean.
     pub excursions: usize,
     /// Up to three oscillations in the last quarter of the run, of at least two periods, largest amplitude first.
     pub waves: Vec<SineComponent>,
 }
 
-/// Statistics of several runs: of every reaction, internal force and stress, and of the sums of each rail's vertical and
-/// lateral wheel forces.
+/// Statistics of several runs: of every reaction, internal force and stress, and of the sums of each rail's vertical
+/// and lateral wheel forces.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunComparison {
     rows: Vec<Row>,
@@ -49,15 +49,15 @@ pub struct RunComparison {
 #[derive(Clone, Debug, PartialEq)]
 struct Row {
     column: String,
-    /// One for each run; `None` where the run does not have the column, or too few rows.
+    /// One entry per run; `None` where the run does not have the column or has too few rows.
     statistics: Vec<Option<ColumnStatistics>>,
-    /// Whether it is zero in every run.
+    /// Whether the column is zero in every run.
     is_zero: bool,
 }
 
 impl RunComparison {
-    /// The statistics of `runs` (label, record, response) for the columns of the first, on at most `threads` threads; empty
-    /// for a single run.
+    /// The statistics of `runs` (label, record, response) for the columns of the first, on at most `threads` threads;
+    /// empty for a single run.
     #[must_use]
     pub fn new(runs: &[(&str, &NamedColumns, &Response)], threads: Option<u16>) -> RunComparison {
         let [(_, record, first), _, ..] = runs else { return RunComparison::default() };
@@ -74,13 +74,13 @@ impl RunComparison {
         RunComparison { rows }
     }
 
-    /// Statistics of a column, one for each run.
+    /// Statistics of a column, one entry per run.
     #[must_use]
     pub fn of(&self, column: &str) -> Option<&[Option<ColumnStatistics>]> {
         self.rows.iter().find(|row| row.column == column).map(|row| row.statistics.as_slice())
     }
 
-    /// Columns that all runs have and that are not zero in all of them, with their statistics, one for each run.
+    /// Columns that all runs have and that are not zero in all of them, with their statistics, one entry per run.
     pub fn columns(&self) -> impl Iterator<Item = (&str, Vec<&ColumnStatistics>)> {
         self.rows.iter().filter(|row| !row.is_zero).filter_map(|row| {
             let all: Option<Vec<&ColumnStatistics>> = row.statistics.iter().map(Option::as_ref).collect();
@@ -88,7 +88,7 @@ impl RunComparison {
         })
     }
 
-    /// The statistics by column and by the label of the run; `runs` are those that it was computed from.
+    /// The statistics by column and by label of the run; `runs` are the runs from which they were computed.
     #[must_use]
     pub fn json(&self, runs: &[(&str, &NamedColumns, &Response)]) -> Map<String, Value> {
         let of_runs = |statistics: Vec<&ColumnStatistics>| -> Map<String, Value> {
@@ -101,7 +101,8 @@ impl RunComparison {
     }
 }
 
-/// For each rail, the names of the columns of the sums of its wheel forces: vertical, then lateral where there is one.
+/// For each rail, the names of the columns of the sums of its wheel forces: vertical, then lateral where there is
+/// one.
 pub fn rail_sums(record: &NamedColumns) -> Vec<Vec<String>> {
     let rails = record.columns.iter().filter_map(|column| column.name.strip_suffix(".reaction"));
     let of = |rail: &str| {
@@ -119,7 +120,7 @@ impl ColumnStatistics {
     pub fn new(record: &NamedColumns, column: &str) -> Option<ColumnStatistics> {
         let (times, values) = (record.values("time"), record.values(column));
         let (first, last) = (*times.first()?, *times.last()?);
-        if values.len() != times.len() || times.len() < FEWEST || last <= first {
+        if values.len() != times.len() || times.len() < MIN_SAMPLES || last <= first {
             return None;
         }
         let length = last - first;
@@ -168,28 +169,28 @@ impl ColumnStatistics {
     }
 }
 
-/// Up to [`WAVES`] oscillations of a history in the frequency `band`, largest amplitude first.
+/// Up to [`MAX_OSCILLATIONS`] oscillations of a history in the frequency `band`, largest amplitude first.
 ///
-/// The strongest oscillation of the band is found, the band is divided there into the frequencies below and above it by
-/// the ratio [`APART`], and the strongest oscillation of all remaining bands is found next, until its amplitude is below
-/// [`FAINT`] of the first.
+/// The strongest oscillation of the band is found. The frequencies within the ratio [`MIN_RATIO`] of it are removed,
+/// which divides the band in two. The search continues with the strongest oscillation of all remaining bands and ends
+/// when its amplitude is below the fraction [`MIN_AMPLITUDE`] of the first.
 fn oscillations(values: &[f64], step: f64, band: [f64; 2]) -> Vec<SineComponent> {
     let (mut found, mut bands) = (Vec::<SineComponent>::new(), vec![band]);
     let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
-    while found.len() < WAVES {
+    while found.len() < MAX_OSCILLATIONS {
         let all = bands.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
         let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
         let Some((k, tone)) = best else { break };
-        if found.first().is_some_and(|first| tone.amplitude < FAINT * first.amplitude) {
+        if found.first().is_some_and(|first| tone.amplitude < MIN_AMPLITUDE * first.amplitude) {
             break;
         }
         let [low, high] = bands.swap_remove(k);
-        // the spectrum of an oscillation found before may be largest at the edge of a remaining band
-        let is_known = |known: &SineComponent| (known.frequency / tone.frequency).ln().abs() < APART.ln();
+        // the spectrum of an oscillation that was found before may be largest at the edge of a remaining band
+        let is_known = |known: &SineComponent| (known.frequency / tone.frequency).ln().abs() < MIN_RATIO.ln();
         if found.iter().any(is_known) {
             continue;
         }
-        let sides = [[low, tone.frequency / APART], [tone.frequency * APART, high]];
+        let sides = [[low, tone.frequency / MIN_RATIO], [tone.frequency * MIN_RATIO, high]];
         bands.extend(sides.into_iter().filter(|[low, high]| low < high));
         found.push(tone);
     }
@@ -233,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_run_is_beside_nothing() {
+    fn a_single_run_is_not_compared() {
         let (record, response) = wave(2.0, 5.0);
         let runs = [("only", &record, &response)];
         assert!(RunComparison::new(&runs, Some(1)).json(&runs).is_empty());

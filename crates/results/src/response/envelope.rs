@@ -1,11 +1,11 @@
-//! Extremes of a run: envelopes of columns with the state of the scene at each extreme, ranges of bodies in space, and
-//! intervals in which wheels are off their rails.
+//! Extremes of a run: envelopes of columns with the state of the scene at each extreme, ranges of bodies in space,
+//! and intervals in which wheels are off their rails.
 
 use serde_json::{Map, Value, json};
 use sim::{BodyDof, Channel, History};
 
-use super::loaded::WheelLoadHistories;
-use crate::record::NamedColumns;
+use super::loaded::WheelLoadReader;
+use crate::columns::NamedColumns;
 use formats::scene::Scene;
 use formats::scene::columns::Column;
 use formats::scene::motion::SimulationInput;
@@ -40,13 +40,13 @@ impl ColumnEnvelope {
     /// The envelopes of `columns` of `record`, which has the rows of `history`.
     ///
     /// # Errors
-    /// A column without values, or with fewer than the record has rows.
+    /// A column without values, or with fewer values than the record has rows.
     pub fn all(
         columns: &[Column],
         scene: &Scene,
-        cast: &SimulationInput,
+        input: &SimulationInput,
         history: &History,
-        loads: &WheelLoadHistories,
+        loads: &WheelLoadReader,
         record: &NamedColumns,
     ) -> Result<Vec<ColumnEnvelope>, practice::Error> {
         if columns.is_empty() {
@@ -57,7 +57,7 @@ impl ColumnEnvelope {
         let found = practice::envelope(&[run], columns.len())?;
         let extreme = |index: usize, at: &practice::ExtremeInstant| {
             let value = at.values[index];
-            ColumnExtreme { value, time: at.time, ..scene_at(at.sample, scene, cast, history, loads) }
+            ColumnExtreme { value, time: at.time, ..scene_at(at.sample, scene, input, history, loads) }
         };
         let each = columns.iter().zip(&found).enumerate().map(|(index, (column, found))| ColumnEnvelope {
             column: column.name.clone(),
@@ -67,7 +67,7 @@ impl ColumnEnvelope {
         Ok(each.collect())
     }
 
-    /// As a member of `envelopes`.
+    /// The envelope as a member of `envelopes`.
     #[must_use]
     pub fn json(&self) -> Value {
         json!({ "max": self.max.json(), "min": self.min.json() })
@@ -94,9 +94,9 @@ impl ColumnExtreme {
 fn scene_at(
     row: usize,
     scene: &Scene,
-    cast: &SimulationInput,
+    input: &SimulationInput,
     history: &History,
-    loads: &WheelLoadHistories,
+    loads: &WheelLoadReader,
 ) -> ColumnExtreme {
     let sample = history.sample(row);
     let of =
@@ -104,11 +104,11 @@ fn scene_at(
     let bodies = scene.bodies.iter().enumerate().map(|(b, body)| {
         let all: &[BodyDof] =
             if body.in_space { &[BodyDof::X, BodyDof::Y, BodyDof::Z] } else { &[BodyDof::X] };
-        let places = all.iter().map(|freedom| of(Channel::Displacement(b, *freedom)));
+        let places = all.iter().map(|dof| of(Channel::Displacement(b, *dof)));
         (body.name.clone(), places.collect())
     });
     let forces = loads.at(sample);
-    let wheels = cast.wheels.iter().zip(&forces).map(|(wheel, load)| {
+    let wheels = input.wheels.iter().zip(&forces).map(|(wheel, load)| {
         let [along, up, side] = load.force;
         (wheel.name.clone(), [0.0 - up, side, along])
     });
@@ -125,7 +125,7 @@ pub struct Sway {
 }
 
 impl Sway {
-    /// As a member of `sway`.
+    /// The ranges as a member of `sway`.
     #[must_use]
     pub fn json(&self) -> Value {
         let axes = ["X", "Y", "Z"].into_iter().zip(&self.range);
@@ -155,12 +155,12 @@ pub struct Uplift {
     pub wheel: String,
     /// First output time without force.
     pub time: f64,
-    /// From there to the next output time with force, or to the last one.
+    /// Duration until the next output time with force, or until the last output time.
     pub duration: f64,
 }
 
 impl Uplift {
-    /// As an item of `uplift`.
+    /// The interval as an item of `uplift`.
     #[must_use]
     pub fn json(&self) -> Value {
         json!({ "wheel": self.wheel, "time": self.time, "duration": self.duration })
@@ -168,17 +168,17 @@ impl Uplift {
 }
 
 /// All intervals without force at output times, wheel by wheel.
-pub(super) fn uplifts(cast: &SimulationInput, record: &NamedColumns) -> Vec<Uplift> {
+pub(super) fn uplifts(input: &SimulationInput, record: &NamedColumns) -> Vec<Uplift> {
     let time = record.values("time");
     let of = |name: &str| {
         let found = zero_intervals(time, record.part(name, "vertical"));
         let name = name.to_owned();
         found.into_iter().map(move |[time, duration]| Uplift { wheel: name.clone(), time, duration })
     };
-    cast.wheels.iter().flat_map(|wheel| of(&wheel.name)).collect()
+    input.wheels.iter().flat_map(|wheel| of(&wheel.name)).collect()
 }
 
-/// Begin and duration of each interval of zeros.
+/// Start and duration of each interval of zeros.
 fn zero_intervals(time: &[f64], force: &[f64]) -> Vec<[f64; 2]> {
     let mut found = Vec::new();
     let mut since = None;

@@ -1,10 +1,11 @@
-//! Influence lines of a structure's columns: reactions, internal forces and stresses as linear functions of wheel forces,
-//! accelerations and own weight.
+//! Influence lines of the columns of a structure: reactions, internal forces and stresses as linear functions of
+//! wheel forces, accelerations and dead load.
 //!
-//! A column is a weighted sum of effects of the frame: one reaction may be the sum of several supports and springs at a
-//! point, a stress is the sum of internal forces over section properties. The effects e of unit wheel forces are exact
-//! influence lines of the FE model. By d'Alembert's principle the inertia of the structure loads it as the wheels do, so
-//! that under wheel forces F, accelerations q'' of the degrees of freedom, and gravity g
+//! A column is a weighted sum of effects of the frame: a reaction may be the sum of several supports and springs at a
+//! point, and a stress is the sum of internal forces divided by section properties. The effects of unit wheel forces
+//! are exact influence lines of the FE model. By d'Alembert's principle the inertia forces of the structure are loads
+//! like those of the wheels. Under wheel forces F, accelerations q'' of the degrees of freedom and gravity g the
+//! effects are
 //!
 //! ```text
 //! E = A F - S q'' + E_0
@@ -12,9 +13,10 @@
 //!
 //! 1. Effects and their columns are listed from the spec ([`ColumnInfluence::new`]).
 //! 2. A: influence lines of the effects, evaluated at the wheels at every output time ([`ColumnInfluence::at`]).
-//! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes ([`fea::FactoredFrame::inertial`]) or
-//!    by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit acceleration upwards of the whole mass.
-//! 4. Columns that no load, weight or inertia can change from zero are dropped ([`ColumnInfluence::nonzero`]).
+//! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes
+//!    ([`fea::FactoredFrame::inertial`]) or by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit
+//!    acceleration upwards of the whole mass.
+//! 4. Columns that are zero under every load, weight and inertia force are dropped ([`ColumnInfluence::nonzero`]).
 
 use std::sync::Arc;
 
@@ -22,7 +24,7 @@ use fea::{CrossSection, Dof, Effect, FactoredFrame, Model};
 use nalgebra::{DMatrix, Vector3};
 use splines::{Axis, InfluenceLines, Probe};
 
-use super::loaded::WheelLoadHistory;
+use super::loaded::WheelLoad;
 use super::part_inertia::part_inertia;
 use formats::grid::effects::COMPONENTS;
 use formats::scene::columns;
@@ -31,20 +33,21 @@ use formats::spec::{Spec, StressPoint};
 use formats::units::Dimension;
 use foundations::{BuiltFoundation, MotionBasis, SolvedModel};
 
-/// Fraction of the largest value of the same dimension up to which a column counts as rounding errors.
+/// Fraction of the largest value of the same dimension up to which a column is treated as rounding error.
 const ROUNDING: f64 = 1e-12;
 
 /// Reactions, internal forces and stresses of a structure as linear functions of its loads:
 ///
 /// E = A F - S q'' + E_0
 ///
-/// A: influence lines of the exact structure; F: wheel forces; q'': accelerations of the foundation's degrees of freedom; S:
-/// effects of the inertia of the model behind them; E_0: effects of the own weight. Damping forces inside the structure are
-/// included: the sum of all reactions is the sum of the wheel forces less the rate of change of the structure's momentum.
+/// A: influence lines of the exact structure; F: wheel forces; q'': accelerations of the degrees of freedom of the
+/// foundation; S: effects of the inertia forces of their motions; E_0: effects of the dead load. Damping forces
+/// inside the structure are included: the sum of all reactions equals the sum of the wheel forces minus the rate of
+/// change of the momentum of the structure.
 pub struct ColumnInfluence {
     columns: Vec<Column>,
     effects: InfluenceLines,
-    /// The column of each effect and its weight there: springs and supports of one degree of freedom of a point are one
+    /// Column and factor of each effect. The springs and supports of one degree of freedom of a point form one
     /// column, and a stress is a sum of internal forces.
     terms: Vec<ColumnTerm>,
     inertia: DMatrix<f64>,
@@ -61,11 +64,11 @@ pub(super) struct ColumnTerm {
 }
 
 impl ColumnInfluence {
-    /// The influence lines of those columns of structure `name` that are `wanted` (by kind and name); `None` where there is
-    /// none. `built` has the degrees of freedom, `gravity` is the acceleration of gravity of the scene.
+    /// The influence lines of those columns of structure `name` for which `wanted` (kind, name) is true; `None` if
+    /// there are none. `built` has the degrees of freedom; `gravity` is the acceleration of gravity of the scene.
     ///
     /// # Errors
-    /// What the frame refuses.
+    /// The errors of the frame solver.
     pub fn new(
         name: &str,
         spec: &Spec,
@@ -95,10 +98,11 @@ impl ColumnInfluence {
         Ok(Some(out.only(&nonzero, model, &frame, &effects)?))
     }
 
-    /// The influence lines of `columns`, each the sum of those `effects` whose entry in `terms` names it.
+    /// The influence lines of `columns`. Each column is the weighted sum of the `effects` whose entry in `terms`
+    /// refers to it.
     ///
     /// # Errors
-    /// What the frame refuses.
+    /// The errors of the frame solver.
     pub(super) fn of(
         frame: &FactoredFrame,
         solved: &SolvedModel,
@@ -132,18 +136,18 @@ impl ColumnInfluence {
         Ok(out)
     }
 
-    /// For each column, whether a load, weight or inertia can make it other than zero, up to rounding.
+    /// For each column, whether any load, weight or inertia force makes it nonzero beyond rounding errors.
     ///
-    /// Loads are tried at four places of every rail element: an influence line is a cubic there, and zero throughout if it
-    /// is zero at four places.
+    /// Loads are applied at four positions of every rail element: an influence line is a cubic within an element and
+    /// is therefore zero throughout if it is zero at four positions.
     fn nonzero(&self) -> Vec<bool> {
         let n = self.columns.len();
         let mut units = vec![0.0_f64; n];
-        for cell in self.line().elements() {
+        for element in self.rails().elements() {
             for fraction in [0.0, 0.3, 0.6, 1.0] {
-                let x = cell.x[0] + fraction * (cell.x[1] - cell.x[0]);
+                let x = element.x[0] + fraction * (element.x[1] - element.x[0]);
                 for axis in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral] {
-                    let unit = self.unit(Probe { rail: cell.rail, x, axis }).unwrap_or_default();
+                    let unit = self.unit(Probe { rail: element.rail, x, axis }).unwrap_or_default();
                     units.iter_mut().zip(unit).for_each(|(most, value)| *most = most.max(value.abs()));
                 }
             }
@@ -167,7 +171,7 @@ impl ColumnInfluence {
         nonzero
     }
 
-    /// The influence lines of the columns that are `kept`.
+    /// The influence lines of only those columns for which `kept` is true.
     fn only(
         self,
         kept: &[bool],
@@ -199,29 +203,29 @@ impl ColumnInfluence {
         &self.columns
     }
 
-    /// Number of degrees of freedom whose accelerations enter.
+    /// Number of degrees of freedom of the foundation.
     #[must_use]
-    pub fn freedoms(&self) -> usize {
+    pub fn dofs(&self) -> usize {
         self.inertia.ncols()
     }
 
-    /// Value of each column under the own weight.
+    /// Value of each column under the dead load of the structure.
     #[must_use]
-    pub fn dead(&self) -> &[f64] {
+    pub fn dead_load(&self) -> &[f64] {
         &self.dead
     }
 
-    /// The rail elements.
+    /// The rails, with their elements.
     #[must_use]
-    pub fn line(&self) -> &Arc<splines::Rails> {
+    pub fn rails(&self) -> &Arc<splines::Rails> {
         self.effects.rails()
     }
 
-    /// Writes the value of every column under `loads` and `acceleration` into `out`, without own weight. Returns whether
-    /// the structure resists all of the loads; those that it does not resist are left out.
+    /// Writes the value of every column under `loads` and `acceleration` into `out`, without dead load. Returns
+    /// whether the structure resists all of the loads; loads that it does not resist are neglected.
     pub fn at<'l>(
         &self,
-        loads: impl Iterator<Item = &'l WheelLoadHistory>,
+        loads: impl Iterator<Item = &'l WheelLoad>,
         acceleration: &[f64],
         out: &mut [f64],
     ) -> bool {
@@ -263,12 +267,12 @@ impl ColumnInfluence {
     }
 }
 
-/// Columns with the effects that they are sums of, as a spec lists them.
+/// Columns with the effects of which they are sums, in the order of the spec.
 #[derive(Default)]
 struct ColumnList {
     columns: Vec<Column>,
     effects: Vec<Effect>,
-    /// One for each effect.
+    /// One entry per effect.
     terms: Vec<ColumnTerm>,
 }
 
@@ -281,7 +285,8 @@ impl ColumnList {
         self.columns.push(column);
     }
 
-    /// Adds the wanted reactions: for each degree of freedom of a point on the ground, the sum of its supports and springs.
+    /// Adds the wanted reactions: for each degree of freedom of a point on the ground, the sum of its supports and
+    /// springs.
     fn add_reactions(
         &mut self,
         structure: &str,
@@ -292,14 +297,14 @@ impl ColumnList {
     ) {
         let restraints = frame.restraints(model);
         for ground in spec.supported_points(model) {
-            for &freedom in &ground.dofs {
-                let name = format!("{structure}.{}.{}", ground.name, spec.dof_word(freedom));
-                let is_here = |hold: &&fea::Restraint| hold.point == ground.point && hold.dof == freedom;
+            for &dof in &ground.dofs {
+                let name = format!("{structure}.{}.{}", ground.name, spec.dof_word(dof));
+                let is_here = |one: &&fea::Restraint| one.point == ground.point && one.dof == dof;
                 let all: Vec<Effect> =
                     restraints.iter().filter(is_here).copied().map(Effect::Reaction).collect();
                 if wanted(Kind::Reaction, &name) && !all.is_empty() {
-                    let dimension = dimension(freedom >= Dof::Rx);
-                    let direction = direction(model, rails, freedom);
+                    let dimension = dimension(dof >= Dof::Rx);
+                    let direction = direction(model, rails, dof);
                     self.add(Column { name, dimension, kind: Kind::Reaction, direction }, all);
                 }
             }
@@ -353,13 +358,13 @@ impl ColumnList {
     }
 }
 
-/// Effects of the inertia force of a unit acceleration of each degree of freedom: effects x degrees of freedom.
+/// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
 fn inertia(
     effects: &[Effect],
     built: &BuiltFoundation,
     solved: &SolvedModel,
 ) -> Result<DMatrix<f64>, fea::Error> {
-    match &built.motion {
+    match &built.basis {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
         Some(MotionBasis::Modes { frame, refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
@@ -372,8 +377,8 @@ fn inertia(
     }
 }
 
-/// Normal stress at a point by a unit of each component of the internal force: N/A + My z/Iy - Mz y/Iz, as in
-/// [`practice::stress::weights`]; a component that the section does not resist (property 0) has no stress.
+/// Normal stress at a point per unit of each component of the internal force: N/A + My z/Iy - Mz y/Iz, as in
+/// [`practice::stress::weights`]; a component for which the section property is 0 causes no stress.
 fn stress_weights(section: &CrossSection, point: &StressPoint) -> [f64; 6] {
     let over = |lever: f64, property: f64| if property > 0.0 { lever / property } else { 0.0 };
     [over(1.0, section.area), 0.0, 0.0, 0.0, over(point.z, section.iy), over(0.0 - point.y, section.iz)]
@@ -384,9 +389,10 @@ const fn dimension(is_moment: bool) -> Dimension {
     if is_moment { Dimension::MOMENT } else { Dimension::FORCE }
 }
 
-/// Direction of a reaction relative to the first rail: vertical or lateral where it is within about 25 degrees of it.
-fn direction(model: &Model, rails: &[fea::Rail], freedom: Dof) -> Option<Direction> {
-    let k = freedom as usize;
+/// Direction of a reaction relative to the first rail: vertical or lateral if it is within about 25 degrees of that
+/// direction.
+fn direction(model: &Model, rails: &[fea::Rail], dof: Dof) -> Option<Direction> {
+    let k = dof as usize;
     let up = Vector3::from(model.up).normalize();
     let side = Vector3::from(rails.first()?.axis).cross(&up).normalize();
     if k >= 3 {

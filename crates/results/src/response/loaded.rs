@@ -1,4 +1,4 @@
-//! Loads on rails at one output time, by wheels and end stops, and the displacements of the rails under them.
+//! Loads on rails by wheels and end stops at one output time, and the displacements of the rails under these loads.
 
 use sim::{Channel, Foundation, History};
 use splines::{Axis, Error, Influence, Probe};
@@ -9,21 +9,21 @@ use foundations::BuiltFoundation;
 
 /// The force of one wheel, or of one end stop, on its rail.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct WheelLoadHistory {
+pub struct WheelLoad {
     /// Index of the structure.
     pub structure: usize,
     /// Rail within the structure.
     pub rail: usize,
     /// Rail coordinate.
     pub x: f64,
-    /// Along +x, up, +z of the rail.
+    /// Components along +x, up and along +z of the rail.
     pub force: [f64; 3],
 }
 
-/// Reads the loads on rails off the samples of a history.
+/// Reads the loads on rails from the samples of a history.
 ///
-/// The force of a prescribed motion acts on no rail and is none of these loads.
-pub struct WheelLoadHistories {
+/// The force of a prescribed motion does not act on a rail and is not included.
+pub struct WheelLoadReader {
     wheels: Vec<Wheel>,
     stops: Vec<Stop>,
 }
@@ -33,23 +33,23 @@ struct Stop {
     structure: usize,
     rail: usize,
     x: f64,
-    /// 1 where the body comes from below x.
+    /// 1 where the body approaches from smaller x, -1 from larger x.
     side: f64,
 }
 
 struct Wheel {
     structure: usize,
     rail: usize,
-    /// First of four consecutive channels: place, vertical, lateral, traction.
+    /// First of four consecutive channels: position, vertical, lateral, traction.
     first: usize,
 }
 
-impl WheelLoadHistories {
-    /// Of every wheel of `cast`, in its order, and of the end stops of `scene` that stand on rails.
+impl WheelLoadReader {
+    /// A reader for every wheel of `input`, in its order, and for the end stops of `scene` that stand on rails.
     #[must_use]
-    pub fn new(scene: &Scene, cast: &SimulationInput, history: &History) -> WheelLoadHistories {
+    pub fn new(scene: &Scene, input: &SimulationInput, history: &History) -> WheelLoadReader {
         let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
-        let wheels = cast.wheels.iter().enumerate().map(|(w, wheel)| {
+        let wheels = input.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
             Wheel {
                 structure: rail.structure,
@@ -69,47 +69,48 @@ impl WheelLoadHistories {
                 side: meeting.side,
             })
         });
-        WheelLoadHistories { wheels: wheels.collect(), stops: stops.collect() }
+        WheelLoadReader { wheels: wheels.collect(), stops: stops.collect() }
     }
 
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
     #[must_use]
-    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoadHistory> {
-        let mut loads: Vec<WheelLoadHistory> = self
+    pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
+        let mut loads: Vec<WheelLoad> = self
             .wheels
             .iter()
             .map(|wheel| {
                 let [x, vertical, lateral, traction] = std::array::from_fn(|k| sample[wheel.first + k]);
                 let force = [traction, 0.0 - vertical, lateral];
-                WheelLoadHistory { structure: wheel.structure, rail: wheel.rail, x, force }
+                WheelLoad { structure: wheel.structure, rail: wheel.rail, x, force }
             })
             .collect();
         loads.extend(self.stops.iter().map(|stop| {
             let force = [stop.side * sample[stop.channel], 0.0, 0.0];
-            WheelLoadHistory { structure: stop.structure, rail: stop.rail, x: stop.x, force }
+            WheelLoad { structure: stop.structure, rail: stop.rail, x: stop.x, force }
         }));
         loads
     }
 }
 
-/// A structure under the wheels of a run.
+/// A structure with the wheel loads of a run.
 pub(super) struct LoadedStructure<'a> {
     pub scene: &'a Scene,
     /// Index of the structure in the scene.
     pub s: usize,
     pub history: &'a History,
-    pub loads: &'a WheelLoadHistories,
+    pub loads: &'a WheelLoadReader,
     pub built: &'a BuiltFoundation,
 }
 
 impl LoadedStructure<'_> {
-    /// Loads on it at an output time.
-    pub fn on(&self, row: usize) -> Vec<WheelLoadHistory> {
+    /// Loads on the structure at an output time.
+    pub fn on(&self, row: usize) -> Vec<WheelLoad> {
         let all = self.loads.at(self.history.sample(row)).into_iter();
         all.filter(|load| load.structure == self.s).collect()
     }
 
-    /// Whether its displacements can be computed: it is flexible, and its degrees of freedom, if any, were recorded.
+    /// Whether the displacements can be computed: the structure is flexible, and its degrees of freedom, if any, were
+    /// recorded.
     pub fn is_known(&self) -> bool {
         let foundation = &self.built.foundation;
         match foundation.structure {
@@ -118,15 +119,15 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Displacements at the probes at output time `row`, under the loads `on` it at that time; `None` where a probe has a
-    /// direction that the structure does not resist.
+    /// Displacements at the probes at output time `row` under the loads `on` the structure at that time; `None` if
+    /// the structure is unrestrained in the direction of a probe.
     ///
     /// # Errors
     /// [`Error::OffRail`] for a place beyond a rail.
     pub fn displacements(
         &self,
         probes: &[Probe],
-        on: &[WheelLoadHistory],
+        on: &[WheelLoad],
         row: usize,
     ) -> Result<Option<Vec<f64>>, Error> {
         let foundation = &self.built.foundation;
@@ -139,7 +140,7 @@ impl LoadedStructure<'_> {
         }
     }
 
-    /// Channel of its first degree of freedom.
+    /// Channel of the first degree of freedom of the structure.
     fn start(&self) -> Option<usize> {
         self.history.channels().iter().position(|c| *c == Channel::Coordinate(self.s, 0))
     }
@@ -151,11 +152,12 @@ pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     (0..chosen).map(move |k| k * (count - 1) / (chosen - 1).max(1))
 }
 
-/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shapes.
+/// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shape
+/// functions.
 fn displacements(
     foundation: &Foundation,
     probes: &[Probe],
-    loads: &[WheelLoadHistory],
+    loads: &[WheelLoad],
     q: &[f64],
 ) -> Result<Vec<f64>, Error> {
     let mut out = vec![0.0; probes.len()];

@@ -1,10 +1,11 @@
-//! The response of structures in a run: reactions, internal forces and stresses, their envelopes, the deflections of rails,
-//! uplift of wheels, natural modes.
+//! The response of structures in a run: reactions, internal forces and stresses, their envelopes, the deflections of
+//! rails, uplift of wheels, natural modes.
 //!
-//! Everything is computed from the history after the run. Reactions and internal forces are influence lines times wheel
-//! forces, less the inertia of the structure ([`ColumnInfluence`]).
+//! All values are computed from the history after the run. Reactions and internal forces are the products of
+//! influence lines and wheel forces, minus the effects of the inertia of the structure ([`ColumnInfluence`]).
 //!
-//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one, comparison.
+//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one,
+//! comparison.
 
 mod bending;
 mod comparison;
@@ -19,7 +20,7 @@ pub use bending::Bending;
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
-pub use loaded::{WheelLoadHistories, WheelLoadHistory};
+pub use loaded::{WheelLoad, WheelLoadReader};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift, spans};
 
@@ -28,22 +29,23 @@ use serde_json::{Map, Value, json};
 use sim::{Channel, History};
 
 use crate::Error;
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::columns::{self, Column, Kind};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{ColumnSelection, Origin, Scene};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
-/// The response of a run's structures, beside the columns that it adds to the run's record.
+/// The response of the structures in a run, in addition to the columns in its record.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
     /// The columns of reactions, internal forces and stresses in the record.
     pub columns: Vec<Column>,
-    /// Value of each column under the structures' own weight; part of the columns where the scene's output asks for it.
-    pub dead: Vec<f64>,
+    /// Value of each column under the dead load of the structures. It is included in the columns where the output of
+    /// the scene requests it.
+    pub dead_load: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<ColumnEnvelope>,
-    /// Extremes of the bending moments along the rails, where they were asked for.
+    /// Extremes of the bending moments along the rails, if requested.
     pub bending: Vec<Bending>,
     /// Largest deflection of each span.
     pub deflections: Vec<Deflection>,
@@ -55,7 +57,7 @@ pub struct Response {
     pub sways: Vec<Sway>,
     /// Natural modes of the scene near the end of the run.
     pub modes: Vec<SceneMode>,
-    /// What the columns leave out, and why.
+    /// Notes on contributions that the columns neglect.
     pub notes: Vec<String>,
 }
 
@@ -76,12 +78,12 @@ pub fn structures_with_columns(scene: &Scene, known: &[SolvedStructure]) -> Vec<
         .collect()
 }
 
-/// Influence lines of every structure of `scene` for the columns that its output asks for; `None` for a structure without
-/// such columns. `built` and `solved` have one entry for each structure.
+/// Influence lines of every structure of `scene` for the columns that its output requests; `None` for a structure
+/// without such columns. `built` and `solved` have one entry per structure.
 ///
 /// # Errors
-/// [`Error::Lines`] for a structure that does not stand.
-pub fn lines(
+/// [`Error::Lines`] for a structure that is a mechanism.
+pub fn influence_lines(
     scene: &Scene,
     built: &[BuiltFoundation],
     solved: &[Option<&SolvedModel>],
@@ -104,28 +106,29 @@ pub fn lines(
 }
 
 impl Response {
-    /// The response of a run, but for bending moments ([`Response::bend`]) and natural modes ([`SceneMode::all`]); adds the
-    /// columns of `lines` to `record`. `built`, `solved` and `lines` have one entry for each structure of `scene`.
+    /// The response of a run without bending moments ([`Response::add_bending`]) and natural modes
+    /// ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built`, `solved` and `lines` have one
+    /// entry per structure of `scene`.
     ///
     /// # Errors
     /// [`Error::Envelope`] for a column without values; [`Error::Rails`] for a place beyond a rail.
     pub fn new(
         scene: &Scene,
-        cast: &SimulationInput,
+        input: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
         lines: &[Option<ColumnInfluence>],
         record: &mut NamedColumns,
     ) -> Result<Response, Error> {
-        let loads = WheelLoadHistories::new(scene, cast, history);
+        let loads = WheelLoadReader::new(scene, input, history);
         let mut response = Response::default();
         for (s, lines) in lines.iter().enumerate() {
             if let Some(lines) = lines {
                 response.add_columns(scene, s, history, &loads, lines, record);
             }
         }
-        response.envelopes = ColumnEnvelope::all(&response.columns, scene, cast, history, &loads, record)
+        response.envelopes = ColumnEnvelope::all(&response.columns, scene, input, history, &loads, record)
             .map_err(Error::Envelope)?;
         for (s, structure) in scene.structures.iter().enumerate() {
             let failed = |source| Error::Rails { structure: structure.name.clone(), source };
@@ -133,7 +136,7 @@ impl Response {
             response.deflections.extend(serviceability::deflections(&loaded, solved[s]).map_err(failed)?);
             response.drifts.extend(serviceability::drifts(&loaded, solved[s]).map_err(failed)?);
         }
-        response.uplifts = envelope::uplifts(cast, record);
+        response.uplifts = envelope::uplifts(input, record);
         response.sways = envelope::sways(scene, record);
         Ok(response)
     }
@@ -144,7 +147,7 @@ impl Response {
         scene: &Scene,
         s: usize,
         history: &History,
-        loads: &WheelLoadHistories,
+        loads: &WheelLoadReader,
         lines: &ColumnInfluence,
         record: &mut NamedColumns,
     ) {
@@ -154,41 +157,41 @@ impl Response {
         let mut is_incomplete = false;
         for i in 0..history.len() {
             let sample = history.sample(i);
-            let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.freedoms()]);
+            let acceleration = start.map_or(&[][..], |at| &sample[at..at + lines.dofs()]);
             let on = loads.at(sample);
             is_incomplete |= !lines.at(on.iter().filter(|load| load.structure == s), acceleration, &mut now);
-            let dead = lines.dead().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
+            let dead = lines.dead_load().iter().map(|own| if scene.output.dead_load { *own } else { 0.0 });
             for ((column, value), dead) in values.iter_mut().zip(&now).zip(dead) {
                 column.push(value + dead);
             }
         }
         if is_incomplete {
             self.notes.push(format!(
-                "{}: wheel forces in directions that it does not resist are left out of its reactions",
+                "{}: its reactions neglect wheel forces in directions in which the structure is unrestrained",
                 scene.structures[s].name
             ));
         }
-        self.dead.extend(lines.dead());
+        self.dead_load.extend(lines.dead_load());
         for (column, values) in lines.columns().iter().zip(values) {
             record.push(column.name.clone(), column.dimension, values);
             self.columns.push(column.clone());
         }
     }
 
-    /// Adds the envelopes of the bending moments along the rails, for figures; of those structures that have a beam spec
-    /// and whose degrees of freedom, if any, were recorded.
+    /// Adds the envelopes of the bending moments along the rails for those structures that have a beam spec and whose
+    /// degrees of freedom, if any, were recorded.
     ///
     /// # Errors
-    /// [`Error::Lines`] for a structure that does not stand.
-    pub fn bend(
+    /// [`Error::Lines`] for a structure that is a mechanism.
+    pub fn add_bending(
         &mut self,
         scene: &Scene,
-        cast: &SimulationInput,
+        input: &SimulationInput,
         history: &History,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
     ) -> Result<(), Error> {
-        let loads = WheelLoadHistories::new(scene, cast, history);
+        let loads = WheelLoadReader::new(scene, input, history);
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
             let is_known = built.foundation.dofs() == 0 || built.foundation.recorded;
             let Some(solved) = solved.filter(|_| is_known) else { continue };
@@ -205,7 +208,7 @@ impl Response {
         let mut out = Map::new();
         if !self.columns.is_empty() {
             let dead =
-                self.columns.iter().zip(&self.dead).map(|(c, dead)| (c.name.clone(), json!(dead + 0.0)));
+                self.columns.iter().zip(&self.dead_load).map(|(c, dead)| (c.name.clone(), json!(dead + 0.0)));
             out.insert("dead_load".into(), Value::Object(dead.collect()));
             let all = self.envelopes.iter().map(|envelope| (envelope.column.clone(), envelope.json()));
             out.insert("envelopes".into(), Value::Object(all.collect()));

@@ -8,17 +8,17 @@ use sim::{Action, BodyDof, Channel, Foundation, NaturalMode, Run, natural_modes}
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Analysis, Scene};
 
-/// Most degrees of freedom of structures, beside those of bodies, for which modes are computed.
+/// Largest number of degrees of freedom of structures, not counting bodies, for which modes are computed.
 const MAX_DOFS: usize = 40;
 
-/// Fraction of a mode's kinetic energy from which a degree of freedom is part of its name.
+/// Fraction of the kinetic energy of a mode from which a degree of freedom is part of its name.
 const NAMED: f64 = 0.15;
 
-/// Difference of the logarithms of two frequencies up to which an oscillation is attributed to a mode.
+/// Largest difference of the logarithms of two frequencies for which an oscillation is attributed to a mode.
 const NEAR: f64 = 0.1;
 
-/// Time at which the positions of the bodies are taken, as a fraction of the run: the middle of its last quarter, over
-/// which means and oscillations are evaluated.
+/// Time at which the positions of the bodies are taken, as a fraction of the run: the middle of its last quarter,
+/// over which means and oscillations are evaluated.
 const INSTANT: f64 = 0.875;
 
 /// A natural mode of a scene.
@@ -26,31 +26,31 @@ const INSTANT: f64 = 0.875;
 pub struct SceneMode {
     /// Frequency, cycles per unit of time.
     pub hz: f64,
-    /// The degrees of freedom with most of the kinetic energy, such as `ladle.Y + trolley.y`.
+    /// The degrees of freedom with the largest kinetic energy, such as `ladle.Y + trolley.y`.
     pub name: String,
     /// Fraction of the kinetic energy of each degree of freedom, the largest first.
-    pub shares: Vec<(String, f64)>,
+    pub fractions: Vec<(String, f64)>,
 }
 
 impl SceneMode {
-    /// Modes of the bodies of `scene` on `foundations`, at their positions near the end of `run`, with at least one period
-    /// within the run; lowest first. None where they cannot be computed, and where events have changed ropes or loads.
+    /// Modes of the bodies of `scene` on `foundations`, at their positions near the end of `run`, with at least one
+    /// period within the run, lowest first. The list is empty if they cannot be computed or if events have changed
+    /// ropes or loads.
     #[must_use]
     pub fn all(
         scene: &Scene,
-        cast: &SimulationInput,
+        input: &SimulationInput,
         foundations: &[Foundation],
         run: &Run,
     ) -> Vec<SceneMode> {
-        let freedoms: usize = foundations.iter().map(Foundation::dofs).sum();
-        let rules = &cast.scene.actuators.rules;
+        let dofs: usize = foundations.iter().map(Foundation::dofs).sum();
+        let rules = &input.scene.actuators.rules;
         let changes_ropes = |action: &Action| matches!(action, Action::Hoist { .. } | Action::Release { .. });
         let changed = run
             .fired
             .iter()
             .any(|fired| rules.get(fired.rule).is_some_and(|rule| rule.actions.iter().any(changes_ropes)));
-        if scene.analysis != Analysis::Dynamic || !run.status.is_complete() || changed || freedoms > MAX_DOFS
-        {
+        if scene.analysis != Analysis::Dynamic || !run.status.is_complete() || changed || dofs > MAX_DOFS {
             return Vec::new();
         }
         let times = run.history.column(Channel::Time);
@@ -60,28 +60,29 @@ impl SceneMode {
             .map(|b| run.history.column(Channel::Displacement(b, BodyDof::X)).get(at).copied())
             .map(Option::unwrap_or_default)
             .collect();
-        let found = natural_modes(&cast.scene, foundations, times[at], &places);
+        let found = natural_modes(&input.scene, foundations, times[at], &places);
         let modes = found.ok().flatten().into_iter().flatten().map(|mode| SceneMode::new(scene, &mode));
         modes.filter(|mode| mode.hz * last >= 1.0).collect()
     }
 
     fn new(scene: &Scene, mode: &NaturalMode) -> SceneMode {
-        let mut shares: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
+        let mut fractions: Vec<(String, f64)> = vec![("structures".to_owned(), mode.structures)];
         for (body, own) in scene.bodies.iter().zip(&mode.fraction) {
             let words = if body.in_space {
                 ["X", "Y", "Z", "", "", ""]
             } else {
                 ["x", "y", "z", "roll", "yaw", "pitch"]
             };
-            shares
-                .extend(words.iter().zip(own).map(|(word, share)| (format!("{}.{word}", body.name), *share)));
+            fractions.extend(
+                words.iter().zip(own).map(|(word, fraction)| (format!("{}.{word}", body.name), *fraction)),
+            );
         }
-        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
-        shares.retain(|(_, share)| *share >= 0.01);
-        let most = |(k, (_, share)): &(usize, &(String, f64))| *k == 0 || *share >= NAMED;
+        fractions.sort_by(|a, b| b.1.total_cmp(&a.1));
+        fractions.retain(|(_, fraction)| *fraction >= 0.01);
+        let most = |(k, (_, fraction)): &(usize, &(String, f64))| *k == 0 || *fraction >= NAMED;
         let names: Vec<&str> =
-            shares.iter().enumerate().filter(most).map(|(_, (name, _))| name.as_str()).collect();
-        SceneMode { hz: mode.omega / TAU, name: names.join(" + "), shares }
+            fractions.iter().enumerate().filter(most).map(|(_, (name, _))| name.as_str()).collect();
+        SceneMode { hz: mode.omega / TAU, name: names.join(" + "), fractions }
     }
 
     /// The mode of `modes` whose frequency is nearest to `hz`, if it is within about 10 %.
@@ -95,7 +96,7 @@ impl SceneMode {
     #[must_use]
     pub fn json(&self) -> Value {
         let fractions: serde_json::Map<String, Value> =
-            self.shares.iter().map(|(name, share)| (name.clone(), json!(share))).collect();
+            self.fractions.iter().map(|(name, fraction)| (name.clone(), json!(fraction))).collect();
         json!({"hz": self.hz, "mode": self.name, "fractions": fractions})
     }
 }

@@ -1,4 +1,4 @@
-//! Effects of the inertia of rigid parts on the girder that they represent.
+//! Effects of the inertia forces of rigid parts on the girder that they represent.
 
 use fea::{Effect, FactoredFrame, Girder};
 use nalgebra::DMatrix;
@@ -6,21 +6,22 @@ use splines::{Axis, InfluenceLines, Probe};
 
 use foundations::{RigidParts, roll_inertia};
 
-/// Abscissas and weights of Gauss's rule of three points on -1..1, exact for polynomials of degree five: influence lines
-/// are cubic between breaks, inertia forces linear along a part.
+/// Abscissas and weights of the three-point Gauss rule on -1..1. It is exact for polynomials of degree five;
+/// influence lines are cubic between breaks, and inertia forces are linear along a part.
 const GAUSS: [[f64; 2]; 3] =
     [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
 
-/// Effects of the inertia force of a unit acceleration of each degree of freedom: effects x degrees of freedom.
+/// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
 ///
-/// A part of length l and mass m per length with acceleration u'' of its centre and angular acceleration theta'' loads the
-/// girder by the distributed force m (u'' + theta'' x r), r from the centre, whose moment is that of the inertia m l^3/12,
-/// and by the distributed torque m i^2 theta_x'' with its radius of gyration i. The effects of these loads are integrals of
-/// the influence lines of the girder over the part, by Gauss's rule between the breaks of the lines. The influence line of
-/// a torque is the difference of those of lateral forces at heights 1 and 0 above the elastic axis.
+/// A part of length l and mass m per length whose centre has the acceleration u'' and the angular acceleration
+/// theta'' exerts on the girder the distributed force m (u'' + theta'' x r), with r measured from the centre, and the
+/// distributed torque m i^2 theta_x'' with the radius of gyration i. The moment of the distributed force corresponds
+/// to the moment of inertia m l^3/12. The effects of these loads are integrals of the influence lines of the girder
+/// over the part, evaluated by Gauss's rule between the breaks of the lines. The influence line of a torque is the
+/// difference between those of lateral forces at heights 1 and 0 above the elastic axis.
 ///
 /// # Errors
-/// What the frame of the girder refuses.
+/// The errors of the frame solver for the girder.
 pub fn part_inertia(
     girder: &Girder,
     parts: &RigidParts,
@@ -37,7 +38,7 @@ pub fn part_inertia(
     let mut out = DMatrix::zeros(n, parts.basis.ncols());
     let unit = |lines: &InfluenceLines, x: f64, axis: Axis| {
         let mut line = vec![0.0; n];
-        // parts do not move in a direction that the girder does not resist
+        // parts do not move in a direction in which the girder is unrestrained
         let resists = lines.fill(Probe { rail: 0, x, axis }, &mut line).is_ok();
         resists.then_some(line)
     };

@@ -1,8 +1,9 @@
-//! Serviceability of rails: deflection of spans relative to their length, and drift of frames relative to their height.
+//! Serviceability of rails: deflection of spans relative to their length, and drift of frames relative to their
+//! height.
 //!
-//! Both are evaluated from a run afterwards. At a choice of output times the displacements of the rail are computed from
-//! the wheel forces and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at a few
-//! places of each span or at the columns of a frame; the largest value is kept with its place and time.
+//! Both are evaluated after a run. At selected output times the displacements of the rail are computed from the wheel
+//! forces and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at several
+//! positions within each span or at the columns of a frame. The largest value is stored with its position and time.
 
 use fea::{Model, Rail};
 use nalgebra::Vector3;
@@ -10,19 +11,19 @@ use practice::cmaa;
 use serde_json::{Value, json};
 use splines::{Axis, Error, Probe};
 
-use super::loaded::{LoadedStructure, WheelLoadHistory, spread};
+use super::loaded::{LoadedStructure, WheelLoad, spread};
 use formats::scene::Origin;
 use formats::spec::{Form, Spec};
 use formats::units::{Dimension, Scale, Units};
 use foundations::SolvedModel;
 
-/// Places evaluated within a span.
+/// Number of positions evaluated within a span.
 const PLACES: usize = 7;
-/// Most output times at which a span is evaluated.
+/// Largest number of output times at which a span is evaluated.
 const SPAN_TIMES: usize = 64;
-/// Most output times at which a frame is evaluated.
+/// Largest number of output times at which a frame is evaluated.
 const FRAME_TIMES: usize = 300;
-/// Usual limits: span over deflection.
+/// Usual limits of the ratio of span to deflection.
 const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
 
 /// Largest deflection of a rail from the chord between the ends of a span.
@@ -30,29 +31,29 @@ const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
 pub struct Deflection {
     /// Name of the rail.
     pub rail: String,
-    /// `vertical`, downwards, or `lateral`, to either side.
+    /// `vertical` (downwards) or `lateral` (to either side).
     pub direction: &'static str,
     /// Ends of the span.
     pub span: [f64; 2],
     /// The deflection.
     pub value: f64,
-    /// Its place: rail coordinate.
+    /// Rail coordinate of the largest deflection.
     pub x: f64,
-    /// Its time.
+    /// Time of the largest value.
     pub time: f64,
 }
 
 impl Deflection {
-    /// Length of the span over its deflection; `None` without deflection.
+    /// Ratio of the length of the span to its deflection; `None` without deflection.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         let ratio = (self.span[1] - self.span[0]) / self.value;
         (self.value > 0.0 && ratio.is_finite()).then_some(ratio)
     }
 
-    /// Whether the span over the deflection is at least `limit`.
+    /// Whether the ratio of span to deflection is at least `limit`.
     #[must_use]
-    pub fn keeps(&self, limit: f64) -> bool {
+    pub fn is_within(&self, limit: f64) -> bool {
         self.ratio().is_none_or(|ratio| ratio >= limit)
     }
 
@@ -69,17 +70,17 @@ impl Deflection {
             "x": self.x,
             "time": self.time,
             "span_over_deflection": self.ratio(),
-            "within": { "L/600": self.keeps(vertical), "L/400": self.keeps(lateral) },
+            "within": { "L/600": self.is_within(vertical), "L/400": self.is_within(lateral) },
         })
     }
 }
 
-/// The largest deflections of every span of the structure that wheels have stood on; none for rigid foundations, for tables,
-/// for parts with a contact each, and where the degrees of freedom of the structure were not recorded.
+/// The largest deflections of every loaded span of the structure; none for rigid foundations, for tables, for rigid
+/// parts with separate contacts, and where the degrees of freedom of the structure were not recorded.
 ///
-/// Each span is evaluated at seven places and at up to 64 output times, evenly distributed over those with a wheel on the
-/// span. With u(x) the displacement of the rail and l the fraction of the span at x, the deflection from the chord between
-/// the ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards.
+/// Each span is evaluated at seven positions and at up to 64 output times, evenly distributed over those with a wheel
+/// on the span. With the displacement u(x) of the rail and the fraction l of the span at x, the deflection from the
+/// chord between the ends a and b is (1 - l) u(a) + l u(b) - u(x), positive downwards.
 ///
 /// # Errors
 /// [`Error::OffRail`] for a place beyond a rail.
@@ -93,7 +94,7 @@ pub(super) fn deflections(
     else {
         return Ok(Vec::new());
     };
-    let all: Vec<Vec<WheelLoadHistory>> = (0..history.len()).map(|row| loaded.on(row)).collect();
+    let all: Vec<Vec<WheelLoad>> = (0..history.len()).map(|row| loaded.on(row)).collect();
     let lateral = all.iter().flatten().any(|load| load.force[2] != 0.0);
     let axes: &[(Axis, &'static str)] = match lateral {
         true => &[(Axis::Vertical, "vertical"), (Axis::Lateral, "lateral")],
@@ -106,7 +107,7 @@ pub(super) fn deflections(
             .map_or_else(|| spans(spec, &solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
         for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
             let [from, to] = span;
-            let inside = |load: &WheelLoadHistory| {
+            let inside = |load: &WheelLoad| {
                 load.rail == rail.rail && load.x > from && load.x < to && load.force[1] != 0.0
             };
             let rows: Vec<usize> = (0..all.len()).filter(|&i| all[i].iter().any(inside)).collect();
@@ -125,19 +126,20 @@ pub(super) fn deflections(
     Ok(found)
 }
 
-/// The largest deflection of one span in one direction at `places`, or `none` where there is none; the first and the last
-/// place are the ends of the span. `rows`: output times with a wheel on the span; `all`: the loads at every output time.
+/// The largest deflection of one span in one direction at `places`, or `none` where there is none; the first and the
+/// last place are the ends of the span. `rows`: output times with a wheel on the span; `all`: the loads at every
+/// output time.
 fn largest_deflection(
     loaded: &LoadedStructure<'_>,
     none: Deflection,
     (rail, axis): (usize, Axis),
     places: &[f64],
-    (rows, all): (&[usize], &[Vec<WheelLoadHistory>]),
+    (rows, all): (&[usize], &[Vec<WheelLoad>]),
 ) -> Result<Deflection, Error> {
     let probes: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
     let mut largest = none;
     for row in spread(rows.len(), SPAN_TIMES).map(|k| rows[k]) {
-        // no deflection is reported in a direction that the structure does not resist
+        // no deflection is reported in a direction in which the structure is unrestrained
         let Some(moved) = loaded.displacements(&probes, &all[row], row)? else { break };
         let time = loaded.history.sample(row)[0];
         for (k, &x) in places.iter().enumerate().skip(1).take(PLACES) {
@@ -161,16 +163,16 @@ pub struct Drift {
     pub x: f64,
     /// Height of the rail over the lowest support.
     pub height: f64,
-    /// The displacement, to either side.
+    /// Magnitude of the displacement.
     pub value: f64,
-    /// Its time.
+    /// Time of the largest value.
     pub time: f64,
-    /// Code, clause, and the displacement that it allows.
+    /// Code, clause and allowable displacement.
     pub limits: Vec<(&'static str, &'static str, f64)>,
 }
 
 impl Drift {
-    /// Height over the displacement; `None` without displacement.
+    /// Ratio of the height to the displacement; `None` without displacement.
     #[must_use]
     pub fn ratio(&self) -> Option<f64> {
         let ratio = self.height / self.value;
@@ -180,7 +182,10 @@ impl Drift {
     /// As an item of `drift`.
     #[must_use]
     pub fn json(&self) -> Value {
-        let limit = |(code, clause, most): &(&str, &str, f64)| json!({ "code": code, "clause": clause, "value": most, "within": self.value <= *most });
+        let limit = |(code, clause, most): &(&str, &str, f64)| {
+            let is_within = self.value <= *most;
+            json!({ "code": code, "clause": clause, "value": most, "within": is_within })
+        };
         json!({
             "rail": self.rail,
             "x": self.x,
@@ -193,9 +198,9 @@ impl Drift {
     }
 }
 
-/// The column with the largest drift of every rail of a frame on the ground, at up to 300 evenly distributed output times;
-/// none for rigid foundations, where no wheel pushes sideways, and where the degrees of freedom of the structure were not
-/// recorded.
+/// The column with the largest drift of every rail of a frame on the ground, at up to 300 evenly distributed output
+/// times; none for rigid foundations, without lateral wheel forces, and where the degrees of freedom of the structure
+/// were not recorded.
 ///
 /// # Errors
 /// [`Error::OffRail`] for a place beyond a rail.
@@ -213,11 +218,11 @@ pub(super) fn drifts(
     if matches!(spec.form, Form::Girder(_)) || history.is_empty() {
         return Ok(Vec::new());
     }
-    let all: Vec<(usize, Vec<WheelLoadHistory>)> =
+    let all: Vec<(usize, Vec<WheelLoad>)> =
         spread(history.len(), FRAME_TIMES).map(|row| (row, loaded.on(row))).collect();
-    let is_pushed = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
+    let is_loaded = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
     let mut found = Vec::new();
-    for rail in scene.rails.iter().filter(|rail| rail.structure == s && is_pushed) {
+    for rail in scene.rails.iter().filter(|rail| rail.structure == s && is_loaded) {
         let columns = spans(spec, &solved.model, &solved.rails, rail.rail);
         let inside = |x: &f64| *x >= rail.range[0] && *x <= rail.range[1];
         let columns: Vec<f64> = columns.into_iter().filter(inside).collect();
@@ -245,7 +250,8 @@ pub(super) fn drifts(
 /// Limits of the drift of a rail at `height` over the lowest support: code, clause, displacement.
 ///
 /// # Source
-/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as a public program has it: loads without dynamic factors.
+/// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as implemented in a public program: loads without
+/// dynamic factors.
 fn drift_limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
     let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
     let mut limits = vec![("EN 1993-6:2007", "Table 7.1 b: height/400", height / 400.0)];
@@ -269,8 +275,8 @@ fn height(model: &Model, rails: &[Rail], rail: usize) -> Option<f64> {
 
 /// Rail coordinates of the ends of the spans of rail `index`, increasing; empty where fewer than two are known.
 ///
-/// The spans of a girder end at its supports. Those of a frame end at points of the members under the rail where something
-/// other than members under rails joins them: a support, a spring, a link or a column.
+/// The spans of a girder end at its supports. The spans of a frame end at those points of the members under the rail
+/// that are connected to a support, a spring, a link, or a member that is not under a rail, such as a column.
 #[must_use]
 pub fn spans(spec: &Spec, model: &Model, rails: &[Rail], index: usize) -> Vec<f64> {
     let Some(rail) = rails.get(index) else { return Vec::new() };
@@ -284,7 +290,8 @@ pub fn spans(spec: &Spec, model: &Model, rails: &[Rail], index: usize) -> Vec<f6
     if ends.len() < 2 { Vec::new() } else { ends }
 }
 
-/// Rail coordinates of the points of the members under `rail` that a support, spring, link or other member joins.
+/// Rail coordinates of those points of the members under `rail` that are connected to a support, spring, link or
+/// other member.
 fn supported_points(model: &Model, rails: &[Rail], rail: &Rail) -> Vec<f64> {
     let mut carries = vec![false; model.members.len()];
     for segment in rails.iter().flat_map(|rail| &rail.segments) {

@@ -1,4 +1,4 @@
-//! Warnings: where a run is near the limits of its method, and where its input is probably wrong.
+//! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
 //! Files, lowest first: tension, spec, scene, this one.
 
@@ -12,22 +12,22 @@ pub use spec::spec_warnings;
 
 use sim::Run;
 
-use crate::outcome::CaseResult;
-use crate::record::NamedColumns;
+use crate::case_result::CaseResult;
+use crate::columns::NamedColumns;
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Analysis, Foundation, Origin, Scene, SceneRail, TableInterpolation, root_body};
 use formats::spec::Form;
 
-/// Residual of the energy audit above which a run is warned of.
+/// Residual of the energy audit above which a warning is issued.
 pub const RESIDUAL: f64 = 1e-3;
 
 /// Ratio of a rail's deflection to its span above which displacements are not small.
 const LARGE_DEFLECTION: f64 = 0.01;
 
-/// Relative growth of the bending stiffness by axial tension above which it should not be left out.
+/// Relative increase of the bending stiffness by axial tension above which the tension should not be neglected.
 const TENSION: f64 = 0.01;
 
-/// Ratio of the speed to the critical speed above which the mass of a girder should not be left out.
+/// Ratio of the speed to the critical speed above which the mass of a girder should not be neglected.
 const FAST: f64 = 0.5;
 
 /// The warnings of a case: of its run, and of the foundations chosen for it.
@@ -41,13 +41,13 @@ pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     all
 }
 
-fn warnings(scene: &Scene, cast: &SimulationInput, record: &NamedColumns, run: &Run) -> Vec<String> {
+fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: &Run) -> Vec<String> {
     let mut all = Vec::new();
     let residual = run.audit.residual();
     if residual > RESIDUAL {
         all.push(format!(
-            "the energy audit leaves {residual:.1e} of the peak stored energy open; a smaller \"accuracy\" closes it, but \
-             for a table that is not symmetric and a flange that takes hold at once"
+            "the residual of the energy audit is {residual:.1e} of the peak stored energy; a smaller \"accuracy\" \
+             reduces it, unless it comes from a table that is not symmetric or from a flange that engages abruptly"
         ));
     }
     for structure in &scene.structures {
@@ -57,7 +57,7 @@ fn warnings(scene: &Scene, cast: &SimulationInput, record: &NamedColumns, run: &
         }
     }
     all.extend(scene::scene_warnings(scene, record));
-    let of_rail = |rail| Wheels { cast, record, rail };
+    let of_rail = |rail| Wheels { input, record, rail };
     let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));
     for (rail, wheels) in each {
         all.extend(large_deflection(scene, rail, &wheels));
@@ -66,13 +66,13 @@ fn warnings(scene: &Scene, cast: &SimulationInput, record: &NamedColumns, run: &
         all.extend(clamped_table(scene, rail, &wheels));
         all.extend(unsymmetric_table(scene, rail, &wheels));
     }
-    all.extend(lift_off(cast, record));
+    all.extend(lift_off(input, record));
     all
 }
 
 /// The wheels of one rail.
 struct Wheels<'a> {
-    cast: &'a SimulationInput,
+    input: &'a SimulationInput,
     record: &'a NamedColumns,
     rail: usize,
 }
@@ -80,16 +80,16 @@ struct Wheels<'a> {
 impl<'a> Wheels<'a> {
     fn histories(&self, part: &'a str) -> impl Iterator<Item = &'a [f64]> {
         let (record, rail) = (self.record, self.rail);
-        self.cast.wheels.iter().filter(move |w| w.rail == rail).map(move |w| record.part(&w.name, part))
+        self.input.wheels.iter().filter(move |w| w.rail == rail).map(move |w| record.part(&w.name, part))
     }
 
-    /// Largest vertical displacement of the rail under them.
+    /// Largest vertical displacement of the rail under the wheels.
     fn deepest(&self) -> f64 {
         self.histories("rail_deflection").flatten().fold(0.0, |most, value| most.max(value.abs()))
     }
 }
 
-/// The longest span of a girder; the length of the rail where spans are not given.
+/// The longest span of a girder; the length of the rail where the spans are not known.
 fn span(scene: &Scene, rail: &SceneRail) -> f64 {
     let longest = match &scene.structures[rail.structure].origin {
         Origin::Spec { spec, .. } => match &spec.form {
@@ -109,13 +109,14 @@ fn large_deflection(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<
     let what = if span < rail.range[1] - rail.range[0] { "span" } else { "length" };
     (ratio > LARGE_DEFLECTION).then(|| {
         format!(
-            "{} gives by {ratio:.3} of its {what}, more than {LARGE_DEFLECTION}: small displacements are no longer small",
+            "{} deflects by {ratio:.3} of its {what}, more than {LARGE_DEFLECTION}: the assumption of small \
+             displacements does not hold",
             rail.name
         )
     })
 }
 
-/// A rail whose ends are both held lengthwise, so that bending stretches it.
+/// A rail that is restrained lengthwise at both ends, so that bending stretches it.
 fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
     let Form::Frame(frame) = &spec.form else { return None };
@@ -123,13 +124,13 @@ fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
     let growth = tension::stiffness_growth(&frame.model, carried, wheels.deepest());
     let growth = growth.filter(|growth| *growth > TENSION)?;
     Some(format!(
-        "{} lies between supports that hold it lengthwise: the pull of its members would stiffen them by about \
-         {growth:.2}, which is left out; let one end slide if it can",
+        "{} lies between supports that restrain it lengthwise: axial tension would increase the bending stiffness of \
+         its members by a fraction of about {growth:.2}, which is neglected; release one end lengthwise if it can slide",
         rail.name
     ))
 }
 
-/// A girder that has mass and is simulated without it, under wheels whose speed is large relative to the critical speed
+/// A girder whose mass is neglected, under wheels whose speed is large relative to the critical speed
 /// v_cr = 2 L f_1 = (pi / L) sqrt(E I / m) of its longest span L.
 fn near_critical_speed(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
@@ -149,8 +150,8 @@ fn near_critical_speed(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Opti
     let alpha = wheels.histories("x").fold(0.0_f64, |most, x| most.max(largest_speed(x))) / critical;
     (alpha > FAST).then(|| {
         format!(
-            "wheels on {} run at {alpha:.2} of the critical speed, more than {FAST}, over a girder taken without its \
-             mass: \"modal\", \"full\" or \"auto\" have it",
+            "wheels on {} run at {alpha:.2} of the critical speed, more than {FAST}, over a girder whose mass is \
+             neglected: use \"modal\", \"full\" or \"auto\" to include it",
             rail.name
         )
     })
@@ -174,15 +175,15 @@ fn clamped_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
         .collect();
     (!used.is_empty()).then(|| {
         format!(
-            "the table of {} is zero at its end {}, and wheels stand in the bay next to it: whether the rail can turn \
-             there, the table does not say",
+            "the table of {} is zero at its end {}, and wheels stand in the bay next to it: the table does not \
+             determine whether the rail can rotate there",
             rail.name,
             used.join(" and ")
         )
     })
 }
 
-/// A body that moves freely along a rail whose interpolation is not symmetric, and so not conservative.
+/// A body that rolls freely along a rail whose interpolation is not symmetric and therefore not conservative.
 fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<String> {
     let structure = &scene.structures[rail.structure];
     let is_unsymmetric =
@@ -195,20 +196,20 @@ fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option
         let root = &scene.bodies[root_body(scene, body).0];
         root.motion.is_free().then_some(&root.name)
     };
-    let own = wheels.cast.wheels.iter().filter(|wheel| wheel.rail == wheels.rail);
+    let own = wheels.input.wheels.iter().filter(|wheel| wheel.rail == wheels.rail);
     let body = own.filter_map(|wheel| free(wheel.body)).next()?;
     Some(format!(
-        "{body} rolls by its forces over {}, read by {}, which is not symmetric: energy comes and goes on the way; \
-         \"natural\" and \"exact\" keep it",
+        "{body} rolls freely over {}, read by {}, which is not symmetric: energy is not conserved; \"natural\" and \
+         \"exact\" conserve it",
         rail.name,
         structure.interpolation.word()
     ))
 }
 
-/// Wheels that are off their rails at some output times.
-fn lift_off(cast: &SimulationInput, record: &NamedColumns) -> Vec<String> {
+/// Warnings about wheels that are off their rails at some output times.
+fn lift_off(input: &SimulationInput, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
-    for wheel in &cast.wheels {
+    for wheel in &input.wheels {
         let forces = record.part(&wheel.name, "vertical");
         if let Some(first) = forces.iter().position(|force| *force == 0.0) {
             let off = forces.iter().filter(|force| **force == 0.0).count();

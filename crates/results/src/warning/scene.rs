@@ -1,21 +1,22 @@
-//! Values of a scene that are probably wrong: weights given as masses, bodies that rotate without inertia, structures that
-//! stand beside the body below them, ropes beyond their strength.
+//! Warnings about values of a scene that are probably wrong: weights entered as masses, bodies that rotate without
+//! moment of inertia, structures that extend beyond the body below them, ropes beyond their strength.
 
-use crate::record::NamedColumns;
+use crate::columns::NamedColumns;
 use formats::scene::{Analysis, Body, Origin, Scene, root_body};
 use formats::text::number::number;
 use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
 
-/// Force of a body's own weight on a wheel over the square of its diameter, above which no wheel is built, N/m2. Steel
-/// wheels bear a third of it with their whole load.
-const PRESSED: f64 = 3e6;
+/// Wheel load due to the weight of the body alone, divided by the square of the wheel diameter, above which the
+/// weight is implausible, N/m2. Fully loaded steel wheels bear a third of it.
+const WHEEL_PRESSURE: f64 = 3e6;
 
-/// Distance beyond its wheels at which a body may support a structure, as a fraction of the distance of the wheels.
-const BEYOND: f64 = 0.1;
+/// Distance beyond its outer wheels at which a body may support a structure, as a fraction of the distance between
+/// the outer wheels.
+const OVERHANG: f64 = 0.1;
 
-/// Strain beyond which a rope breaks: that of strands of 2000 N/mm2.
-const STRETCHED: f64 = 0.03;
+/// Strain beyond which a rope breaks, for strands of 2000 N/mm2.
+const BREAKING_STRAIN: f64 = 0.03;
 
 /// Warnings about values of a scene that are probably wrong.
 #[must_use]
@@ -25,12 +26,12 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
         all.extend(heavy(scene, b, body));
         all.extend(without_inertia(scene, body));
     }
-    all.extend((0..scene.structures.len()).filter_map(|s| beside(scene, s)));
-    all.extend(stretched(scene, record));
+    all.extend((0..scene.structures.len()).filter_map(|s| overhanging(scene, s)));
+    all.extend(overstretched(scene, record));
     all
 }
 
-/// A mass whose weight its wheels cannot carry, probably a weight given as a mass.
+/// A mass that is too heavy for its wheels, probably a weight entered as a mass.
 fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
     let (root, _) = root_body(scene, b);
     let below = scene.trucks.iter().filter(|truck| root_body(scene, truck.body).0 == root);
@@ -42,11 +43,11 @@ fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
         .collect();
     let weight = body.mass * scene.gravity;
     let scale = Scale { from: scene.units, to: Units::SI };
-    let pressed = weight / squares.iter().sum::<f64>() * scale.factor(Dimension::STRESS);
+    let pressure = weight / squares.iter().sum::<f64>() * scale.factor(Dimension::STRESS);
     let [force, mass] = [Dimension::FORCE, Dimension::MASS].map(|of| scene.units.label(of));
-    (body.by_mass && !squares.is_empty() && pressed > PRESSED).then(|| {
+    (body.by_mass && !squares.is_empty() && pressure > WHEEL_PRESSURE).then(|| {
         format!(
-            "`mass` of {} is {} {mass}, a weight of {} {force}: its {} wheels are too small for it; a weight is given \
+            "`mass` of {} is {} {mass}, a weight of {} {force}: its {} wheels are too small for it; enter a weight \
              as `weight`",
             body.name,
             number(body.mass),
@@ -56,23 +57,23 @@ fn heavy(scene: &Scene, b: usize, body: &Body) -> Option<String> {
     })
 }
 
-/// Free rotations of a body that has no moment of inertia about them.
+/// A body that is free to rotate about axes about which it has no moment of inertia.
 fn without_inertia(scene: &Scene, body: &Body) -> Option<String> {
     let words = ["roll", "yaw", "pitch"].into_iter().enumerate();
     let free: Vec<&str> =
         words.filter(|(k, _)| body.free[3 + k] && body.inertia[*k] == 0.0).map(|(_, word)| word).collect();
     (scene.analysis == Analysis::Dynamic && !free.is_empty()).then(|| {
         format!(
-            "{} can {}, and its `inertia` there is 0: it turns as if all its mass lay in its centre; `inertia` is \
-             [roll, yaw, pitch]",
+            "{} can {}, but its `inertia` in this motion is 0: it rotates as if all its mass were concentrated at \
+             its centre; `inertia` is [roll, yaw, pitch]",
             body.name,
             free.join(" and ")
         )
     })
 }
 
-/// A structure whose supports on a body lie beyond the wheels of the body.
-fn beside(scene: &Scene, s: usize) -> Option<String> {
+/// A structure on a body whose supports extend beyond the wheels of the body.
+fn overhanging(scene: &Scene, s: usize) -> Option<String> {
     let structure = &scene.structures[s];
     let (on, Origin::Spec { spec, .. }) = (structure.carrier?, &structure.origin) else { return None };
     let (model, _) = spec.model().ok()?;
@@ -87,17 +88,17 @@ fn beside(scene: &Scene, s: usize) -> Option<String> {
             truck.wheel_offsets().into_iter().map(at)
         })
         .collect();
-    let held = model.supports.iter().map(|support| support.point);
-    let held = held.chain(model.springs.iter().map(|spring| spring.point));
-    let held: Vec<[f64; 3]> =
-        held.map(|point| [0, 1, 2].map(|k| own[k] + on.at[k] + model.points[point][k])).collect();
+    let supported = model.supports.iter().map(|support| support.point);
+    let supported = supported.chain(model.springs.iter().map(|spring| spring.point));
+    let supports: Vec<[f64; 3]> =
+        supported.map(|point| [0, 1, 2].map(|k| own[k] + on.at[k] + model.points[point][k])).collect();
     let outside = [(0, "along"), (2, "across")].into_iter().find_map(|(k, word)| {
         let [low, high] = range(&wheels, k);
-        let [from, to] = range(&held, k);
-        let slack = BEYOND * (high - low);
+        let [from, to] = range(&supports, k);
+        let slack = OVERHANG * (high - low);
         (slack > 0.0 && (from < low - slack || to > high + slack)).then(|| {
             format!(
-                "{word} its track from {} to {}, where its wheels stand from {} to {}",
+                "{word} its track from {} to {}, but its wheels stand from {} to {}",
                 number(rounded(from, 6)),
                 number(rounded(to, 6)),
                 number(rounded(low, 6)),
@@ -108,27 +109,28 @@ fn beside(scene: &Scene, s: usize) -> Option<String> {
     let body = &scene.bodies[on.body].name;
     outside.map(|outside| {
         format!(
-            "{body} holds {} {outside}: `at` of the structure is where the origin of its spec is from that of the body",
+            "{body} supports {} {outside}: `at` of the structure is the position of the origin of its spec relative \
+             to that of the body",
             structure.name
         )
     })
 }
 
-/// The least and the largest coordinate `k`.
+/// The smallest and the largest coordinate `k`.
 fn range(places: &[[f64; 3]], k: usize) -> [f64; 2] {
     let all = places.iter().map(|place| place[k]);
     all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], at| [low.min(at), high.max(at)])
 }
 
-/// Ropes that are stretched beyond [`STRETCHED`].
-fn stretched(scene: &Scene, record: &NamedColumns) -> Vec<String> {
+/// Ropes whose strain exceeds [`BREAKING_STRAIN`].
+fn overstretched(scene: &Scene, record: &NamedColumns) -> Vec<String> {
     let warnings = scene.ropes.iter().filter_map(|rope| {
         let tension = record.part(&rope.name, "tension").iter().copied().fold(0.0, f64::max);
         let strain = tension / rope.stiffness;
-        (strain > STRETCHED).then(|| {
+        (strain > BREAKING_STRAIN).then(|| {
             format!(
-                "{} is stretched by {strain:.3} of its length, more than {STRETCHED}: ropes break there; see the `mass` \
-                 it carries, and `EA`",
+                "{} is stretched by {strain:.3} of its length, more than {BREAKING_STRAIN}: a rope breaks at this \
+                 strain; check the `mass` that it carries, and `EA`",
                 rope.name
             )
         })

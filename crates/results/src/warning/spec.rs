@@ -1,4 +1,4 @@
-//! Values of a spec that are probably wrong: moduli and densities of no known material, rails with gaps.
+//! Warnings about values of a spec that are probably wrong: implausible moduli and densities, rails with gaps.
 
 use fea::{CrossSection, Model, Rail};
 
@@ -7,14 +7,14 @@ use formats::text::number::number;
 use formats::text::number::rounded;
 use formats::units::{Dimension, Scale, Units};
 
-/// Range of Young's moduli of structures, N/m2; rigid arms a hundred times as stiff as steel are within it.
+/// Plausible range of Young's moduli, N/m2. It includes rigid arms a hundred times as stiff as steel.
 const MODULI: [f64; 2] = [2e9, 2e13];
 
-/// Range of densities of structures with their equipment, kg/m3.
+/// Plausible range of densities of structures with their equipment, kg/m3.
 const DENSITIES: [f64; 2] = [50.0, 4e4];
 
-/// Largest gap between two segments of a rail that is not warned of, as a fraction of the shorter segment; seats over
-/// columns are shorter.
+/// Largest gap between two segments of a rail that causes no warning, as a fraction of the shorter segment. Gaps over
+/// column seats are shorter.
 const GAP: f64 = 0.5;
 
 /// Warnings about values of a spec that are probably wrong.
@@ -25,7 +25,7 @@ pub fn spec_warnings(spec: &Spec) -> Vec<String> {
     match &spec.form {
         Form::Girder(girder) => all.extend(modulus("the girder's `E`", girder.e, spec.units, scale)),
         Form::Frame(frame) => {
-            // where ties carry the rail, sections of ties stand among those of the file
+            // where ties carry the rail, the sections of the model also include those of the ties
             let named = frame.sections.iter().zip(&frame.model.sections).filter(|_| spec.pads().is_empty());
             let mut seen: Vec<[u64; 2]> = Vec::new();
             for (name, section) in named {
@@ -50,7 +50,7 @@ fn density(section: &CrossSection) -> f64 {
     if section.area > 0.0 { section.mass / section.area } else { 0.0 }
 }
 
-/// A Young's modulus outside [`MODULI`].
+/// Warning about a Young's modulus outside [`MODULI`].
 fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
     let pascals = e * scale.factor(Dimension::STRESS);
     let unit = units.label(Dimension::STRESS);
@@ -65,7 +65,7 @@ fn modulus(what: &str, e: f64, units: Units, scale: Scale) -> Option<String> {
     })
 }
 
-/// A section whose density is outside [`DENSITIES`].
+/// Warning about a section whose density is outside [`DENSITIES`].
 fn heavy(name: &str, section: &CrossSection, units: Units, scale: Scale) -> Option<String> {
     let own = density(section);
     let si = own * scale.factor(Dimension::DENSITY);
@@ -81,7 +81,7 @@ fn heavy(name: &str, section: &CrossSection, units: Units, scale: Scale) -> Opti
     })
 }
 
-/// Intervals of a rail that no segment covers and that are no seat over a column.
+/// Warnings about intervals of a rail that no segment covers and that are too long to be column seats.
 fn gaps(name: &str, model: &Model, rail: &Rail) -> Vec<String> {
     let size = rail.axis.iter().map(|part| part * part).sum::<f64>().sqrt();
     let along = |point: usize, offset: [f64; 3]| {

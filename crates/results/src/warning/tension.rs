@@ -1,27 +1,28 @@
-//! Rails between supports that both hold them lengthwise: bending stretches them, and the tension stiffens them, which a
-//! linear model leaves out.
+//! Rails that are restrained lengthwise at both ends: bending stretches them, and the axial tension increases their
+//! bending stiffness, which a linear model neglects.
 
 use std::collections::BTreeSet;
 
 use fea::{Dof, Member, MemberKind, Model};
 
-/// Largest relative growth of the bending stiffness by axial tension, A delta^2 / (4 I), of the members that carry `rail`
-/// between neighbouring points that the ground holds along it; `delta`: deflection of the rail, in the length unit of the
-/// model. `None` where no member lies between two such points.
+/// Largest relative increase of the bending stiffness by axial tension, A delta^2 / (4 I), among the members that
+/// carry `rail` between neighbouring points that are restrained along it; `delta`: deflection of the rail, in the
+/// length unit of the model. `None` where no member lies between two such points.
 ///
-/// The members are visited in their order along the rail; a run of connected members begins at a held point, is abandoned
-/// at a gap, a truss or an axial release, and is evaluated where it reaches the next held point.
+/// The members are visited in their order along the rail. A chain of connected members begins at a restrained point,
+/// is abandoned at a gap, a truss or an axial release, and is evaluated where it reaches the next restrained point.
 ///
 /// # Source
-/// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17 (1950).
+/// Woinowsky-Krieger, The effect of an axial force on the vibration of hinged bars, Journal of Applied Mechanics 17
+/// (1950).
 pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> Option<f64> {
-    let freedoms = [Dof::Ux, Dof::Uy, Dof::Uz];
+    let translations = [Dof::Ux, Dof::Uy, Dof::Uz];
     let size = rail.axis.iter().fold(0.0_f64, |most, part| most.max(part.abs()));
     let along = (0..3).find(|&k| rail.axis[k].abs() == size)?;
-    let held: BTreeSet<usize> = model
+    let restrained: BTreeSet<usize> = model
         .supports
         .iter()
-        .filter(|support| support.fixed[freedoms[along] as usize])
+        .filter(|support| support.fixed[translations[along] as usize])
         .map(|support| support.point)
         .collect();
     let mut members: Vec<&Member> =
@@ -30,27 +31,27 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
     members.sort_by(|a, b| place(a.points[0]).total_cmp(&place(b.points[0])));
 
     let mut largest: Option<f64> = None;
-    let mut stretch: Vec<&Member> = Vec::new();
+    let mut chain: Vec<&Member> = Vec::new();
     let mut last = None;
     for member in members {
         let [mut from, mut to] = member.points;
         if place(from) > place(to) {
             std::mem::swap(&mut from, &mut to);
         }
-        let slides = member.releases.iter().any(|released| released[Dof::Ux as usize]);
-        if held.contains(&from) {
-            stretch.clear();
-            stretch.push(member);
-        } else if last == Some(from) && !stretch.is_empty() {
-            stretch.push(member);
+        let is_released = member.releases.iter().any(|released| released[Dof::Ux as usize]);
+        if restrained.contains(&from) {
+            chain.clear();
+            chain.push(member);
+        } else if last == Some(from) && !chain.is_empty() {
+            chain.push(member);
         } else {
-            stretch.clear();
+            chain.clear();
         }
-        if slides || member.kind == MemberKind::Truss {
-            stretch.clear();
+        if is_released || member.kind == MemberKind::Truss {
+            chain.clear();
         }
-        if held.contains(&to) {
-            for member in stretch.drain(..) {
+        if restrained.contains(&to) {
+            for member in chain.drain(..) {
                 let section = &model.sections[member.section];
                 let inertia = if is_upright(member, model) { section.iz } else { section.iy };
                 if inertia > 0.0 {
@@ -80,17 +81,17 @@ mod tests {
 
     use super::*;
 
-    /// Two members over three points; the last point is held lengthwise if `last_holds`.
-    fn beam(last_holds: bool) -> (Model, Rail) {
-        let held = [true, true, true, true, false, false];
+    /// Two members over three points; the last point is restrained lengthwise if `is_last_restrained`.
+    fn beam(is_last_restrained: bool) -> (Model, Rail) {
+        let fixed = [true, true, true, true, false, false];
         let model = Model {
             up: [0.0, 1.0, 0.0],
             points: vec![[0.0; 3], [5.0, 0.0, 0.0], [10.0, 0.0, 0.0]],
             members: vec![Member::beam([0, 1], 0, [0.0, 1.0, 0.0]), Member::beam([1, 2], 0, [0.0, 0.0, 1.0])],
             sections: vec![CrossSection { area: 0.2, iy: 0.01, iz: 0.05, ..CrossSection::default() }],
             supports: vec![
-                Support { point: 0, fixed: held },
-                Support { point: 2, fixed: [last_holds, true, true, false, false, false] },
+                Support { point: 0, fixed },
+                Support { point: 2, fixed: [is_last_restrained, true, true, false, false, false] },
             ],
             ..Model::default()
         };
@@ -100,9 +101,9 @@ mod tests {
 
     /// Analytic: 0.2 x 0.1^2 / (4 x 0.01) by the member that lies flat.
     #[test]
-    fn ends_held_twice_stiffen_by_the_square_of_the_deflection() {
+    fn ends_restrained_twice_stiffen_by_the_square_of_the_deflection() {
         let (model, rail) = beam(true);
-        let growth = stiffness_growth(&model, &rail, 0.1).expect("both ends hold");
+        let growth = stiffness_growth(&model, &rail, 0.1).expect("both ends are restrained");
         assert!((growth - 0.05).abs() < 1e-15, "{growth}");
     }
 

@@ -2,7 +2,7 @@
 
 use formats::scene::Scene;
 use formats::units::Dimension;
-use results::record::HistoryColumn;
+use results::columns::HistoryColumn;
 
 /// A group of columns whose errors are relative to one common largest value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -9,7 +9,7 @@ use crate::settings::ladder::{self, varies};
 use formats::scene::Scene;
 use formats::scene::motion::simulation_input;
 use foundations::SolvedStructure;
-use results::cases::records_structure;
+use results::cases::records_dofs;
 use results::run_error;
 
 /// The foundations that "auto" chose.
@@ -63,7 +63,7 @@ pub fn left_to_auto(scene: &Scene) -> Scene {
 /// A scene that cannot be simulated, or a choice that took longer, in words.
 pub fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Vec<sim::Choice>, String> {
     let cast = simulation_input(scene).map_err(|failure| failure.to_string())?;
-    let recorded = records_structure(scene, known);
+    let recorded = records_dofs(scene, known);
     let selected =
         limited(limit, |watch| foundations::select_and_run(scene, &cast.scene, known, &recorded, watch));
     let selected = selected.map_err(|error| match error {

@@ -18,8 +18,8 @@ use formats::scene::motion::{SimulationInput, simulation_input};
 use formats::scene::quantity::quantities;
 use foundations::{BuiltFoundation, ModeCache, SolvedModel};
 use foundations::{SolvedStructure, solution_of};
-use results::cases::records_structure;
-use results::record::NamedColumns;
+use results::cases::records_dofs;
+use results::columns::NamedColumns;
 use results::response::{self, Response};
 
 /// Builds the foundations of settings, and keeps modes and tables that settings have in common.
@@ -67,7 +67,7 @@ impl<'k> SetupCache<'k> {
                 own.foundation.compliance = None;
             }
         }
-        let recorded = records_structure(&scene, self.known);
+        let recorded = records_dofs(&scene, self.known);
         let mut foundations: Vec<Foundation> = built.into_iter().map(|own| own.foundation).collect();
         for (s, foundation) in foundations.iter_mut().enumerate() {
             foundation.recorded = recorded(s, foundation);
@@ -85,7 +85,7 @@ impl<'k> SetupCache<'k> {
         let known = self.known;
         let solved: Vec<Option<&SolvedModel>> =
             scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
-        let lines = response::lines(scene, &built, &solved)?;
+        let lines = response::influence_lines(scene, &built, &solved)?;
         let mut record = NamedColumns::new(scene, &run.history);
         let response = Response::new(scene, &case.cast, &run.history, &built, &solved, &lines, &mut record)?;
         let own = quantities(scene).len();

@@ -10,7 +10,7 @@ use crate::runs::reference::{ConvergedReference, RESOLUTION_FACTOR, foundation};
 use crate::settings::budget::StudyBudget;
 use crate::settings::setting::SettingFamily;
 use formats::scene::Scene;
-use results::record::bytes;
+use results::columns::bytes;
 
 /// `study.json`: everything except times.
 #[must_use]

@@ -3,7 +3,7 @@
 use serde_json::{Map as Object, Value, json};
 
 use super::map::{MapLayer, MapVerdict, StabilityMap};
-use results::record::bytes;
+use results::columns::bytes;
 
 /// `stability.json`: counts of verdicts, single numbers and messages of every map, and the reasons of absent ones.
 #[must_use]

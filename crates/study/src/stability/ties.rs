@@ -14,7 +14,7 @@ use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::subject::crossing;
 use formats::spec::ties::{Ties, on_ground};
 use formats::units::{Force, Length, Units};
-use foundations::{full_mesh, solve};
+use foundations::{full_mesh_foundation, solve};
 use report::chart::{Series, Style};
 
 /// Largest relative error of the deflection that counts as right, and the smallest that no user overlooks.
@@ -53,7 +53,7 @@ impl Track {
         let units = Units { length: Length::Inch, force: Force::Pound };
         let spec = on_ground("track", units, &ties, [0.0, length]).map_err(|error| error.to_string())?;
         let solved = solve(&spec).map_err(|error| error.to_string())?;
-        let with_mass = full_mesh(&solved, 1).map_err(|failure| failure.to_string())?;
+        let with_mass = full_mesh_foundation(&solved, 1).map_err(|failure| failure.to_string())?;
         let surface = solved.surface.ok_or("the surface of the track is not known")?;
         Ok(Track {
             length,

@@ -41,7 +41,7 @@ pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Opt
     let rows: Vec<usize> = (0..time.len()).step_by(every).collect();
     let layout = ScenePositions::new(scene)?;
     let largest = |row: &usize| {
-        let grounded = cast.wheels.iter().filter(|wheel| layout.axle(wheel.rail).is_none());
+        let grounded = cast.wheels.iter().filter(|wheel| layout.rail_line(wheel.rail).is_none());
         let forces = grounded.map(|wheel| run.record.part(&wheel.name, "vertical")[*row]);
         forces.fold(0.0, f64::max)
     };

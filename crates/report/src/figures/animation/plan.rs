@@ -47,7 +47,7 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
         }
         drawing.moving(places, view.still, |drawing| {
             let local = |point: [f64; 3]| {
-                let [x, _, z] = view.layout.turned(body, point);
+                let [x, _, z] = view.layout.rotated(body, point);
                 [x * scale, z * scale]
             };
             let own: Vec<(usize, [f64; 2])> = scene

@@ -70,7 +70,7 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
             let own = scene.trucks.iter().filter(|truck| truck.body == body);
             let across: Vec<f64> = own
                 .flat_map(|truck| view.layout.wheels(truck))
-                .map(|at| view.layout.turned(body, at)[2])
+                .map(|at| view.layout.rotated(body, at)[2])
                 .collect();
             let from = across.iter().copied().fold(f64::INFINITY, f64::min);
             let to = across.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -99,7 +99,7 @@ fn rope_ends(view: &AnimationView) -> Vec<[Vec<[f64; 2]>; 2]> {
         match body {
             None => vec![[at[2], at[1]]; view.rows.len()],
             Some(body) => {
-                let arm = view.layout.turned(body, at);
+                let arm = view.layout.rotated(body, at);
                 view.origins(body).iter().map(|[_, y, z]| [z + arm[2], y + arm[1]]).collect()
             }
         }
@@ -140,7 +140,7 @@ fn numbers(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) {
         ));
     }
     for (index, rail) in view.scene.rails.iter().enumerate() {
-        if view.layout.axle(index).is_none() {
+        if view.layout.rail_line(index).is_none() {
             for (part, word) in [("reaction", "vertical"), ("lateral", "lateral")] {
                 list.push((
                     format!("{}.{part}", rail.name),

@@ -47,7 +47,7 @@ impl AnimationView<'_> {
         let mut rails: Vec<(usize, f64)> = Vec::new();
         for truck in &self.scene.trucks {
             let is_known = rails.iter().any(|(rail, _)| *rail == truck.rail);
-            let is_grounded = self.layout.axle(truck.rail).is_none();
+            let is_grounded = self.layout.rail_line(truck.rail).is_none();
             if !is_known && is_grounded && self.scene.bodies[truck.body].pinned.is_none() {
                 rails.push((truck.rail, truck.at[2]));
             }

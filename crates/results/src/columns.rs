@@ -11,9 +11,9 @@ use formats::units::Dimension;
 pub struct HistoryColumn {
     /// Its name.
     pub name: String,
-    /// Dimension of its values; angles have none.
+    /// Dimension of its values; angles are dimensionless.
     pub dimension: Dimension,
-    /// One value for each sample.
+    /// One value per sample.
     pub values: Vec<f64>,
 }
 
@@ -21,7 +21,7 @@ pub struct HistoryColumn {
 ///
 /// ```
 /// use formats::units::Dimension;
-/// use results::record::{NamedColumns, peak};
+/// use results::columns::{NamedColumns, peak};
 ///
 /// let mut record = NamedColumns::default();
 /// record.push("time", Dimension::NUMBER, vec![0.0, 0.5, 1.0]);
@@ -69,7 +69,7 @@ impl NamedColumns {
         self.values(&format!("{owner}.{part}"))
     }
 
-    /// Two columns as points (x, y).
+    /// The points (x, y) of two columns.
     #[must_use]
     pub fn points(&self, x: &str, y: &str) -> Vec<[f64; 2]> {
         self.values(x).iter().zip(self.values(y)).map(|(&x, &y)| [x, y]).collect()

@@ -4,16 +4,16 @@ use formats::scene::motion::SimulationInput;
 use sim::Run;
 
 use crate::codes::CodeCheck;
+use crate::columns::NamedColumns;
 use crate::fatigue::FatigueResult;
-use crate::record::NamedColumns;
 use crate::response::{ColumnInfluence, Response};
 
-/// The result of one case: its run, and what is computed from it.
+/// The result of one case: its run and the quantities computed from it.
 ///
 /// ```
 /// use formats::scene::Document;
 /// use foundations::{distinct_specs, solve_specs};
-/// use results::outcome::CaseResult;
+/// use results::case_result::CaseResult;
 ///
 /// let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
 /// let solved = solve_specs(&document, &distinct_specs(&document)).expect("a girder that stands");
@@ -25,7 +25,7 @@ use crate::response::{ColumnInfluence, Response};
 /// assert!(choices.is_empty(), "its foundation is not \"auto\"");
 /// ```
 pub struct CaseResult {
-    /// Its label; for the scene's own run, the foundations of its structures.
+    /// Its label; for the run of the scene itself, the foundations of its structures.
     pub label: String,
     /// The simulation input.
     pub input: SimulationInput,
@@ -39,7 +39,7 @@ pub struct CaseResult {
     pub lines: Vec<Option<ColumnInfluence>>,
     /// The response of the structures.
     pub response: Response,
-    /// Values of codes beside those of the run; `None` where the scene does not ask for them.
+    /// Values of codes compared with those of the run; `None` where the scene does not request them.
     pub codes: Option<CodeCheck>,
     /// Damage at the stress points that have a detail category.
     pub fatigue: Vec<FatigueResult>,
