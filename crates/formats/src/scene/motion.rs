@@ -42,7 +42,7 @@ pub struct NamedWheel {
 /// An equaliser whose wheels carry unequal fractions of its load.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
-    "{truck}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels"
+    "{truck}: all wheels under one equaliser must carry equal loads: both ends of an equaliser need the same number of wheels"
 )]
 pub struct UnequalFractions {
     /// Name of the truck.

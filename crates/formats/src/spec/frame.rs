@@ -38,8 +38,8 @@ pub(super) fn read(
         model.points.push(check.vector(*point, &place.index(index), Dimension::LENGTH));
     }
     if raw.stations.is_some() {
-        let fault = Fault::new(&root.key("stations"), "`stations` belongs to the short form").at_key();
-        check.faults.add(fault.hint("in the general form each of `rails` has its own"));
+        let fault = Fault::new(&root.key("stations"), "`stations` is a key of the short form").at_key();
+        check.faults.add(fault.hint("in the general form each rail has its own `stations`"));
     }
     let sections = sections::read(raw, root, &mut model, check);
     let cells = members::read(raw, root, &sections, &mut model, check);

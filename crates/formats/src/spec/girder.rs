@@ -48,7 +48,7 @@ pub(super) fn read(
     let ka_lateral = optional(raw.ka_lateral, "kA_lateral", Dimension::AREA);
     let e = check.required_positive(raw.e, &at, "E", Dimension::STRESS, "");
     let i_vertical = check.required_positive(raw.i_vertical, &at, "I_vertical", Dimension::SECOND_MOMENT, "");
-    let hint = "0 where the rail lies on the elastic axis";
+    let hint = "0 if the rail lies on the elastic axis";
     let height = raw.rail_height.unwrap_or_default();
     let rail_height = check.not_negative(height, &at.key("rail_height"), Dimension::LENGTH, hint);
     let mass_per_length = raw
@@ -109,7 +109,7 @@ fn read_stations(
             let slack = 1e-12 * (last - first);
             if station < first - slack || station > last + slack {
                 let expected = format!("must be on the rail, from {first} to {last}");
-                let hint = "stations are coordinates from the first support, overhangs included";
+                let hint = "stations are coordinates from the first support, and may be on the overhangs";
                 check.faults.add(Fault::new(&item, expected).got(number(station)).hint(hint));
             }
             station = station.max(first).min(last);

@@ -123,7 +123,7 @@ fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &m
         let ends = [0, 1].map(|end| along(member.points[end], member.offsets[end]));
         if ends[0] == ends[1] {
             let fault = Fault::new(&at.index(*index), "its cell must have an extent along the rail");
-            check.faults.add(fault.hint("a cell at right angles to the rail cannot carry it"));
+            check.faults.add(fault.hint("a cell that is perpendicular to the rail cannot carry it"));
         }
         range = [range[0].min(ends[0]).min(ends[1]), range[1].max(ends[0]).max(ends[1])];
     }

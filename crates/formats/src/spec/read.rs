@@ -94,7 +94,8 @@ fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
     ];
     for (key, given) in general {
         if given {
-            let fault = Fault::new(&root.key(key), format!("`{key}` cannot stand beside `girder`")).at_key();
+            let fault =
+                Fault::new(&root.key(key), format!("`{key}` cannot be combined with `girder`")).at_key();
             faults.add(
                 fault.hint("a spec is either a short `girder` or the general form with `points` and `cells`"),
             );

@@ -101,13 +101,13 @@ pub enum TiesError {
         range: [f64; 2],
     },
     /// More than [`MAX_ELEMENTS`] elements of a rail.
-    #[error("must leave at most {MAX_ELEMENTS} elements of rail, got {bays}")]
+    #[error("must lead to at most {MAX_ELEMENTS} elements of rail, got {bays}")]
     Many {
         /// Number of elements that would be required.
         bays: f64,
     },
     /// A tie at the end of a member that has releases.
-    #[error("the tie at {x} stands on a hinge of cell {cell}")]
+    #[error("the tie at {x} is at a hinge of cell {cell}")]
     Hinge {
         /// Coordinate along the rail.
         x: f64,
@@ -115,13 +115,13 @@ pub enum TiesError {
         cell: usize,
     },
     /// A rail that is not parallel to a global axis.
-    #[error("rail {rail} must run along a global axis, square to `up`")]
+    #[error("rail {rail} must be parallel to a global axis and perpendicular to `up`")]
     Oblique {
         /// Index of the rail.
         rail: usize,
     },
     /// A structure without a model.
-    #[error("the structure cannot carry ties: no model can be made of it")]
+    #[error("the structure cannot carry ties, because its model cannot be formed")]
     Model,
 }
 

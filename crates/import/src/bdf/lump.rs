@@ -51,7 +51,7 @@ pub fn mass(card: &mut CardFields<'_, '_>) -> Option<MassCard> {
     let grid = card.id(2, "G");
     let absolute = card.text(3) == "-1";
     if !absolute {
-        card.zero(3, "CID", "masses in another system than the basic one cannot be taken")?;
+        card.zero(3, "CID", "masses in a system other than the basic one are not supported")?;
     }
     let mass = card.not_negative(4, "M");
     let offset = card.vector(5, ["X1", "X2", "X3"]);

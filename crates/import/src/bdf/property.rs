@@ -33,7 +33,7 @@ pub struct Property {
     pub end: Option<Box<Property>>,
 }
 
-const NO_PRODUCT: &str = "give the principal second moments, and turn the orientation of the elements";
+const NO_PRODUCT: &str = "state the principal second moments, and rotate the orientation of the elements";
 
 /// Reads PROD.
 pub fn rod(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -101,18 +101,18 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
 /// Checks that a bar has bending stiffness in both planes or in none.
 fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let [i1, i2] = property.bending.map(|value| value > 0.0);
-    let hint = "give both second moments, or neither for a bar that only changes its length";
+    let hint = "state both second moments, or neither for a bar without bending stiffness";
     if i1 != i2 {
         let (index, name) = if i1 { (5, "I2") } else { (4, "I1") };
-        card.refuse(index, name, "must be positive where the other plane bends", hint);
+        card.refuse(index, name, "must be positive if the other second moment is", hint);
     } else if !i1 && property.j > 0.0 {
-        card.refuse(4, "I1", "must be positive where J is", hint);
+        card.refuse(4, "I1", "must be positive if J is", hint);
         return false;
     }
     i1 == i2
 }
 
-const STATIONS: &str = "beams vary linearly from end A to end B: cut others at their stations";
+const STATIONS: &str = "beams vary linearly from end A to end B: divide other beams at their stations";
 
 /// Reads PBEAM, whose properties must vary linearly between the ends.
 pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -133,13 +133,18 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         let x = card.real(first + 2, "X/XB")?;
         let values = stiffness(card, first + 3, Some(own))?;
         if card.optional(first + 8, "NSM")?.is_some_and(|value| value != nsm) {
-            card.refuse(first + 8, "NSM", "must be that of end A", "the further mass cannot vary");
+            card.refuse(
+                first + 8,
+                "NSM",
+                "must be equal to that of end A",
+                "the nonstructural mass cannot vary",
+            );
             return None;
         }
         if x == 1.0 {
             other = values;
         } else if values != own {
-            card.refuse(first + 2, "X/XB", "must be 1. where a beam is tapered", STATIONS);
+            card.refuse(first + 2, "X/XB", "must be 1. if the beam is tapered", STATIONS);
             return None;
         }
         row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) { 2 } else { 1 };
@@ -147,14 +152,14 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let first = 8 * row;
     let shear = [(first + 1, "K1"), (first + 2, "K2")]
         .map(|(index, name)| if card.blank(index) { Some(1.0) } else { card.not_negative(index, name) });
-    let relief = "shear relief of tapered beams cannot be taken";
+    let relief = "shear relief of tapered beams is not supported";
     let relief = [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
-    let apart = "give the neutral axis as offset of the elements";
+    let apart = "state the neutral axis as offset of the elements";
     let apart =
         (first + 13..first + 17).map(|index| card.zero(index, "N", apart)).collect::<Option<Vec<_>>>();
     let lost = [first + 5, first + 6, first + 9, first + 10, first + 11, first + 12];
     if let Some(index) = lost.into_iter().find(|index| !card.blank(*index) && card.text(*index) != "0.") {
-        let fault = card.fault(index, "", "inertia and offset of the further mass are left out");
+        let fault = card.fault(index, "", "inertia and offset of the nonstructural mass are left out");
         card.findings.warn(fault);
     }
     card.end(first + 17);
@@ -241,8 +246,8 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
 fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> bool {
     let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
-        let hint = "give the further mass as CONM2";
-        card.refuse(index, "NSM", "must be 0 where the area of a beam varies", hint);
+        let hint = "state the nonstructural mass as CONM2";
+        card.refuse(index, "NSM", "must be 0 if the area of the beam varies", hint);
     }
     !varies || property.nsm == 0.0
 }
@@ -262,8 +267,8 @@ fn section(
             return None;
         }
         Err(ShapeError::Dimensions | ShapeError::Unknown) => {
-            let hint = "some of them leave no room for others";
-            card.refuse(9, "DIM1", "must begin dimensions of a section", hint);
+            let hint = "the dimensions leave no space between the plates";
+            card.refuse(9, "DIM1", "must be the first of valid dimensions of a section", hint);
             return None;
         }
     };
@@ -298,12 +303,17 @@ fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Opti
             here.push(card.real_or(first + 2 + k, &format!("DIM{}", k + 1), *own)?);
         }
         if card.optional(first + 2 + count, "NSM")?.is_some_and(|value| value != nsm) {
-            card.refuse(first + 2 + count, "NSM", "must be that of end A", "the further mass cannot vary");
+            card.refuse(
+                first + 2 + count,
+                "NSM",
+                "must be equal to that of end A",
+                "the nonstructural mass cannot vary",
+            );
             return None;
         }
         if here != dimensions {
             if x != 1.0 {
-                card.refuse(first + 1, "X/XB", "must be 1. where a beam is tapered", STATIONS);
+                card.refuse(first + 1, "X/XB", "must be 1. if the beam is tapered", STATIONS);
                 return None;
             }
             other = Some(here);

@@ -90,7 +90,7 @@ impl<'d> Resolver<'d, '_> {
         // an error has already been added for a grid that exists but could not be read
         if index.is_none() && !self.deck.grids.contains_key(&id) {
             self.findings
-                .error(ImportFinding::new(at, about, "names a grid that is not there").with_found(id));
+                .error(ImportFinding::new(at, about, "refers to a grid that does not exist").with_found(id));
         }
         index
     }
@@ -100,7 +100,7 @@ impl<'d> Resolver<'d, '_> {
         let deck = self.deck;
         if deck.elements.is_empty() {
             let finding = ImportFinding::new(FilePlace { line: 1, column: 1, file: 0 }, "", "has no member");
-            self.findings.error(finding.hint("members are CBAR, CBEAM, CROD and CONROD"));
+            self.findings.error(finding.hint("supported members are CBAR, CBEAM, CROD and CONROD"));
         }
         for (&id, element) in &deck.elements {
             if let Some(member) = self.member(id, element) {
@@ -118,7 +118,7 @@ impl<'d> Resolver<'d, '_> {
             Given::Number(number) => {
                 let Some(property) = deck.properties.get(number) else {
                     let finding =
-                        ImportFinding::new(element.card, about, "names a property that is not there");
+                        ImportFinding::new(element.card, about, "refers to a property that does not exist");
                     self.findings.error(finding.with_found(number));
                     return None;
                 };
@@ -132,7 +132,7 @@ impl<'d> Resolver<'d, '_> {
         };
         if !fits {
             let expected = format!("cannot have the property {} {number}", property.kind);
-            let hint = "CBAR takes PBAR and PBARL, CBEAM takes PBEAM and PBEAML, CROD takes PROD";
+            let hint = "CBAR needs PBAR or PBARL, CBEAM needs PBEAM or PBEAML, CROD needs PROD";
             self.findings.error(ImportFinding::new(element.card, about, expected).hint(hint));
             return None;
         }
@@ -155,7 +155,7 @@ impl<'d> Resolver<'d, '_> {
                         let finding = ImportFinding::new(
                             element.card,
                             format!("{about}: G0"),
-                            "names a grid that is not there",
+                            "refers to a grid that does not exist",
                         );
                         self.findings.error(finding.with_found(grid));
                     }
@@ -182,8 +182,9 @@ impl<'d> Resolver<'d, '_> {
         let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + element.offsets[end][axis]);
         let along = minus(tip(1), tip(0));
         if along == [0.0; 3] {
-            let finding = ImportFinding::new(element.card, about, "must have a length between its ends");
-            self.findings.error(finding.hint("its ends coincide, offsets included"));
+            let finding =
+                ImportFinding::new(element.card, about, "must have a positive length between its ends");
+            self.findings.error(finding.hint("its ends coincide after the offsets are added"));
             return None;
         }
         let orientation = self.orientation(element, ends[0], &about)?;
@@ -191,7 +192,7 @@ impl<'d> Resolver<'d, '_> {
         if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
             let finding =
                 ImportFinding::new(element.card, about, "its orientation must not be zero or along it");
-            self.findings.error(finding.hint("X1, X2, X3 or G0 give the side of the local y axis"));
+            self.findings.error(finding.hint("X1, X2, X3 or G0 define the side of the local y axis"));
             return None;
         }
         let mut member = ImportedMember {
@@ -256,7 +257,7 @@ impl<'d> Resolver<'d, '_> {
                 self.findings.error(ImportFinding::new(
                     mass.at,
                     &mass.label,
-                    "must be a mass that a double can hold",
+                    "must be a mass within double precision",
                 ));
             }
         }
@@ -288,7 +289,8 @@ impl<'d> Resolver<'d, '_> {
             for (grid, at) in &hold.grids {
                 if !deck.grids.contains_key(grid) {
                     self.findings.error(
-                        ImportFinding::new(*at, &about, "names a grid that is not there").with_found(grid),
+                        ImportFinding::new(*at, &about, "refers to a grid that does not exist")
+                            .with_found(grid),
                     );
                 }
                 restrained.extend(self.index.get(grid));
@@ -304,7 +306,7 @@ impl<'d> Resolver<'d, '_> {
             self.findings.warn(ImportFinding::new(
                 at,
                 format!("SPC set {set}"),
-                "is not the one chosen, and left out",
+                "is not the selected set and is left out",
             ));
         }
     }
@@ -319,8 +321,11 @@ impl<'d> Resolver<'d, '_> {
                 Stiffness::Number(number) => match deck.stiffness.get(&number) {
                     Some((_, k)) => *k,
                     None => {
-                        let finding =
-                            ImportFinding::new(spring.card, &spring.label, "names a PELAS that is not there");
+                        let finding = ImportFinding::new(
+                            spring.card,
+                            &spring.label,
+                            "refers to a PELAS that does not exist",
+                        );
                         self.findings.error(finding.with_found(number));
                         continue;
                     }
@@ -351,17 +356,20 @@ impl<'d> Resolver<'d, '_> {
                     self.structure.springs.push(ImportedSpring { point: *point, dof: *dof, k });
                 }
                 [] => {
-                    let finding =
-                        ImportFinding::new(spring.card, &spring.label, "left out: all its ends are held");
+                    let finding = ImportFinding::new(
+                        spring.card,
+                        &spring.label,
+                        "is left out, because all its ends are restrained",
+                    );
                     self.findings.warn(finding);
                 }
                 _ => {
                     let finding = ImportFinding::new(
                         spring.card,
                         &spring.label,
-                        "must have one end at ground, or held",
+                        "must have one end at ground or restrained",
                     );
-                    self.findings.error(finding.hint("springs between two moving grids cannot be taken"));
+                    self.findings.error(finding.hint("springs between two moving grids are not supported"));
                 }
             }
         }

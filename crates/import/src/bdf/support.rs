@@ -30,7 +30,7 @@ pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
         }
         let grid = card.id(first, "G");
         let fix = card.freedoms(first + 1, "C");
-        let moved = card.zero(first + 2, "D", "supports that move cannot be taken");
+        let moved = card.zero(first + 2, "D", "prescribed displacements of supports are not supported");
         if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
             let grids = vec![(grid, card.at(first))];
             holds.push(SupportCard { set, card: card.card.at, grids, ranges: Vec::new(), fix });
@@ -68,7 +68,7 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
         }
     }
     if hold.grids.is_empty() && hold.ranges.is_empty() {
-        card.refuse(3, "G1", "is missing", "name the grids that the set holds");
+        card.refuse(3, "G1", "is missing", "state the grids that the set restrains");
     }
     Some(hold)
 }
@@ -100,8 +100,11 @@ pub fn chosen(
 ) -> BTreeSet<u64> {
     let plain: BTreeSet<u64> = holds.iter().map(|hold| hold.set).collect();
     let known: Vec<String> = plain.iter().chain(adds.keys()).map(u64::to_string).collect();
-    let list =
-        if known.is_empty() { "there is none".to_owned() } else { format!("there is {}", known.join(", ")) };
+    let list = if known.is_empty() {
+        "there are no sets".to_owned()
+    } else {
+        format!("known sets: {}", known.join(", "))
+    };
     let selected: BTreeSet<u64> = control.iter().map(|(set, _)| *set).collect();
     let first = control.first().map_or(FilePlace::default(), |(_, at)| *at);
     let (set, at) = match (asked, selected.len()) {
@@ -118,8 +121,9 @@ pub fn chosen(
                 [only] => {
                     if controlled {
                         let at = holds.first().map_or(first, |hold| hold.card);
-                        let told =
-                            format!("set {only} is taken: case control chooses none, and there is no other");
+                        let told = format!(
+                            "set {only} is used, because it is the only one and case control selects none"
+                        );
                         findings.warn(ImportFinding::new(at, "SPC", told));
                     }
                     (*only, FilePlace::default())
@@ -129,7 +133,7 @@ pub fn chosen(
                     let finding = ImportFinding::new(
                         at,
                         "SPC",
-                        "must be chosen: case control chooses none of several sets",
+                        "must be selected, because there are several sets and case control selects none",
                     );
                     findings.error(finding.hint(format!("add --spc N; {list}")));
                     return BTreeSet::new();
@@ -138,7 +142,7 @@ pub fn chosen(
         }
         (None, _) => {
             let finding = ImportFinding::new(first, "SPC", "must be the same in all subcases");
-            findings.error(finding.hint(format!("choose with --spc N; {list}")));
+            findings.error(finding.hint(format!("select one with --spc N; {list}")));
             return BTreeSet::new();
         }
     };
@@ -147,7 +151,7 @@ pub fn chosen(
             findings.error(ImportFinding::new(
                 at,
                 format!("SPCADD {set}"),
-                format!("names set {part}, which is not there"),
+                format!("refers to set {part}, which does not exist"),
             ));
         }
         return parts.iter().copied().collect();

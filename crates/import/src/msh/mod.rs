@@ -46,8 +46,9 @@ pub fn read(
         let [a, b] = nodes.map(|node| index.get(&node).copied());
         let (Some(a), Some(b)) = (a, b) else {
             let missing = nodes.into_iter().find(|node| !index.contains_key(node)).unwrap_or_default();
-            findings
-                .error(ImportFinding::new(at, about, "names a node that is not there").with_found(missing));
+            findings.error(
+                ImportFinding::new(at, about, "refers to a node that does not exist").with_found(missing),
+            );
             continue;
         };
         let names: Vec<&str> = names(&mesh, 1, curve);
@@ -70,15 +71,16 @@ pub fn read(
         let along = minus(structure.points[b].at, structure.points[a].at);
         let orientation = group.orientation.or(structure.up);
         if along == [0.0; 3] {
-            findings.error(ImportFinding::new(at, about, "must have a length"));
+            findings.error(ImportFinding::new(at, about, "must have a positive length"));
             continue;
         }
         if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
             if !reported.contains(&curve) {
                 reported.push(curve);
-                let hint = format!("give \"{name}\" an `orientation` in `members` of the sections file");
+                let hint = format!("state the `orientation` of \"{name}\" in `members` of the sections file");
                 findings.error(
-                    ImportFinding::new(at, about, "must have an orientation that is not along it").hint(hint),
+                    ImportFinding::new(at, about, "must have an orientation that is not parallel to it")
+                        .hint(hint),
                 );
             }
             continue;
@@ -109,7 +111,7 @@ pub fn read(
 /// Part of a message that lists the physical groups of a curve.
 fn list(names: &[&str]) -> String {
     if names.is_empty() {
-        "and is in none with a name".to_owned()
+        "but is in none with a name".to_owned()
     } else {
         format!("and is in {}", names.join(", "))
     }

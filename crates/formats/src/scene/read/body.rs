@@ -87,7 +87,9 @@ fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool;
         let item = place.index(index);
         match DOFS.iter().position(|known| known == word) {
             Some(known) if free[known] => {
-                check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+                check
+                    .faults
+                    .add(Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")));
             }
             Some(known) => free[known] = true,
             None => {
@@ -112,8 +114,7 @@ fn read_start(raw: &RawStart, free: &[bool; 6], at: &Place<'_>, check: &mut Chec
         let dimension = if index < 2 { Dimension::LENGTH } else { Dimension::NUMBER };
         start[index] = check.number(value, &at.key(word), dimension);
         if !free[index + 1] {
-            let fault =
-                Fault::new(&at.key(word), format!("`{word}` is held")).hint("list it in `dof` to free it");
+            let fault = Fault::new(&at.key(word), format!("`{word}` is not free")).hint("list it in `dof`");
             check.faults.add(fault);
         }
     }
@@ -134,8 +135,9 @@ pub(super) fn read_motions(
         let at = list.index(index);
         for (key, given) in [("truck", motion.truck.is_some()), ("wheel", motion.wheel.is_some())] {
             if given {
-                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion of a spin"));
-                check.faults.add(fault.at_key().hint("\"dof\": \"spin\""));
+                let fault =
+                    Fault::new(&at.key(key), format!("`{key}` is only available in the motion of a spin"));
+                check.faults.add(fault.at_key().hint("such a motion has \"dof\": \"spin\""));
             }
         }
         let body = check.faults.require(&motion.body, &at, "body").and_then(|name| {
@@ -146,7 +148,7 @@ pub(super) fn read_motions(
             let place = at.key("dof");
             if DOFS[1..].contains(&dof.as_str()) {
                 let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
-                check.faults.add(fault.hint("motions along the rail, \"dof\": \"x\", are"));
+                check.faults.add(fault.hint("motions along the rail (\"dof\": \"x\") and spins of wheels (\"dof\": \"spin\") are available"));
             } else {
                 check.faults.one_of(dof, &place, &[("x", ())]);
             }
@@ -156,18 +158,20 @@ pub(super) fn read_motions(
             continue;
         };
         if let Some(earlier) = first[body].replace(index) {
-            let expected = format!("body {} has its motion in motions[{earlier}] already", bodies[body].name);
-            check.faults.add(Fault::new(&at, expected).hint("every body has one motion along the rail"));
+            let expected = format!("body {} already has a motion in motions[{earlier}]", bodies[body].name);
+            check.faults.add(Fault::new(&at, expected).hint("a body can have one motion along its rail"));
             continue;
         }
         if bodies[body].in_space {
             let fault = Fault::new(&at.key("body"), format!("body {} runs on no rail", bodies[body].name));
-            check.faults.add(fault.hint("a body in space moves by its ropes, stops and weight"));
+            check
+                .faults
+                .add(fault.hint("the motion of a body in space follows from its ropes, stops and weight"));
             continue;
         }
         if raw_bodies.0[body].1.pinned.is_some() {
             let fault = Fault::new(&at.key("body"), format!("body {} is pinned", bodies[body].name));
-            check.faults.add(fault.hint("move the body that carries it"));
+            check.faults.add(fault.hint("prescribe the motion of the body that carries it"));
             continue;
         }
         read_motion(motion, &raw_bodies.0[body].1, &mut bodies[body], &at, check);
@@ -177,7 +181,7 @@ pub(super) fn read_motions(
         let at = at.key(name);
         if raw.v0.is_some() && raw.pinned.is_none() && body.motion == BodyMotion::Held {
             let fault = Fault::new(&at.key("v0"), "the body cannot move along its rail");
-            check.faults.add(fault.hint("list \"x\" in `dof` to free it"));
+            check.faults.add(fault.hint("list \"x\" in `dof`"));
         }
     }
 }
@@ -204,7 +208,7 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         ("brake", motion.brake.is_some(), kind != Kind::Prescribed, "\"drive\" or \"free\""),
     ] {
         if given && !holds {
-            let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion {owner}"));
+            let fault = Fault::new(&at.key(key), format!("`{key}` is only available in the motion {owner}"));
             check.faults.add(fault.at_key());
         }
     }
@@ -220,7 +224,10 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
     if kind != Kind::Prescribed {
         for (key, what, ..) in &given {
             if kind == Kind::Free || *what != MotionKind::Speed {
-                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\""));
+                let fault = Fault::new(
+                    &at.key(key),
+                    format!("`{key}` is only available in the motion \"prescribed\""),
+                );
                 check.faults.add(fault.at_key());
             }
         }
@@ -259,8 +266,12 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
             let root = Place::root();
             let at = root.key("bodies");
             let at = at.key(&body.name);
-            let expected = format!("must be {}, as the motion prescribes at time 0", number(table));
-            check.faults.add(Fault::new(&at.key(key), expected).got(number(own)).hint("or leave it out"));
+            let expected = format!("must be {}, the value of the motion at time 0", number(table));
+            check.faults.add(
+                Fault::new(&at.key(key), expected)
+                    .got(number(own))
+                    .hint("leave it out, or change the motion"),
+            );
         }
     }
     (body.x0, body.v0) = (begin.x, begin.v);

@@ -31,8 +31,8 @@ pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -
     let root = Place::root();
     let list = root.key("events");
     if scene.analysis == Analysis::QuasiStatic {
-        let fault = Fault::new(&list, "a quasi-static scene has no events").at_key();
-        check.faults.add(fault.hint("leave `analysis` out for the equations of motion"));
+        let fault = Fault::new(&list, "a quasi-static analysis cannot have events").at_key();
+        check.faults.add(fault.hint("leave `analysis` out to solve the equations of motion"));
     }
     let known = quantities(scene);
     let mut events: Vec<Event> = Vec::new();
@@ -62,7 +62,7 @@ pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -
 /// condition can be met, and actions with the same condition must not contradict each other.
 fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Check<'_>) {
     if before.iter().any(|other| other.name == event.name) {
-        let expected = format!("the name \"{}\" is taken by another event", event.name);
+        let expected = format!("the name \"{}\" is already used by another event", event.name);
         check.faults.add(Fault::new(&at.key("name"), expected));
     }
     for other in before {
@@ -77,7 +77,7 @@ fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Che
         let pairs = || event.rule.actions.iter().flat_map(|a| other.rule.actions.iter().map(move |b| (a, b)));
         if together && pairs().any(|(a, b)| contradict(a, b)) {
             let expected =
-                format!("contradicts {}, which happens at once: {}", other.name, other.description);
+                format!("contradicts {}, which has the same condition: {}", other.name, other.description);
             let fault = Fault::new(&at.key("do"), expected).got(event.description.clone());
             check.faults.add(fault.hint("give them different conditions"));
         }
@@ -129,13 +129,15 @@ fn read_condition(
         let own: Vec<&str> =
             names.iter().copied().filter(|known| known.split('.').next() == Some(owner)).collect();
         let mut hint = match &own[..] {
-            [] => "names are those of the history's columns".to_owned(),
+            [] => "quantities have the names of the columns of the history".to_owned(),
             own => format!("known: {}", own.join(", ")),
         };
         if let Some(near) = nearest(name, &names) {
             hint = format!("did you mean \"{near}\"? {hint}");
         }
-        check.faults.add(Fault::new(place, "must compare a quantity").got(format!("\"{name}\"")).hint(hint));
+        check.faults.add(
+            Fault::new(place, "must begin with the name of a quantity").got(format!("\"{name}\"")).hint(hint),
+        );
         return None;
     };
     let level = check.number(level, place, quantity.dimension);
@@ -158,22 +160,22 @@ fn why_useless(condition: &Condition, quantity: &Quantity, scene: &Scene) -> Opt
         return Some(format!("can never be met: {} is always 0", quantity.name));
     };
     match channel {
-        Channel::Time if !rises => Some("is met from the start: time only grows".to_owned()),
+        Channel::Time if !rises => Some("is met from the start, because time only increases".to_owned()),
         Channel::Time if level >= scene.end => {
             Some(format!("can never be met: the scene ends at {}", number(scene.end)))
         }
-        Channel::Tension(_) => least(0.0, "a rope never pushes"),
-        Channel::Stop(_) => least(0.0, "a stop never pulls"),
+        Channel::Tension(_) => least(0.0, "a rope cannot push"),
+        Channel::Stop(_) => least(0.0, "a stop cannot pull"),
         Channel::Vertical(w) => {
             let wheels = wheels(scene);
             let pulls = scene.wheels[wheels[w].kind].vertical.bilateral;
-            if pulls { None } else { least(0.0, "a wheel never pulls") }
+            if pulls { None } else { least(0.0, "a wheel cannot pull") }
         }
         Channel::Position(w) => {
             let wheels = wheels(scene);
             let [low, high] = scene.rails[wheels[w].rail].range;
             let beyond = if rises { level > high } else { level < low };
-            let range = format!("the rail reaches from {} to {}", number(low), number(high));
+            let range = format!("the rail extends from {} to {}", number(low), number(high));
             beyond.then(|| format!("can never be met: {range}"))
         }
         Channel::Displacement(b, sim::BodyDof::X) | Channel::Speed(b, sim::BodyDof::X) => {
@@ -200,8 +202,13 @@ fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) ->
         }
     }
     let beyond = level.is_some_and(|level| if rises { level > high } else { level < low });
-    beyond
-        .then(|| format!("can never be met: the wheels hold x between {} and {}", number(low), number(high)))
+    beyond.then(|| {
+        format!(
+            "can never be met: the wheels are on their rails only where x is between {} and {}",
+            number(low),
+            number(high)
+        )
+    })
 }
 
 /// Reads the actions of an event and their description.
@@ -222,8 +229,8 @@ fn read_actions(
             let fault = Fault::new(&place, format!("body {name} does not move freely along its rail"));
             check.faults.add(fault.hint("brakes need a motion \"drive\" or \"free\""));
         } else if given.brake.is_none() {
-            let fault = Fault::new(&place, format!("nothing puts the brakes of body {name} on"));
-            check.faults.add(fault.hint("`brake` of its motion or of another event does"));
+            let fault = Fault::new(&place, format!("the brakes of body {name} are never applied"));
+            check.faults.add(fault.hint("apply them with `brake` of its motion or of another event"));
         }
         if on && matches!(given.motion, BodyMotion::Driven(_)) && raw.drive.is_none() {
             actions.push(Action::Drive { body: b, speed: None });
@@ -272,11 +279,11 @@ fn read_actions(
     }
     if words.is_empty() && check.faults.0.len() == faults {
         let hint = "`brake`, `release_brake`, `drive`, `drive_off`, `hoist`, `drop` or `end`";
-        check.faults.add(Fault::new(at, "must do something").hint(hint));
+        check.faults.add(Fault::new(at, "must have at least one action").hint(hint));
     }
     let mut pairs = actions.iter().enumerate().flat_map(|(i, a)| actions[..i].iter().map(move |b| (a, b)));
     if pairs.any(|(a, b)| contradict(a, b)) {
-        check.faults.add(Fault::new(at, "contradicts itself").got(words.join("; ")));
+        check.faults.add(Fault::new(at, "has actions that contradict each other").got(words.join("; ")));
     }
     (check.faults.0.len() == faults).then(|| (actions, words.join("; ")))
 }
@@ -291,7 +298,7 @@ fn driven(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -
     let b = body(name, place, scene, check)?;
     if !matches!(scene.bodies[b].motion, BodyMotion::Driven(_)) {
         let fault = Fault::new(place, format!("body {name} has no drive"));
-        check.faults.add(fault.hint("give it a motion of \"kind\": \"drive\""));
+        check.faults.add(fault.hint("a drive is a motion of \"kind\": \"drive\""));
         return None;
     }
     Some(b)
@@ -312,7 +319,7 @@ fn dropped(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) 
     let all: Vec<usize> =
         scene.ropes.iter().enumerate().filter(|(_, rope)| own(rope)).map(|(index, _)| index).collect();
     if all.is_empty() {
-        check.faults.add(Fault::new(place, format!("no rope holds body {name}")));
+        check.faults.add(Fault::new(place, format!("no rope is attached to body {name}")));
     }
     all
 }

@@ -26,7 +26,7 @@ fn read_fatigue(raw: &Option<RawFatigue>, at: &Place<'_>, check: &mut Check<'_>)
     let words = [("once", Repetition::Once), ("repeated", Repetition::Repeated)];
     let history = raw.history.as_ref().and_then(|word| check.faults.one_of(word, &at.key("history"), &words));
     fatigue.history = history.unwrap_or(Repetition::Once);
-    let hint = "how often the run happens in a life";
+    let hint = "number of runs in the design life";
     fatigue.crossings = check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
     fatigue
 }
@@ -104,7 +104,8 @@ fn read_spans(
         let at = place.key(name);
         let Some(rail) = rail_named(name, rails, &at, check.faults) else { continue };
         if given.len() < 2 {
-            let fault = Fault::new(&at, "must have the two ends of a span at least").got(given.len());
+            let fault =
+                Fault::new(&at, "must have at least two coordinates, the ends of a span").got(given.len());
             check.faults.add(fault);
         }
         if !check.faults.increasing(given, &at) {
@@ -118,7 +119,7 @@ fn read_spans(
         let [first, last] = rails[rail].range;
         if let Some(k) = ends.iter().position(|x| *x < first || *x > last) {
             let fault = Fault::new(&at.index(k), format!("must lie on rail {name}")).got(given[k]);
-            check.faults.add(fault.hint(format!("it runs from {first} to {last}")));
+            check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
         }
         spans.push((rail, ends));
     }

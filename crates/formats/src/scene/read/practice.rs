@@ -64,7 +64,8 @@ pub(super) fn read(
     let mut size = |value: Option<f64>, key: &str, dimension: Dimension, hint: &str| {
         check.optional_positive(value, &at.key(key), dimension, hint)
     };
-    let approach = size(raw.approach, "approach", Dimension::LENGTH, "from the hook to the nearer rail");
+    let approach =
+        size(raw.approach, "approach", Dimension::LENGTH, "distance from the hook to the nearer rail");
     let rail_head = size(raw.rail_head, "rail_head", Dimension::LENGTH, "width of the rail's head");
     let speeds = [
         size(raw.bridge_speed, "bridge_speed", Dimension::SPEED, "rated"),
@@ -135,7 +136,7 @@ fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<us
             let names: Vec<String> =
                 found.iter().map(|body| format!("\"{}\"", scene.bodies[*body].name)).collect();
             let fault = Fault::new(at, "missing key `crane`");
-            check.faults.add(fault.hint(format!("which body is the crane: {}", names.join(", "))));
+            check.faults.add(fault.hint(format!("name the body that is the crane: {}", names.join(", "))));
             None
         }
     }
@@ -164,10 +165,15 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
                 }
                 count => count.to_string(),
             };
-            let fault =
-                Fault::new(at, format!("\"{}\" must run on two rails, apart", scene.bodies[crane].name));
+            let fault = Fault::new(
+                at,
+                format!(
+                    "\"{}\" must run on two rails with different lateral positions",
+                    scene.bodies[crane].name
+                ),
+            );
             check.faults.add(fault.got(found).hint(
-                "the codes speak of cranes on a runway of two rails; z of a truck's `at` is its place across",
+                "the codes apply to cranes on two rails; z of `at` is the lateral position of a truck",
             ));
             None
         }

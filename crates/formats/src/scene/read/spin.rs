@@ -30,7 +30,7 @@ pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) 
         let at = list.index(index);
         let Some(spin) = read(motion, scene, &at, check) else { continue };
         if spins.iter().any(|other| (other.truck, other.wheel) == (spin.truck, spin.wheel)) {
-            check.faults.add(Fault::new(&at, "the spin of this wheel has its motion already"));
+            check.faults.add(Fault::new(&at, "the spin of this wheel already has a motion"));
         }
         spins.push(spin);
     }
@@ -40,8 +40,11 @@ pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) 
         let acts = (kind.driven && matches!(body.motion, BodyMotion::Driven(_)))
             || (kind.braked && body.brake.is_some());
         if acts && spins.iter().any(|spin| spin.truck == truck) {
-            let fault = Fault::new(&list, format!("truck {} has a drive or a brake, and a spin", owner.name));
-            check.faults.add(fault.hint("one or the other acts on a wheel"));
+            let fault = Fault::new(
+                &list,
+                format!("truck {} cannot have both a prescribed spin and a drive or brake", owner.name),
+            );
+            check.faults.add(fault.hint("remove either the motion of the spin or the drive and the brake"));
         }
     }
     spins
@@ -58,8 +61,10 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
         ("brake", motion.brake.is_some()),
     ] {
         if given {
-            let fault = Fault::new(&at.key(key), format!("`{key}` does not belong to the motion of a spin"));
-            check.faults.add(fault.at_key().hint("it has `truck`, `wheel`, `kind` and one table"));
+            let fault = Fault::new(&at.key(key), format!("`{key}` is not a key of the motion of a spin"));
+            check
+                .faults
+                .add(fault.at_key().hint("its keys are `truck`, `wheel`, `dof`, `kind` and one table"));
         }
     }
     let rate = |power| Dimension::of(0, 0, power);
@@ -98,7 +103,7 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
     let number = motion.wheel.unwrap_or(1);
     if number == 0 || number > count {
         let fault = Fault::new(&at.key("wheel"), format!("must be a wheel of truck {}", owner.name));
-        check.faults.add(fault.got(number).hint(format!("it has {count}, counted from 1")));
+        check.faults.add(fault.got(number).hint(format!("the truck has {count} wheels, counted from 1")));
         return None;
     }
     let kind = &scene.wheels[owner.wheel];
@@ -106,7 +111,7 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
         let place = Place::root();
         let place = place.key("wheels");
         let fault = Fault::new(&place.key(&kind.name), "a wheel whose spin is prescribed needs `friction`");
-        check.faults.add(fault.at_key().hint("friction takes its body along"));
+        check.faults.add(fault.at_key().hint("friction transmits the force between wheel and rail"));
     }
     Some(Spin { truck, wheel: number - 1, motion: profile? })
 }

@@ -23,8 +23,10 @@ pub(super) fn read_all(raw: &[RawStop], scene: &Scene, check: &mut Check<'_>) ->
         let others = stops.iter().map(|other| &other.name);
         let others = others.chain(scene.bodies.iter().map(|body| &body.name));
         if others.chain(scene.ropes.iter().map(|rope| &rope.name)).any(|other| *other == stop.name) {
-            let expected = format!("the name \"{}\" is taken", stop.name);
-            check.faults.add(Fault::new(&at, expected).hint("stops, ropes and bodies name columns"));
+            let expected = format!("the name \"{}\" is already used", stop.name);
+            check.faults.add(
+                Fault::new(&at, expected).hint("names of stops, ropes and bodies are also names of columns"),
+            );
         }
         stops.push(stop);
     }
@@ -43,12 +45,16 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
     });
     let point = raw.at.map(|point| check.vector(point, &at.key("at"), Dimension::LENGTH));
     if point.is_some() && body.is_none() {
-        check
-            .faults
-            .add(Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("a point of that body"));
+        check.faults.add(
+            Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("`at` is a point of that body"),
+        );
     }
     if raw.gap.is_some() && raw.against.is_none() {
-        check.faults.add(Fault::new(&at.key("gap"), "`gap` needs `against`").at_key().hint("a body"));
+        check.faults.add(
+            Fault::new(&at.key("gap"), "`gap` needs `against`")
+                .at_key()
+                .hint("`against` names the other body"),
+        );
     }
     if let (Some(other), None, None, None) = (&raw.against, &raw.rail, raw.x, raw.height) {
         check.faults.require(&raw.body, at, "body")?;
@@ -107,10 +113,19 @@ fn buffer(
     let known = names(&scene.bodies, |body| &body.name);
     let against = resolve(other, &known, "body", &at.key("against"), check.faults)?;
     let gap = raw.gap.unwrap_or_default();
-    let gap = check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "the way until they meet");
+    let gap = check.not_negative(
+        gap,
+        &at.key("gap"),
+        Dimension::LENGTH,
+        "distance of the bodies before they touch",
+    );
     if let Some(side) = &raw.side {
         let fault = Fault::new(&at.key("side"), "a buffer between bodies has no `side`").at_key();
-        check.faults.add(fault.got(format!("\"{side}\"")).hint("where they stand at the start says it"));
+        check.faults.add(
+            fault
+                .got(format!("\"{side}\""))
+                .hint("the side follows from the positions of the bodies at the start"),
+        );
     }
     let place = |b: usize| root_of(&scene.bodies, b).map(|(root, ahead)| scene.bodies[root].x0 + ahead);
     let roots = [body, against].map(|b| root_of(&scene.bodies, b).map(|(root, _)| &scene.bodies[root]));
@@ -162,9 +177,10 @@ fn on_rail(
         let (Some(first), Some(last)) = (first, last) else {
             if body.is_some() {
                 let expected = format!("no wheel of body {} is on that rail", scene.bodies[b].name);
-                check
-                    .faults
-                    .add(Fault::new(&at.key("body"), expected).hint("`at` is the point that meets the stop"));
+                check.faults.add(
+                    Fault::new(&at.key("body"), expected)
+                        .hint("with `at` a point of the body meets the stop"),
+                );
             }
             continue;
         };
@@ -173,9 +189,9 @@ fn on_rail(
             None if last.2 <= x => 1.0,
             None if first.2 >= x => -1.0,
             None => {
-                let expected = format!("body {} stands astride the stop", scene.bodies[b].name);
+                let expected = format!("body {} has wheels on both sides of the stop", scene.bodies[b].name);
                 let found = format!("wheels from x = {} to {}", number(first.2), number(last.2));
-                let hint = "\"side\": \"before\" or \"beyond\" says where the body belongs";
+                let hint = "state the side of the body with \"side\": \"before\" or \"beyond\"";
                 check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
                 1.0
             }
