@@ -107,8 +107,8 @@ impl Coupling {
             format!("{:.1} % (median; at most {:.1} %)", 100.0 * change.median, 100.0 * change.largest)
         };
         Some(format!(
-            "coupling: the vertical-lateral coefficients are up to {relative:.3} of sqrt(Gvv Gll); under a side load of \
-             {} of the wheel load, leaving them out changes the lateral deflection by {}, the vertical by {}",
+            "coupling: the vertical-lateral coefficients are up to {relative:.3} of sqrt(Gvv Gll); under a side load \
+             of {} of the wheel load, leaving them out changes the lateral deflection by {}, the vertical by {}",
             number(LATERAL_LOAD_FRACTION),
             percent(cost.lateral),
             percent(cost.vertical),

@@ -294,7 +294,9 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
                 let expected =
                     format!("must be symmetric: [{column}][{row}] is {}", number(block[(column, row)]));
                 let fault = Fault::new(&line.index(column), expected).got(number(block[(row, column)]));
-                faults.add(fault.hint("the displacement at i due to a load at j equals the displacement at j due to the same load at i"));
+                faults.add(fault.hint(
+                    "a displacement at i due to a load at j equals that at j due to the same load at i",
+                ));
                 return;
             }
         }

@@ -63,9 +63,9 @@ pub(super) fn read_girder(
             if given {
                 let fault =
                     Fault::new(&at.key(key), format!("`{key}` is a key of the general form")).at_key();
-                check.faults.add(fault.hint(
-                    "in the short form the position of a section is `x`, measured from the first support",
-                ));
+                check.faults.add(
+                    fault.hint("in the short form its position is `x`, measured from the first support"),
+                );
             }
         }
         let Some(&given) = check.faults.require(&raw.x, at, "x") else { return };
@@ -101,7 +101,11 @@ pub(super) fn read_frame(
     each(raw, root, check, |raw, at, name, check| {
         if raw.x.is_some() {
             let fault = Fault::new(&at.key("x"), "`x` is a key of the short form").at_key();
-            check.faults.add(fault.hint("in the general form the position of a section is `at`, a fraction of the length of its `cell`"));
+            check
+                .faults
+                .add(fault.hint(
+                    "in the general form its position is `at`, a fraction of the length of its `cell`",
+                ));
         }
         let cell = check.faults.require(&raw.cell, at, "cell").copied();
         let place = check.faults.require(&raw.at, at, "at").copied();

@@ -7,7 +7,7 @@ use super::raw::RawSpec;
 use super::references::{Points, dofs, index_below};
 use super::stress::{self, StressPoint};
 use super::structure::FrameSpec;
-use super::words::FREEDOMS;
+use super::words::DOF_WORDS;
 use super::{members, rails, sections};
 use crate::check::Check;
 use crate::text::fault::Fault;
@@ -140,15 +140,15 @@ fn read_springs(
     for (index, raw) in raw.springs.iter().flatten().enumerate() {
         let at = list.index(index);
         let point = known.one(&raw.point, "point", &at, check);
-        let freedom = check
+        let dof = check
             .faults
             .require(&raw.dof, &at, "dof")
-            .and_then(|word| check.faults.one_of(word, &at.key("dof"), &FREEDOMS));
-        let rotational = matches!(freedom, Some(Dof::Rx | Dof::Ry | Dof::Rz));
+            .and_then(|word| check.faults.one_of(word, &at.key("dof"), &DOF_WORDS));
+        let rotational = matches!(dof, Some(Dof::Rx | Dof::Ry | Dof::Rz));
         let dimension = if rotational { Dimension::MOMENT } else { Dimension::STIFFNESS };
         let stiffness = check.required_positive(raw.k, &at, "k", dimension, "stiffness to ground");
-        let both = point.zip(freedom);
-        model.springs.extend(both.map(|(point, freedom)| GroundSpring { point, dof: freedom, stiffness }));
+        let both = point.zip(dof);
+        model.springs.extend(both.map(|(point, dof)| GroundSpring { point, dof, stiffness }));
     }
 }
 

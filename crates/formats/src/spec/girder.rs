@@ -18,24 +18,8 @@ pub(super) fn read(
     check: &mut Check<'_>,
 ) -> Girder {
     let at = root.key("girder");
-    let mut spans = Vec::new();
     let before = check.faults.0.len();
-    if let Some(given) = check.faults.require(&raw.spans, &at, "spans") {
-        let place = at.key("spans");
-        if given.is_empty() {
-            check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
-        }
-        for (index, span) in given.iter().enumerate() {
-            let hint = "spans are lengths, first support to last";
-            spans.push(check.positive(*span, &place.index(index), Dimension::LENGTH, hint));
-        }
-    }
-    let mut overhangs = [0.0; 2];
-    let place = at.key("overhangs");
-    for (index, overhang) in raw.overhangs.unwrap_or_default().into_iter().enumerate() {
-        let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
-        overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
-    }
+    let (spans, overhangs) = read_lengths(raw, &at, check);
     // stations can only be checked if the lengths are valid
     let raw_range = (check.faults.0.len() == before).then(|| range_of(raw));
     let mut optional =
@@ -80,6 +64,28 @@ pub(super) fn read(
         check.faults.add(Fault::new(&at.key("spans"), "must have a finite sum"));
     }
     girder
+}
+
+/// Reads the spans and the overhangs.
+fn read_lengths(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> (Vec<f64>, [f64; 2]) {
+    let mut spans = Vec::new();
+    if let Some(given) = check.faults.require(&raw.spans, at, "spans") {
+        let place = at.key("spans");
+        if given.is_empty() {
+            check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
+        }
+        for (index, span) in given.iter().enumerate() {
+            let hint = "spans are lengths, first support to last";
+            spans.push(check.positive(*span, &place.index(index), Dimension::LENGTH, hint));
+        }
+    }
+    let mut overhangs = [0.0; 2];
+    let place = at.key("overhangs");
+    for (index, overhang) in raw.overhangs.unwrap_or_default().into_iter().enumerate() {
+        let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
+        overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
+    }
+    (spans, overhangs)
 }
 
 /// First and last coordinate of the rail, in the units of the file.

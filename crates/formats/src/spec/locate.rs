@@ -33,24 +33,22 @@ impl Spec {
                 };
                 SolveError::Input(source.diagnose(&Faults(vec![fault])))
             }
-            Error::Mechanism { point, dof: freedom } => SolveError::NoSolution(format!(
-                "{}: mechanism: {} is not restrained in {freedom} ({})",
+            Error::Mechanism { point, dof } => SolveError::NoSolution(format!(
+                "{}: mechanism: {} is not restrained in {dof} ({})",
                 source.name,
                 self.point(*point),
-                meaning(*freedom)
+                meaning(*dof)
             )),
-            Error::IllConditioned { condition, bound, asked, point, dof: freedom } => {
-                SolveError::NoSolution(format!(
-                    "{}: the condition {condition:.1e} permits a relative error of {bound:.1e}, above the accuracy of \
-                     {asked:.1e}; the worst degree of freedom is {freedom} of {} ({})  hint: lengthen or join the \
+            Error::IllConditioned { condition, bound, asked, point, dof } => SolveError::NoSolution(format!(
+                "{}: the condition {condition:.1e} permits a relative error of {bound:.1e}, above the accuracy of \
+                     {asked:.1e}; the worst degree of freedom is {dof} of {} ({})  hint: lengthen or join the \
                      shortest members, or request less with --accuracy",
-                    source.name,
-                    self.point(*point),
-                    meaning(*freedom)
-                ))
-            }
-            Error::Released { member, end, dof: freedom } => SolveError::NoSolution(format!(
-                "{}: mechanism: with its releases {} has no stiffness in {freedom} at its end {}",
+                source.name,
+                self.point(*point),
+                meaning(*dof)
+            )),
+            Error::Released { member, end, dof } => SolveError::NoSolution(format!(
+                "{}: mechanism: with its releases {} has no stiffness in {dof} at its end {}",
                 source.name,
                 self.path(ModelEntry::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
@@ -148,8 +146,8 @@ impl Spec {
 }
 
 /// Description of a degree of freedom.
-const fn meaning(freedom: Dof) -> &'static str {
-    match freedom {
+const fn meaning(dof: Dof) -> &'static str {
+    match dof {
         Dof::Ux => "displacement along x",
         Dof::Uy => "displacement along y",
         Dof::Uz => "displacement along z",

@@ -1,7 +1,7 @@
 //! References within a spec: indices, names of sections and of point sets, keywords of degrees of freedom.
 
 use super::block::Reference;
-use super::words::FREEDOMS;
+use super::words::DOF_WORDS;
 use crate::check::Check;
 use crate::text::fault::Fault;
 use crate::text::names::resolve;
@@ -97,7 +97,7 @@ pub(super) fn dofs(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [
     let mut set = [false; 6];
     for (index, word) in words.iter().enumerate() {
         let item = at.index(index);
-        let Some(dof) = check.faults.one_of(word, &item, &FREEDOMS) else { continue };
+        let Some(dof) = check.faults.one_of(word, &item, &DOF_WORDS) else { continue };
         if set[dof as usize] {
             check.faults.add(Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")));
         }

@@ -221,7 +221,7 @@ mod tests {
 
     #[test]
     fn lost_continuations_are_refused() {
-        for (text, told) in [
+        for (text, expected) in [
             ("+A      1", "does not continue a card"),
             (
                 "GRID    1                                                               +A\n+B      1",
@@ -233,7 +233,7 @@ mod tests {
             ("GR.ID   1", "must be the name of a card"),
         ] {
             let errors = read(text).1.errors();
-            assert_eq!(errors.first().map(|error| error.expected.as_str()), Some(told), "{text}");
+            assert_eq!(errors.first().map(|error| error.expected.as_str()), Some(expected), "{text}");
         }
     }
 }

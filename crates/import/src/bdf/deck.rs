@@ -56,7 +56,7 @@ pub struct BulkDeck {
     /// Positions and stiffnesses of PELAS cards by number.
     pub stiffness: BTreeMap<u64, (FilePlace, f64)>,
     /// SPC and SPC1 cards.
-    pub holds: Vec<SupportCard>,
+    pub supports: Vec<SupportCard>,
     /// Sets that each SPCADD card combines, by number.
     pub adds: BTreeMap<u64, Vec<u64>>,
     /// Whether the deck has a case control section.
@@ -230,8 +230,8 @@ impl BulkDeck {
                     put(&mut self.stiffness, id, (card, k), |other| other.0, at, name, fields.findings);
                 }
             }
-            "SPC" => self.holds.extend(support::spc(fields)),
-            "SPC1" => self.holds.extend(support::spc1(fields)),
+            "SPC" => self.supports.extend(support::spc(fields)),
+            "SPC1" => self.supports.extend(support::spc1(fields)),
             "SPCADD" => {
                 if let Some((set, parts)) = support::spcadd(fields)
                     && self.adds.insert(set, parts).is_some()

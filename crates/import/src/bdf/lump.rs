@@ -87,15 +87,15 @@ pub fn spring(card: &mut CardFields<'_, '_>) -> Option<SpringCard> {
             continue;
         }
         let grid = card.id(first, "G")?;
-        let freedom = match number(card.text(first + 1)) {
+        let dof = match number(card.text(first + 1)) {
             Some(Number::Integer(c @ 1..=6)) => usize::try_from(c - 1).ok(),
             _ => None,
         };
-        let Some(freedom) = freedom else {
+        let Some(dof) = dof else {
             card.refuse(first + 1, "C", "must be one digit from 1 to 6", "");
             return None;
         };
-        ends[end] = Some((grid, freedom));
+        ends[end] = Some((grid, dof));
     }
     card.end(9);
     if ends == [None; 2] {

@@ -274,19 +274,19 @@ impl<'d> Resolver<'d, '_> {
             }
         }
         let sets =
-            support::chosen(&deck.holds, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
+            support::chosen(&deck.supports, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
         let mut unused: BTreeMap<u64, FilePlace> = BTreeMap::new();
-        for hold in &deck.holds {
-            if !sets.contains(&hold.set) {
-                unused.entry(hold.set).or_insert(hold.card);
+        for support in &deck.supports {
+            if !sets.contains(&support.set) {
+                unused.entry(support.set).or_insert(support.card);
                 continue;
             }
-            let about = format!("SPC set {}", hold.set);
+            let about = format!("SPC set {}", support.set);
             let mut restrained: Vec<usize> = Vec::new();
-            for [from, to] in &hold.ranges {
+            for [from, to] in &support.ranges {
                 restrained.extend(self.index.range(from..=to).map(|(_, point)| *point));
             }
-            for (grid, at) in &hold.grids {
+            for (grid, at) in &support.grids {
                 if !deck.grids.contains_key(grid) {
                     self.findings.error(
                         ImportFinding::new(*at, &about, "refers to a grid that does not exist")
@@ -296,9 +296,9 @@ impl<'d> Resolver<'d, '_> {
                 restrained.extend(self.index.get(grid));
             }
             for point in restrained {
-                let support = self.structure.supports.entry(point).or_default();
-                for (dof, fix) in hold.fix.iter().enumerate() {
-                    support[dof] |= fix;
+                let fixed = self.structure.supports.entry(point).or_default();
+                for (dof, fix) in support.fix.iter().enumerate() {
+                    fixed[dof] |= fix;
                 }
             }
         }

@@ -11,11 +11,11 @@ mod mesh;
 mod sections;
 mod text;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use sections::{FORMAT, Sections};
 
-use super::findings::{ImportFinding, ImportFindings};
+use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use mesh::Mesh;
@@ -40,7 +40,7 @@ pub fn read(
     let index = points(&mesh, factor, &mut structure);
     let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     // curves for which an error was added, so that each causes one error instead of one for each of its elements
-    let mut reported = Vec::new();
+    let mut reported = BTreeSet::new();
     for (&id, &(curve, nodes, at)) in &mesh.lines {
         let about = format!("element {id}");
         let [a, b] = nodes.map(|node| index.get(&node).copied());
@@ -52,21 +52,7 @@ pub fn read(
             continue;
         };
         let names: Vec<&str> = names(&mesh, 1, curve);
-        let known: Vec<&str> =
-            names.iter().filter(|name| groups.groups.contains_key(**name)).copied().collect();
-        let &[name] = known.as_slice() else {
-            if !reported.contains(&curve) {
-                reported.push(curve);
-                let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
-                let expected = format!(
-                    "must be in one physical group that is a section or in `members`, {}",
-                    list(&names)
-                );
-                let hint = format!("in the sections file: {}", known.join(", "));
-                findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
-            }
-            continue;
-        };
+        let Some(name) = group_of(curve, &names, groups, at, &mut reported, findings) else { continue };
         let group = &groups.groups[name];
         let along = minus(structure.points[b].at, structure.points[a].at);
         let orientation = group.orientation.or(structure.up);
@@ -75,13 +61,10 @@ pub fn read(
             continue;
         }
         if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
-            if !reported.contains(&curve) {
-                reported.push(curve);
+            if reported.insert(curve) {
                 let hint = format!("state the `orientation` of \"{name}\" in `members` of the sections file");
-                findings.error(
-                    ImportFinding::new(at, about, "must have an orientation that is not parallel to it")
-                        .hint(hint),
-                );
+                let expected = "must have an orientation that is not parallel to it";
+                findings.error(ImportFinding::new(at, about, expected).hint(hint));
             }
             continue;
         }
@@ -100,12 +83,36 @@ pub fn read(
         });
     }
     if structure.members.is_empty() && !findings.has_errors() {
-        let at = super::findings::FilePlace { file: 0, line: 1, column: 1 };
+        let at = FilePlace { file: 0, line: 1, column: 1 };
         let hint = "mesh the curves (gmsh -1), and put them in physical groups";
         findings.error(ImportFinding::new(at, "", "has no line cells").hint(hint));
     }
     structure.cell_sets = sets.into_iter().map(|(name, set)| (name.to_owned(), set)).collect();
     structure
+}
+
+/// The only one of the physical groups `names` of a curve that the sections file defines. If there is no such group
+/// or there are several, an error is added unless the curve is among `reported`.
+fn group_of<'m>(
+    curve: u64,
+    names: &[&'m str],
+    groups: &Sections,
+    at: FilePlace,
+    reported: &mut BTreeSet<u64>,
+    findings: &mut ImportFindings,
+) -> Option<&'m str> {
+    let mut known = names.iter().filter(|name| groups.groups.contains_key(**name));
+    if let (Some(&only), None) = (known.next(), known.next()) {
+        return Some(only);
+    }
+    if reported.insert(curve) {
+        let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
+        let expected =
+            format!("must be in one physical group that is a section or in `members`, {}", list(names));
+        let hint = format!("in the sections file: {}", known.join(", "));
+        findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
+    }
+    None
 }
 
 /// Part of a message that lists the physical groups of a curve.

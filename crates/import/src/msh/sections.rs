@@ -213,8 +213,8 @@ fn named_groups(
         {
             let list = at.key(key);
             for (index, word) in words.iter().flatten().enumerate() {
-                if let Some(freedom) = faults.one_of(word, &list.index(index), &DOFS) {
-                    group.releases[end][freedom] = true;
+                if let Some(dof) = faults.one_of(word, &list.index(index), &DOFS) {
+                    group.releases[end][dof] = true;
                 }
             }
         }

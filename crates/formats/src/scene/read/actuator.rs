@@ -28,18 +28,18 @@ fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'
     });
     let words: Vec<(&str, usize)> = DOFS.iter().enumerate().map(|(index, word)| (*word, index)).collect();
     let place = at.key("dof");
-    let freedom = check.faults.require(&raw.dof, at, "dof");
-    let freedom = freedom.and_then(|word| check.faults.one_of(word, &place, &words));
-    let unit = if freedom.is_some_and(|freedom| freedom > 2) { Dimension::MOMENT } else { Dimension::FORCE };
+    let dof = check.faults.require(&raw.dof, at, "dof");
+    let dof = dof.and_then(|word| check.faults.one_of(word, &place, &words));
+    let unit = if dof.is_some_and(|dof| dof > 2) { Dimension::MOMENT } else { Dimension::FORCE };
     let value = check.faults.require(&raw.value, at, "value");
     let value = value.and_then(|table| read_schedule(table, &at.key("value"), unit, check));
-    let (body, freedom) = (body?, freedom?);
+    let (body, dof) = (body?, dof?);
     let owner = &bodies[body];
     let prescribed = matches!(owner.motion, BodyMotion::Prescribed(_));
     let is_free = |i: usize| owner.free[i] && !(i == 0 && prescribed);
-    if !is_free(freedom) {
-        let state = if owner.free[freedom] { "prescribed" } else { "fixed" };
-        let fault = Fault::new(&place, format!("{} of body {} is {state}", DOFS[freedom], owner.name));
+    if !is_free(dof) {
+        let state = if owner.free[dof] { "prescribed" } else { "fixed" };
+        let fault = Fault::new(&place, format!("{} of body {} is {state}", DOFS[dof], owner.name));
         let free: Vec<&str> = (0..6).filter(|&i| is_free(i)).map(|i| DOFS[i]).collect();
         let hint = if free.is_empty() {
             "the body has no free degree of freedom".to_owned()
@@ -48,7 +48,7 @@ fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'
         };
         check.faults.add(fault.hint(hint));
     }
-    Some(Load { body, dof: freedom, value: value? })
+    Some(Load { body, dof, value: value? })
 }
 
 /// Reads the drive of a motion; none if its table of speeds is missing or invalid.

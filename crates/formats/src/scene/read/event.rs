@@ -5,7 +5,7 @@ use sim::{Action, Channel, Compare, Condition, Rule};
 use crate::check::Check;
 use crate::scene::motion::wheels;
 use crate::scene::quantity::{Quantity, quantities};
-use crate::scene::raw::{RawDo, RawEvent};
+use crate::scene::raw::{RawDo, RawEvent, RawFollow, RawHoist};
 use crate::scene::values::actuator::{Event, Rope};
 use crate::scene::values::body::{Body, BodyMotion};
 use crate::scene::values::scene::{Analysis, Scene};
@@ -211,6 +211,74 @@ fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) ->
     })
 }
 
+/// The actions of an event and their descriptions.
+#[derive(Default)]
+struct Actions {
+    list: Vec<Action>,
+    words: Vec<String>,
+}
+
+impl Actions {
+    fn brake(&mut self, raw: &RawDo, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        for (key, name, on) in [("release_brake", &raw.release_brake, false), ("brake", &raw.brake, true)] {
+            let Some(name) = name else { continue };
+            let place = at.key(key);
+            let Some(b) = body(name, &place, scene, check) else { continue };
+            let given = &scene.bodies[b];
+            if !given.motion.is_free() {
+                let fault = Fault::new(&place, format!("body {name} does not move freely along its rail"));
+                check.faults.add(fault.hint("brakes need a motion \"drive\" or \"free\""));
+            } else if given.brake.is_none() {
+                let fault = Fault::new(&place, format!("the brakes of body {name} are never applied"));
+                check.faults.add(fault.hint("apply them with `brake` of its motion or of another event"));
+            }
+            if on && matches!(given.motion, BodyMotion::Driven(_)) && raw.drive.is_none() {
+                self.list.push(Action::Drive { body: b, speed: None });
+            }
+            self.list.push(Action::Brake { body: b, on });
+            self.words.push(format!("{} {name}", if on { "brake" } else { "release the brake of" }));
+        }
+    }
+
+    fn drive_off(&mut self, name: &str, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        if let Some(b) = driven(name, &at.key("drive_off"), scene, check) {
+            self.list.push(Action::Drive { body: b, speed: None });
+            self.words.push(format!("turn the drive of {name} off"));
+        }
+    }
+
+    fn drive(&mut self, raw: &RawFollow, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        let place = at.key("drive");
+        let name = check.faults.require(&raw.body, &place, "body");
+        let b = name.and_then(|name| driven(name, &place.key("body"), scene, check));
+        let speed = check.faults.require(&raw.speed, &place, "speed").copied();
+        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
+        if let (Some(b), Some(speed)) = (b, speed) {
+            self.list.push(Action::Drive { body: b, speed: Some(speed) });
+            self.words.push(format!("drive {} at {}", scene.bodies[b].name, number(speed)));
+        }
+    }
+
+    fn hoist(&mut self, raw: &RawHoist, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        let place = at.key("hoist");
+        let known = names(&scene.ropes, |rope| &rope.name);
+        let name = check.faults.require(&raw.rope, &place, "rope");
+        let rope = name.and_then(|name| resolve(name, &known, "rope", &place.key("rope"), check.faults));
+        let speed = check.faults.require(&raw.speed, &place, "speed").copied();
+        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
+        if let (Some(rope), Some(speed)) = (rope, speed) {
+            self.list.push(Action::Hoist { rope, speed });
+            self.words.push(format!("hoist with {} at {}", scene.ropes[rope].name, number(speed)));
+        }
+    }
+
+    fn drop(&mut self, name: &str, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        let ropes = dropped(name, &at.key("drop"), scene, check);
+        self.list.extend(ropes.into_iter().map(|rope| Action::Release { rope }));
+        self.words.push(format!("drop {name}"));
+    }
+}
+
 /// Reads the actions of an event and their description.
 fn read_actions(
     raw: &RawDo,
@@ -219,73 +287,35 @@ fn read_actions(
     check: &mut Check<'_>,
 ) -> Option<(Vec<Action>, String)> {
     let faults = check.faults.0.len();
-    let (mut actions, mut words) = (Vec::new(), Vec::new());
-    for (key, name, on) in [("release_brake", &raw.release_brake, false), ("brake", &raw.brake, true)] {
-        let Some(name) = name else { continue };
-        let place = at.key(key);
-        let Some(b) = body(name, &place, scene, check) else { continue };
-        let given = &scene.bodies[b];
-        if !given.motion.is_free() {
-            let fault = Fault::new(&place, format!("body {name} does not move freely along its rail"));
-            check.faults.add(fault.hint("brakes need a motion \"drive\" or \"free\""));
-        } else if given.brake.is_none() {
-            let fault = Fault::new(&place, format!("the brakes of body {name} are never applied"));
-            check.faults.add(fault.hint("apply them with `brake` of its motion or of another event"));
-        }
-        if on && matches!(given.motion, BodyMotion::Driven(_)) && raw.drive.is_none() {
-            actions.push(Action::Drive { body: b, speed: None });
-        }
-        actions.push(Action::Brake { body: b, on });
-        words.push(format!("{} {name}", if on { "brake" } else { "release the brake of" }));
-    }
+    let mut actions = Actions::default();
+    actions.brake(raw, scene, at, check);
     if let Some(name) = &raw.drive_off {
-        let place = at.key("drive_off");
-        if let Some(b) = driven(name, &place, scene, check) {
-            actions.push(Action::Drive { body: b, speed: None });
-            words.push(format!("turn the drive of {name} off"));
-        }
+        actions.drive_off(name, scene, at, check);
     }
     if let Some(follow) = &raw.drive {
-        let place = at.key("drive");
-        let name = check.faults.require(&follow.body, &place, "body");
-        let b = name.and_then(|name| driven(name, &place.key("body"), scene, check));
-        let speed = check.faults.require(&follow.speed, &place, "speed").copied();
-        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
-        if let (Some(b), Some(speed)) = (b, speed) {
-            actions.push(Action::Drive { body: b, speed: Some(speed) });
-            words.push(format!("drive {} at {}", scene.bodies[b].name, number(speed)));
-        }
+        actions.drive(follow, scene, at, check);
     }
     if let Some(hoist) = &raw.hoist {
-        let place = at.key("hoist");
-        let known = names(&scene.ropes, |rope| &rope.name);
-        let name = check.faults.require(&hoist.rope, &place, "rope");
-        let rope = name.and_then(|name| resolve(name, &known, "rope", &place.key("rope"), check.faults));
-        let speed = check.faults.require(&hoist.speed, &place, "speed").copied();
-        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
-        if let (Some(rope), Some(speed)) = (rope, speed) {
-            actions.push(Action::Hoist { rope, speed });
-            words.push(format!("hoist with {} at {}", scene.ropes[rope].name, number(speed)));
-        }
+        actions.hoist(hoist, scene, at, check);
     }
     if let Some(name) = &raw.drop {
-        let ropes = dropped(name, &at.key("drop"), scene, check);
-        actions.extend(ropes.into_iter().map(|rope| Action::Release { rope }));
-        words.push(format!("drop {name}"));
+        actions.drop(name, scene, at, check);
     }
+    let Actions { mut list, mut words } = actions;
     if raw.end == Some(true) {
-        actions.push(Action::End);
+        list.push(Action::End);
         words.push("end the run".to_owned());
     }
     if words.is_empty() && check.faults.0.len() == faults {
         let hint = "`brake`, `release_brake`, `drive`, `drive_off`, `hoist`, `drop` or `end`";
         check.faults.add(Fault::new(at, "must have at least one action").hint(hint));
     }
-    let mut pairs = actions.iter().enumerate().flat_map(|(i, a)| actions[..i].iter().map(move |b| (a, b)));
+    let mut pairs = list.iter().enumerate().flat_map(|(i, a)| list[..i].iter().map(move |b| (a, b)));
     if pairs.any(|(a, b)| contradict(a, b)) {
-        check.faults.add(Fault::new(at, "has actions that contradict each other").got(words.join("; ")));
+        let fault = Fault::new(at, "has actions that contradict each other");
+        check.faults.add(fault.got(words.join("; ")));
     }
-    (check.faults.0.len() == faults).then(|| (actions, words.join("; ")))
+    (check.faults.0.len() == faults).then(|| (list, words.join("; ")))
 }
 
 fn body(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Option<usize> {

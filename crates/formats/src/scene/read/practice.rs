@@ -81,29 +81,9 @@ pub(super) fn read(
         None => (only_crane(scene, &at, check)?, at),
     };
     let rails = rails_of(scene, crane, &place, check)?;
-    let rides = |body: usize| {
-        scene.trucks.iter().any(|truck| {
-            let on = scene.structures[scene.rails[truck.rail].structure].carrier;
-            root_body(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
-        })
-    };
-    let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
-    let holds = |body: Option<usize>| body.is_some() && (body == Some(crane) || body == trolley);
-    let mut loads = Vec::new();
-    for rope in &scene.ropes {
-        let [from, to] = rope.bodies;
-        let hung = if holds(from) { to } else { from.filter(|_| holds(to)) };
-        loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
-    }
+    let (trolley, loads) = hung_from(scene, crane);
     if let Some(approach) = approach {
-        let span = (mean_lateral_position(scene, crane, rails[0])
-            - mean_lateral_position(scene, crane, rails[1]))
-        .abs();
-        if approach > span {
-            let at = root.key("practice");
-            let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
-            check.faults.add(fault.got(approach).hint(format!("its rails are {span} apart")));
-        }
+        check_approach(approach, scene, (crane, rails), root, check);
     }
     Some(Practice {
         crane,
@@ -119,6 +99,43 @@ pub(super) fn read(
         rail_head,
         speeds,
     })
+}
+
+/// The trolley, which runs on structures of the crane, and the bodies in space that hang by ropes from either of
+/// them.
+fn hung_from(scene: &Scene, crane: usize) -> (Option<usize>, Vec<usize>) {
+    let rides = |body: usize| {
+        scene.trucks.iter().any(|truck| {
+            let on = scene.structures[scene.rails[truck.rail].structure].carrier;
+            root_body(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
+        })
+    };
+    let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
+    let holds = |body: Option<usize>| body.is_some() && (body == Some(crane) || body == trolley);
+    let mut loads = Vec::new();
+    for rope in &scene.ropes {
+        let [from, to] = rope.bodies;
+        let hung = if holds(from) { to } else { from.filter(|_| holds(to)) };
+        loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
+    }
+    (trolley, loads)
+}
+
+/// Checks that the approach of the hook is not larger than the distance of the rails of the crane.
+fn check_approach(
+    approach: f64,
+    scene: &Scene,
+    (crane, rails): (usize, [usize; 2]),
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let span =
+        (mean_lateral_position(scene, crane, rails[0]) - mean_lateral_position(scene, crane, rails[1])).abs();
+    if approach > span {
+        let at = root.key("practice");
+        let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
+        check.faults.add(fault.got(approach).hint(format!("its rails are {span} apart")));
+    }
 }
 
 /// The only body that carries structures or, if there is none, the only body on rails.

@@ -1,8 +1,6 @@
 //! Wheels whose spin is prescribed by a motion.
 
-use sim::{MotionKind, Profile};
-
-use super::schedule::read_rows;
+use super::schedule::{motion_tables, read_profile};
 use crate::check::Check;
 use crate::scene::raw::RawMotion;
 use crate::scene::values::actuator::Spin;
@@ -68,30 +66,7 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
         }
     }
     let rate = |power| Dimension::of(0, 0, power);
-    let tables = [
-        ("position", MotionKind::Position, &motion.position, rate(0)),
-        ("speed", MotionKind::Speed, &motion.speed, rate(-1)),
-        ("acceleration", MotionKind::Acceleration, &motion.acceleration, rate(-2)),
-    ];
-    let given: Vec<_> = tables
-        .into_iter()
-        .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
-        .collect();
-    let profile = match given[..] {
-        [(key, what, table, unit)] => {
-            let place = at.key(key);
-            let rows = read_rows(table, &place, unit, check);
-            rows.and_then(|rows| {
-                let profile = Profile::new(what, &rows, 0.0, 0.0);
-                profile.map_err(|error| check.faults.add(Fault::new(&place, error.to_string()))).ok()
-            })
-        }
-        _ => {
-            let expected = "must have one table: `position`, `speed` or `acceleration`";
-            check.faults.add(Fault::new(at, expected).got(if given.is_empty() { "none" } else { "several" }));
-            None
-        }
-    };
+    let profile = read_profile(&motion_tables(motion, [0, -1, -2].map(rate)), [0.0; 2], at, check);
     let known = names(&scene.trucks, |truck| &truck.name);
     let truck = match (&motion.truck, known.len()) {
         (Some(name), _) => resolve(name, &known, "truck", &at.key("truck"), check.faults)?,

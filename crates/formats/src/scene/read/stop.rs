@@ -56,48 +56,41 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
                 .hint("`against` names the other body"),
         );
     }
-    if let (Some(other), None, None, None) = (&raw.against, &raw.rail, raw.x, raw.height) {
-        check.faults.require(&raw.body, at, "body")?;
-        let met = (body??, point.unwrap_or_default());
-        let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
-        let meetings = vec![StopPoint { body: met.0, at: met.1, side }];
-        let against = Some(against);
-        return Some(Stop {
-            name,
-            axis: 0,
-            against,
-            place,
-            rail: None,
-            stiffness,
-            damping,
-            points: meetings,
-        });
-    }
-    let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
-        (Some(rail), Some(x), None) => {
-            let rail = rail_named(rail, &scene.rails, &at.key("rail"), check.faults)?;
-            let x = check.number(x, &at.key("x"), Dimension::LENGTH);
-            (0, x, Some(rail), on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+    let stop =
+        Stop { name, axis: 0, against: None, place: 0.0, rail: None, stiffness, damping, points: Vec::new() };
+    match (&raw.rail, raw.x, raw.height, &raw.against) {
+        (None, None, None, Some(other)) => {
+            check.faults.require(&raw.body, at, "body")?;
+            let met = (body??, point.unwrap_or_default());
+            let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
+            let points = vec![StopPoint { body: met.0, at: met.1, side }];
+            Some(Stop { against: Some(against), place, points, ..stop })
         }
-        (None, None, Some(height)) => {
-            let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
+        (Some(rail), Some(x), None, _) => {
+            let rail = rail_named(rail, &scene.rails, &at.key("rail"), check.faults)?;
+            let place = check.number(x, &at.key("x"), Dimension::LENGTH);
+            let points = on_rail(raw, [body, Some(Some(rail))], point, place, scene, at, check)?;
+            Some(Stop { place, rail: Some(rail), points, ..stop })
+        }
+        (None, None, Some(height), _) => {
+            let place = check.number(height, &at.key("Y"), Dimension::LENGTH);
             let words = [("above", -1.0), ("below", 1.0)];
             let side = raw
                 .side
                 .as_ref()
                 .map_or(Some(-1.0), |word| check.faults.one_of(word, &at.key("side"), &words));
             check.faults.require(&raw.body, at, "body")?;
-            (1, height, None, vec![StopPoint { body: body??, at: point.unwrap_or_default(), side: side? }])
+            let points = vec![StopPoint { body: body??, at: point.unwrap_or_default(), side: side? }];
+            Some(Stop { axis: 1, place, points, ..stop })
         }
         _ => {
             let fault = Fault::new(at, "must have `rail` and `x`, `body` and `Y`, or `body` and `against`");
             check
                 .faults
                 .add(fault.hint("an end stop of a rail, a floor below a body, or a buffer between bodies"));
-            return None;
+            None
         }
-    };
-    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, points: meetings })
+    }
 }
 
 /// Reads a buffer between a point of one body and the body `other`, with an initial distance `gap`. Returns the body
@@ -130,8 +123,8 @@ fn buffer(
     let place = |b: usize| root_of(&scene.bodies, b).map(|(root, ahead)| scene.bodies[root].x0 + ahead);
     let roots = [body, against].map(|b| root_of(&scene.bodies, b).map(|(root, _)| &scene.bodies[root]));
     let [Some(one), Some(two)] = roots else { return None };
-    let shares = one.track.iter().any(|rail| two.track.contains(rail));
-    if one.name == two.name || !shares {
+    let same_rail = one.track.iter().any(|rail| two.track.contains(rail));
+    if one.name == two.name || !same_rail {
         let fault = Fault::new(&at.key("against"), "must be another body on the same rail");
         check.faults.add(fault.got(format!("\"{other}\"")));
         return None;

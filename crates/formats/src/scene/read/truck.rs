@@ -86,9 +86,10 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
         let at = place.index(index);
         let node = read_node(node, &at, check);
         let below = node.wheels();
-        if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
+        if below.iter().any(|(_, fraction)| (fraction - below[0].1).abs() > 1e-12) {
             let fault = Fault::new(&at, "all wheels under one equaliser must carry equal loads");
-            let hint = "both ends of an equaliser need the same number of wheels; for unequal loads use a body that is `pinned`";
+            let hint =
+                "both ends need the same number of wheels; for unequal loads use a body that is `pinned`";
             check.faults.add(fault.got(fractions(&below)).hint(hint));
         }
         node
@@ -98,7 +99,7 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
 
 /// Fractions of the load of an equaliser that its wheels carry.
 fn fractions(below: &[(f64, f64)]) -> String {
-    below.iter().map(|(_, share)| format!("1/{}", number(1.0 / share))).collect::<Vec<_>>().join(", ")
+    below.iter().map(|(_, fraction)| format!("1/{}", number(1.0 / fraction))).collect::<Vec<_>>().join(", ")
 }
 
 fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
