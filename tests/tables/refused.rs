@@ -269,12 +269,15 @@ fn units_are_never_guessed_nor_overruled() {
         &bytes(&data("plain.npz")),
         Some(Units { length: formats::units::Length::Metre, ..FT_LBF }),
     );
-    assert_eq!(set, "plain.npz: says its units itself: ft and lbf, got m and lbf  hint: leave the units out");
+    assert_eq!(
+        set,
+        "plain.npz: already states its units: ft and lbf, got m and lbf  hint: leave the units out"
+    );
     let adm = "t\nSPLINE/6, X=0,1,2,3, Y=1,2,3,4\nEND\n";
     let found = refusal("a.adm", adm.as_bytes(), None);
     assert!(
         found.starts_with("a.adm: has no UNITS statement  hint: such as UNITS/")
-            && found.contains("none is guessed")
+            && found.contains("units are not guessed")
     );
     assert_eq!(read("a.adm", adm.as_bytes(), Some(FT_LBF)).map(|set| set.units), Ok(FT_LBF));
 }

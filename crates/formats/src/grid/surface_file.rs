@@ -117,8 +117,10 @@ impl RawSurface {
         let size = 6 * line.state_count();
         let at = place.key("compliance");
         if self.compliance.len() != size || self.compliance.iter().any(|row| row.len() != size) {
-            faults
-                .add(Fault::new(&at, format!("must be {size} x {size}: six degrees of dof for each state")));
+            faults.add(Fault::new(
+                &at,
+                format!("must be {size} x {size}: six degrees of freedom for each state"),
+            ));
             return None;
         }
         let nodal = DMatrix::from_fn(size, size, |i, j| finite_or_infinite(self.compliance[i][j]));

@@ -213,7 +213,7 @@ fn leave_to_merge<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Vec<Valu
     Vec::<IgnoredAny>::deserialize(deserializer).map(|_| Vec::new())
 }
 
-/// Which table of a file is meant.
+/// A selection of one table of a file.
 #[derive(Debug)]
 pub(crate) enum RawPick {
     /// The number of a SPLINE.
@@ -431,7 +431,7 @@ pub(crate) struct RawTruck {
     pub wheel: Option<String>,
 }
 
-/// A wheel's offset, or what an equaliser carries.
+/// A node of the tree of a truck: a wheel at an offset along the rail, or an equaliser with two nodes.
 #[derive(Debug)]
 pub(crate) enum RawNode {
     Wheel(f64),
@@ -714,7 +714,7 @@ pub(crate) struct RawPractice {
     pub hoist_speed: Option<f64>,
 }
 
-/// All, none, or some by their names.
+/// A selection of columns: all, none, or those with certain names.
 #[derive(Debug)]
 pub(crate) enum RawColumns {
     All(bool),

@@ -223,7 +223,7 @@ impl<'de> Deserialize<'de> for Entry<String, Vec<String>> {
 
 impl Item for Vec<String> {
     const WHAT: &'static str =
-        "a list of degrees of dof for the whole block, or a list with such a list for each cell";
+        "a list of degrees of freedom for the whole block, or a list with such a list for each cell";
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries: Vec<Entry<String, Self>> = Vec::deserialize(SeqAccessDeserializer::new(list))?;

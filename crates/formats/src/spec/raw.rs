@@ -262,7 +262,7 @@ pub(crate) struct RawPoint {
     pub detail: Option<RawDetail>,
 }
 
-/// A detail category: a number of N/mm2, or a letter.
+/// A detail category: a number of EN 1993-1-9 in N/mm2, or a letter of AISC 360.
 #[derive(Debug)]
 pub(crate) enum RawDetail {
     Number(f64),

@@ -197,7 +197,7 @@ fn frames(
         if left.len() == before {
             for (id, system) in left.drain(..) {
                 let about = format!("CORD2R {id}: RID");
-                let expected = "must lead to the basic system 0 through its references";
+                let expected = "must refer, directly or through other systems, to the basic system 0";
                 findings.error(ImportFinding::new(system.card, about, expected).with_found(system.reference));
             }
         }

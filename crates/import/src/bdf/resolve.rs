@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use super::deck::BulkDeck;
 use super::element::{ElementCard, Orientation, SectionOf as Given};
 use super::grid::{self, Resolved};
-use super::lump::Stiffness;
+use super::lump::{SpringCard, Stiffness};
 use super::property::Property;
 use super::section::SectionTable;
 use super::support;
@@ -316,27 +316,7 @@ impl<'d> Resolver<'d, '_> {
     fn springs(&mut self) {
         let deck = self.deck;
         for spring in &deck.springs {
-            let k = match spring.stiffness {
-                Stiffness::Own(k) => k,
-                Stiffness::Number(number) => match deck.stiffness.get(&number) {
-                    Some((_, k)) => *k,
-                    None => {
-                        let finding = ImportFinding::new(
-                            spring.card,
-                            &spring.label,
-                            "refers to a PELAS that does not exist",
-                        );
-                        self.findings.error(finding.with_found(number));
-                        continue;
-                    }
-                },
-            };
-            if k <= 0.0 {
-                let finding =
-                    ImportFinding::new(spring.card, &spring.label, "must have a positive stiffness");
-                self.findings.error(finding.with_found(k));
-                continue;
-            }
+            let Some(k) = self.stiffness(spring) else { continue };
             let mut free = Vec::new();
             let mut known = true;
             for (grid, dof) in spring.ends.iter().flatten() {
@@ -373,6 +353,27 @@ impl<'d> Resolver<'d, '_> {
                 }
             }
         }
+    }
+
+    /// The stiffness of a spring; `None`, with an error, if its PELAS does not exist or the stiffness is not positive.
+    fn stiffness(&mut self, spring: &SpringCard) -> Option<f64> {
+        let finding = |expected: &str| ImportFinding::new(spring.card, &spring.label, expected);
+        let k = match spring.stiffness {
+            Stiffness::Own(k) => k,
+            Stiffness::Number(number) => {
+                let Some((_, k)) = self.deck.stiffness.get(&number) else {
+                    let missing = finding("refers to a PELAS that does not exist");
+                    self.findings.error(missing.with_found(number));
+                    return None;
+                };
+                *k
+            }
+        };
+        if k <= 0.0 {
+            self.findings.error(finding("must have a positive stiffness").with_found(k));
+            return None;
+        }
+        Some(k)
     }
 
     /// Adds a set for each point, so that messages can refer to its grid, and a set of the members of each section.

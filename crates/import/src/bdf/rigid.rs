@@ -16,7 +16,7 @@ pub struct Rigid {
 }
 
 const WHOLE: [bool; 6] = [true; 6];
-const PARTIAL: &str = "links that do not join all degrees of dof of their ends are not supported";
+const PARTIAL: &str = "links that do not join all degrees of freedom of their ends are not supported";
 
 /// Reads RBE2.
 pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {

@@ -177,18 +177,8 @@ fn on_rail(
             }
             continue;
         };
-        let side = match side {
-            Some(side) => side,
-            None if last.2 <= x => 1.0,
-            None if first.2 >= x => -1.0,
-            None => {
-                let expected = format!("body {} has wheels on both sides of the stop", scene.bodies[b].name);
-                let found = format!("wheels from x = {} to {}", number(first.2), number(last.2));
-                let hint = "state the side of the body with \"side\": \"before\" or \"beyond\"";
-                check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
-                1.0
-            }
-        };
+        let side =
+            side.unwrap_or_else(|| side_at_start([first.2, last.2], x, &scene.bodies[b].name, at, check));
         let (body, at, _) = if side > 0.0 { *last } else { *first };
         meetings.push(StopPoint { body, at, side });
     }
@@ -196,6 +186,22 @@ fn on_rail(
         check.faults.add(Fault::new(&at.key("rail"), "no body moves on that rail"));
     }
     Some(meetings)
+}
+
+/// Side of the stop at `x` on which a body with wheels from `first` to `last` is at the start: 1 before the stop, -1
+/// beyond it. Wheels on both sides are a fault.
+fn side_at_start([first, last]: [f64; 2], x: f64, body: &str, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    if last <= x {
+        return 1.0;
+    }
+    if first >= x {
+        return -1.0;
+    }
+    let expected = format!("body {body} has wheels on both sides of the stop");
+    let found = format!("wheels from x = {} to {}", number(first), number(last));
+    let hint = "state the side of the body with \"side\": \"before\" or \"beyond\"";
+    check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
+    1.0
 }
 
 /// Wheels on a rail that belong to the tree of body `b`: their bodies, the positions of their treads relative to the
