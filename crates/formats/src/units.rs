@@ -149,7 +149,8 @@ impl Units {
     /// Reads the member `units` of the object at `place`; a fault if it is missing or a keyword is unknown.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
-            let hint = "units are not guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, or in, m, mm; kip, N, kN";
+            let hint = "units are not guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, \
+                        or in, m, mm; kip, N, kN";
             faults.add(Fault::new(place, "missing key `units`").hint(hint));
             return None;
         };

@@ -163,7 +163,8 @@ impl BulkDeck {
                     );
                 }
                 ("MPC", _) if skip.iter().all(|name| name != "MPC") => {
-                    let hint = "constraints by equations are not supported; rigid links are RBE2 and RBAR; to leave them out, add --skip MPC";
+                    let hint = "constraints by equations are not supported; rigid links are RBE2 and RBAR; to leave them \
+                            out, add --skip MPC";
                     findings.error(ImportFinding::new(line.at, "MPC", "is not supported").hint(hint));
                 }
                 _ => {}

@@ -355,7 +355,8 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
-    /// The stiffness of a spring; `None`, with an error, if its PELAS does not exist or the stiffness is not positive.
+    /// The stiffness of a spring; `None`, with an error, if its PELAS does not exist or the stiffness is not
+    /// positive.
     fn stiffness(&mut self, spring: &SpringCard) -> Option<f64> {
         let finding = |expected: &str| ImportFinding::new(spring.card, &spring.label, expected);
         let k = match spring.stiffness {
