@@ -256,7 +256,7 @@ fn an_imported_deck_can_be_solved_at_once() {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let spec = json(&run.stdout);
     assert_eq!(spec["rails"]["crane"]["stations"], serde_json::json!([0.0, 6.0, 12.0]));
-    let told = "warning: deck.bdf:18:1: CELAS2 6: left out: all its ends are held\n";
+    let told = "warning: deck.bdf:18:1: CELAS2 6: is left out, because all its ends are restrained\n";
     assert_eq!(text(&run.stderr), told);
     let run = girderway(&folder, &[&deck[..], &["-o", "spec.json"]].concat());
     assert_eq!((run.status.code(), run.stdout.len()), (Some(0), 0));

@@ -100,7 +100,7 @@ fn other_versions_are_refused_with_the_way_to_convert_them() {
 fn units_and_sections_are_never_guessed() {
     let wrong = mesh("portal.msh", &ImportOptions::default()).expect_err("nothing said");
     let wrong = told(&wrong);
-    assert!(wrong.contains("--length must say") && wrong.contains("--sections must name"), "{wrong}");
+    assert!(wrong.contains("--length must state") && wrong.contains("--sections must name"), "{wrong}");
     let no_up = ImportOptions { up: None, rails: Vec::new(), ..portal() };
     let wrong = told(&mesh("portal.msh", &no_up).expect_err("no orientation"));
     assert!(wrong.contains("orientation"), "{wrong}");

@@ -60,7 +60,7 @@ fn sheets_are_refused_at_line_and_column() {
         ("id,name,x,value\n6,a,0,1\n6,b,0,1\n", "a.csv:3:1: the id is that of a table of another name"),
         (
             "z,x,value\n0,0,1\n0,1,2\n0,2,3\n0,3,4\n0,1,5\n",
-            "a.csv:6:3: the value of this z and x stands twice",
+            "a.csv:6:3: the value at this z and x is given twice",
         ),
         (
             "z,x,value\n0,0,1\n0,1,2\n0,2,3\n0,3,4\n1,0,1\n1,1,2\n1,2,3\n1,4,4\n",
@@ -113,7 +113,7 @@ fn json_is_refused_by_path() {
         ),
         (
             format!("{{{units}, \"x\": [0,1,2,3], \"stations\": [], \"values\": []}}"),
-            "x: cannot stand beside `stations`",
+            "x: cannot be combined with `stations`",
         ),
         (format!("{{{units}, \"values\": []}}"), "missing key `x`"),
     ] {
@@ -142,7 +142,7 @@ fn commands_are_refused_at_line_and_column() {
     for (text, expected) in [
         (
             "data_element create spline x=0,1,2,3 y=1,2,3,4",
-            "a.cmd: has no `defaults units`  hint: such as: defaults units length=foot force=pound_force mass=slug time=sec; none is guessed: --length ft --force lbf, or in a scene \"units\" of the tables",
+            "a.cmd: has no `defaults units`  hint: such as: defaults units length=foot force=pound_force mass=slug time=sec; units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables",
         ),
         ("defaults units &\n length = cubit", "a.cmd:2:11: unknown unit"),
     ] {
@@ -269,12 +269,15 @@ fn units_are_never_guessed_nor_overruled() {
         &bytes(&data("plain.npz")),
         Some(Units { length: formats::units::Length::Metre, ..FT_LBF }),
     );
-    assert_eq!(set, "plain.npz: says its units itself: ft and lbf, got m and lbf  hint: leave the units out");
+    assert_eq!(
+        set,
+        "plain.npz: already states its units: ft and lbf, got m and lbf  hint: leave the units out"
+    );
     let adm = "t\nSPLINE/6, X=0,1,2,3, Y=1,2,3,4\nEND\n";
     let found = refusal("a.adm", adm.as_bytes(), None);
     assert!(
         found.starts_with("a.adm: has no UNITS statement  hint: such as UNITS/")
-            && found.contains("none is guessed")
+            && found.contains("units are not guessed")
     );
     assert_eq!(read("a.adm", adm.as_bytes(), Some(FT_LBF)).map(|set| set.units), Ok(FT_LBF));
 }
@@ -283,6 +286,6 @@ fn units_are_never_guessed_nor_overruled() {
 fn an_ending_without_a_format_is_refused() {
     assert_eq!(
         refusal("a.xlsx", b"PK", None),
-        "a.xlsx: the ending says no format  hint: use .adm, .cmd, .csv, .json or .npz"
+        "a.xlsx: the extension of the file is not that of a known format  hint: use .adm, .cmd, .csv, .json or .npz"
     );
 }

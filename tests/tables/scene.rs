@@ -57,7 +57,7 @@ fn a_scene_says_the_units_of_a_file_that_does_not() {
     assert!((values[0][0] * 0.3048 / 4.448_221_615_260_5 / 4.0 - 1.0).abs() < 1e-15);
     scene(folder.path(), "{\"file\": \"vertical.csv\", \"vertical\": 6}", "natural");
     let wrong = Document::open(&folder.path().join("scene.json")).map(|_| ()).expect_err("no units");
-    assert!(wrong[0].hint.as_ref().is_some_and(|hint| hint.contains("none is guessed")), "{wrong:?}");
+    assert!(wrong[0].hint.as_ref().is_some_and(|hint| hint.contains("units are not guessed")), "{wrong:?}");
 }
 
 /// The factored form is the natural reading of its own products at the stations.

@@ -38,7 +38,8 @@ fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
     let text = schema.to_value().to_string().replace("\"Raw", "\"").replace("$defs/Raw", "$defs/");
     let mut schema: Value = serde_json::from_str(&text).unwrap_or_default();
     schema["title"] = json!(title);
-    schema["properties"]["format"] = json!({ "const": format });
+    schema["properties"]["format"] =
+        json!({ "const": format, "description": "Name and version of the format." });
     schema["required"] = json!(["format", "units"]);
     schema
 }

@@ -130,12 +130,15 @@ pub struct Units {
     pub force: Force,
 }
 
-/// The member `units` as written.
+/// Units of the numbers of a file.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub struct RawUnits {
+    /// Unit of length: "ft", "in", "m" or "mm".
     length: Option<String>,
+    /// Unit of force: "lbf", "kip", "N" or "kN".
     force: Option<String>,
+    /// Unit of time: "s".
     time: Option<String>,
 }
 
@@ -146,7 +149,8 @@ impl Units {
     /// Reads the member `units` of the object at `place`; a fault if it is missing or a keyword is unknown.
     pub fn read(raw: &Option<RawUnits>, place: &Place<'_>, faults: &mut Faults) -> Option<Units> {
         let Some(raw) = raw else {
-            let hint = "none is guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, or in, m, mm; kip, N, kN";
+            let hint = "units are not guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, \
+                        or in, m, mm; kip, N, kN";
             faults.add(Fault::new(place, "missing key `units`").hint(hint));
             return None;
         };

@@ -15,7 +15,7 @@ impl FromStr for SupportRequest {
     type Err = String;
 
     fn from_str(text: &str) -> Result<SupportRequest, String> {
-        let (set, list) = text.rsplit_once('=').ok_or("must be SET=FREEDOMS, such as feet=ux,uy,uz")?;
+        let (set, list) = text.rsplit_once('=').ok_or("must be SET=DOF,DOF,..., such as feet=ux,uy,uz")?;
         let mut fix = [false; 6];
         for word in list.split(',') {
             let index = ["ux", "uy", "uz", "rx", "ry", "rz"].iter().position(|known| *known == word.trim());
@@ -37,7 +37,7 @@ pub fn restrain(asked: &SupportRequest, structure: &mut ImportedStructure) -> Re
             "sets of points: {}",
             if names.is_empty() { "none".to_owned() } else { names.join(", ") }
         );
-        return Err([format!("names the set {}, which is not there", asked.set), hint]);
+        return Err([format!("refers to the set {}, which does not exist", asked.set), hint]);
     };
     for point in set {
         let support = structure.supports.entry(*point).or_default();

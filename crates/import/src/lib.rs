@@ -97,7 +97,7 @@ pub fn import(
         "bdf" | "dat" | "nas" => false,
         "msh" => true,
         _ => {
-            let wrong = Diagnostic::of_file(name, "the ending says no format");
+            let wrong = Diagnostic::of_file(name, "the extension of the file is not that of a known format");
             return Err(vec![wrong.hint("use .bdf, .dat or .nas (NASTRAN bulk data) or .msh (gmsh)")]);
         }
     };
@@ -132,7 +132,7 @@ fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> 
     for asked in &options.rails {
         let Some(up) = options.up else {
             let message = [
-                "needs --up: a rail has a direction up, and the model has none".to_owned(),
+                "needs --up, because the model does not state the direction up".to_owned(),
                 "add --up 0,0,1 or --up 0,1,0".to_owned(),
             ];
             wrong.push(refused("--rail", message));
@@ -142,7 +142,7 @@ fn add_requested(options: &ImportOptions, structure: &mut ImportedStructure) -> 
             Ok(rail) if structure.rails.iter().any(|other| other.name == rail.name) => {
                 wrong.push(refused(
                     "--rail",
-                    [format!("gives two rails the name {}", rail.name), String::new()],
+                    [format!("defines two rails with the name {}", rail.name), String::new()],
                 ));
             }
             Ok(rail) => structure.rails.push(rail),
@@ -180,7 +180,8 @@ fn read_deck(
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let (Some(length), Some(force)) = (options.length, options.force) else {
-        let wrong = Diagnostic::of_file(name, "bulk data have no units: --length and --force must say them");
+        let wrong =
+            Diagnostic::of_file(name, "bulk data have no units: --length and --force must state them");
         return Err(vec![
             wrong.hint("such as --length m --force N; masses are force s^2 / length after WTMASS"),
         ]);
@@ -188,7 +189,7 @@ fn read_deck(
     if options.sections.is_some() {
         let wrong = refused(
             "--sections",
-            ["belongs to meshes: bulk data have their own sections".to_owned(), String::new()],
+            ["is only available for meshes: bulk data have their own sections".to_owned(), String::new()],
         );
         return Err(vec![wrong]);
     }
@@ -208,12 +209,12 @@ fn read_mesh(
     let mut wrong = Vec::new();
     if options.length.is_none() {
         let missing =
-            Diagnostic::of_file(&name, "a mesh has no units: --length must say that of its coordinates");
+            Diagnostic::of_file(&name, "a mesh has no units: --length must state that of its coordinates");
         wrong.push(missing.hint("such as --length mm"));
     }
     if options.sections.is_none() {
         let missing =
-            Diagnostic::of_file(&name, "a mesh has no sections: --sections must name a file that has them");
+            Diagnostic::of_file(&name, "a mesh has no sections: --sections must name a file with sections");
         let hint = format!(
             "a JSON file of format {} with units, materials and sections by the names of the physical groups",
             msh::FORMAT
@@ -226,7 +227,7 @@ fn read_mesh(
         ("--force", options.force.is_some()),
     ];
     for (flag, _) in deck.into_iter().filter(|(_, given)| *given) {
-        wrong.push(refused(flag, ["belongs to bulk data".to_owned(), String::new()]));
+        wrong.push(refused(flag, ["is only available for bulk data".to_owned(), String::new()]));
     }
     let (Some(length), Some(source)) = (options.length, &options.sections) else { return Err(wrong) };
     if !wrong.is_empty() {

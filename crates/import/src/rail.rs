@@ -42,7 +42,7 @@ impl FromStr for RailRequest {
         let example = "must be NAME=ELEMENTS, such as runway=12,23,30-35, or NAME=SET";
         let (name, rest) = text.split_once('=').ok_or(example)?;
         if name.is_empty() || name.contains('.') {
-            return Err("the name of a rail must not be empty and have no dots".to_owned());
+            return Err("the name of a rail must not be empty or contain dots".to_owned());
         }
         let mut parts = rest.split('/');
         let list = parts.next().unwrap_or_default();
@@ -103,17 +103,18 @@ pub fn rail_along_members(
     };
     let [a, b] = structure.ends(first);
     let along = if first == last { minus(b, a) } else { minus(middle(last), middle(first)) };
-    let hint = "give it as /axis=X,Y,Z";
+    let hint = "state it as /axis=X,Y,Z";
     let axis =
         asked.axis.or_else(|| horizontal(along, up)).and_then(unit).filter(|axis| !parallel(*axis, up));
-    let axis = axis.ok_or_else(|| ["must have an axis that is not along up".to_owned(), hint.to_owned()])?;
+    let axis =
+        axis.ok_or_else(|| ["must have an axis that is not parallel to up".to_owned(), hint.to_owned()])?;
     let mut ends: Vec<[f64; 3]> = Vec::new();
     for &member in &members {
         let [a, b] = structure.ends(member);
         if dot(minus(b, a), axis).abs() <= 1e-9 * length(minus(b, a)) {
             let id = structure.members[member].id;
             return Err([
-                format!("must not lead over element {id}, which is at right angles to it"),
+                format!("must not contain element {id}, which is perpendicular to it"),
                 hint.to_owned(),
             ]);
         }
@@ -130,7 +131,7 @@ pub fn rail_along_members(
     stations.sort_by(f64::total_cmp);
     stations.dedup_by(|b, a| *b - *a <= 1e-9 * range);
     if stations.iter().any(|station| !station.is_finite()) || range <= 0.0 {
-        return Err(["must have coordinates that a double can hold".to_owned(), hint.to_owned()]);
+        return Err(["must have coordinates within double precision".to_owned(), hint.to_owned()]);
     }
     Ok(ImportedRail { name: asked.name.clone(), origin, axis, members, offset: asked.offset, stations })
 }
@@ -161,12 +162,12 @@ fn members(asked: &RailRequest, structure: &ImportedStructure) -> Result<Vec<usi
             let names: Vec<&str> = structure.cell_sets.iter().map(|(name, _)| name.as_str()).collect();
             let what = match item {
                 Item::Elements([from, to]) if from == to => {
-                    format!("names element {from}, which is no member")
+                    format!("refers to element {from}, which is not a member")
                 }
                 Item::Elements([from, to]) => {
-                    format!("names elements {from}-{to}, of which none is a member")
+                    format!("refers to elements {from}-{to}, none of which is a member")
                 }
-                Item::Set(name) => format!("names the set {name}, which is not there"),
+                Item::Set(name) => format!("refers to the set {name}, which does not exist"),
             };
             return Err([what, format!("sets of cells: {}", names.join(", "))]);
         }

@@ -107,8 +107,8 @@ impl Coupling {
             format!("{:.1} % (median; at most {:.1} %)", 100.0 * change.median, 100.0 * change.largest)
         };
         Some(format!(
-            "coupling: vertical-lateral reaches {relative:.3} of sqrt(Gvv Gll); under a side load of {} of the wheel \
-             load, dropping it moves the lateral deflection by {}, the vertical by {}",
+            "coupling: the vertical-lateral coefficients are up to {relative:.3} of sqrt(Gvv Gll); under a side load \
+             of {} of the wheel load, leaving them out changes the lateral deflection by {}, the vertical by {}",
             number(LATERAL_LOAD_FRACTION),
             percent(cost.lateral),
             percent(cost.vertical),
@@ -145,36 +145,47 @@ fn change(coupling: &DMatrix<f64>, direct: &DMatrix<f64>, factor: f64) -> Option
     Some(Change { median: 0.5 * (changes[(n - 1) / 2] + changes[n / 2]), largest })
 }
 
-/// The member `coupling` as it stands in the file: it follows from the grids.
+/// Size of the coupling of directions, for information: it follows from the grids.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCoupling {
+    /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) of vertical and lateral.
     #[serde(rename = "vertical_lateral")]
     _vertical_lateral: Option<f64>,
+    /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) of vertical and longitudinal.
     #[serde(rename = "vertical_longitudinal")]
     _vertical_longitudinal: Option<f64>,
+    /// Largest |G_ab(i, j)| / sqrt(G_aa(i, i) G_bb(j, j)) of lateral and longitudinal.
     #[serde(rename = "lateral_longitudinal")]
     _lateral_longitudinal: Option<f64>,
+    /// Error of leaving out the coupling of vertical and lateral.
     #[serde(rename = "dropped")]
     _dropped: Option<RawDropped>,
 }
 
+/// Error of leaving out the coupling of vertical and lateral, under a wheel load and a side load at one station.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawDropped {
+    /// Side load as a fraction of the wheel load.
     #[serde(rename = "side_load")]
     _side_load: f64,
+    /// Relative error of the vertical deflection.
     #[serde(rename = "vertical")]
     _vertical: RawChange,
+    /// Relative error of the lateral deflection.
     #[serde(rename = "lateral")]
     _lateral: RawChange,
 }
 
+/// Relative error over the stations.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawChange {
+    /// Median.
     #[serde(rename = "median")]
     _median: f64,
+    /// Largest value.
     #[serde(rename = "largest")]
     _largest: f64,
 }

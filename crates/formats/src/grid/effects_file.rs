@@ -18,64 +18,92 @@ crate::text::object::objects!(RawEffects, RawUnits, RawReaction, RawSection, Raw
 const AXES: [(&str, Axis); 3] =
     [("vertical", Axis::Vertical), ("lateral", Axis::Lateral), ("longitudinal", Axis::Longitudinal)];
 
-/// The member `effects` as it stands in the file.
+/// Reactions and internal forces under unit loads at the stations.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawEffects {
-    /// For people: they follow from the units of the file.
+    /// Units of forces and moments per unit load, for information: they follow from the units of the file.
     #[serde(rename = "units")]
     _units: Option<RawUnits>,
+    /// Reactions of the ground.
     reactions: Option<Vec<RawReaction>>,
+    /// Internal forces at the sections.
     sections: Option<Vec<RawSection>>,
 }
 
+/// Units of forces and moments per unit load.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawUnits {
+    /// Unit of a force per unit load.
     #[serde(rename = "force")]
     _force: Option<String>,
+    /// Unit of a moment per unit load.
     #[serde(rename = "moment")]
     _moment: Option<String>,
 }
 
+/// Reaction of the ground, with one value for each station under a unit load there.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawReaction {
+    /// Coordinate of the support of a girder, length.
     x: Option<f64>,
+    /// Index of the supported point of a frame.
     point: Option<usize>,
+    /// Degree of freedom: global direction of the force, or axis of the moment.
     dof: Option<String>,
+    /// Index of the spring that supplies the reaction; absent for supports.
     spring: Option<usize>,
+    /// Values under vertical loads.
     vertical: Option<Vec<f64>>,
+    /// Values under lateral loads.
     lateral: Option<Vec<f64>>,
+    /// Values under longitudinal loads.
     longitudinal: Option<Vec<f64>>,
 }
 
+/// Internal forces at one section, in the local axes of the member.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawSection {
+    /// Name of the section.
     name: Option<String>,
+    /// Coordinate on a girder from the first support, length.
     x: Option<f64>,
+    /// Member of a frame as [block, index], counted from 0.
     cell: Option<[usize; 2]>,
+    /// Position as a fraction of the flexible length of the member, from end a.
     at: Option<f64>,
+    /// Axial force, positive in tension.
     #[serde(rename = "N")]
     n: Option<RawLines>,
+    /// Shear force along local y.
     #[serde(rename = "Vy")]
     vy: Option<RawLines>,
+    /// Shear force along local z.
     #[serde(rename = "Vz")]
     vz: Option<RawLines>,
+    /// Torsional moment.
     #[serde(rename = "Mx")]
     mx: Option<RawLines>,
+    /// Bending moment about local y.
     #[serde(rename = "My")]
     my: Option<RawLines>,
+    /// Bending moment about local z.
     #[serde(rename = "Mz")]
     mz: Option<RawLines>,
 }
 
+/// Values of one component, with one value for each station under a unit load there.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawLines {
+    /// Values under vertical loads.
     vertical: Option<Vec<f64>>,
+    /// Values under lateral loads.
     lateral: Option<Vec<f64>>,
+    /// Values under longitudinal loads.
     longitudinal: Option<Vec<f64>>,
 }
 

@@ -87,43 +87,62 @@ pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
     text
 }
 
+/// An influence grid: influence coefficients of the rails of a structure at stations.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawGrid {
+    /// Name and version of the format.
     format: Option<String>,
+    /// Name of the structure.
     name: Option<String>,
+    /// Units of all numbers of the file.
     units: Option<RawUnits>,
+    /// Beam theory: "euler-bernoulli" or "timoshenko".
     theory: Option<String>,
+    /// Rails with their stations.
     rails: Option<Vec<RawRail>>,
+    /// Bound of the error from rounding.
     certificate: Option<RawCertificate>,
-    /// Follows from the grids.
+    /// Size of the coupling of directions, for information: it follows from the grids.
     #[serde(rename = "coupling")]
     _coupling: Option<RawCoupling>,
+    /// Reasons why blocks are absent.
     #[serde(default)]
     notes: Vec<String>,
+    /// Blocks of influence coefficients.
     influence: Option<RawInfluence>,
+    /// Reactions and internal forces under unit loads.
     effects: Option<RawEffects>,
+    /// The exact influence surface between the stations.
     surface: Option<RawSurface>,
+    /// Natural modes.
     modes: Option<RawModes>,
 }
 
+/// A rail of an influence grid.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawRail {
+    /// Name of the rail.
     name: Option<String>,
+    /// Coordinates of the stations, length.
     stations: Option<Vec<f64>>,
 }
 
+/// Bound of the error of the influence coefficients from rounding.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawCertificate {
+    /// Condition number of the scaled stiffness matrix.
     condition: f64,
+    /// Bound of the error of entry ij, relative to sqrt(G_ii G_jj).
     error_bound: f64,
+    /// Precision in which the stiffness matrix was formed and factored.
     #[serde(default)]
     precision: Precision,
 }
 
-/// In what the stiffness was formed and factored.
+/// Precision in which the stiffness matrix is formed and factored.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
 enum Precision {
@@ -132,14 +151,22 @@ enum Precision {
     DoubleDouble,
 }
 
+/// Blocks of influence coefficients, length / force. Rows are stations of the displacement, columns those of the
+/// load.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 struct RawInfluence {
+    /// Vertical displacement per vertical load.
     vertical: Option<Vec<Vec<f64>>>,
+    /// Lateral displacement per lateral load.
     lateral: Option<Vec<Vec<f64>>>,
+    /// Longitudinal displacement per longitudinal load.
     longitudinal: Option<Vec<Vec<f64>>>,
+    /// Vertical displacement per lateral load.
     vertical_lateral: Option<Vec<Vec<f64>>>,
+    /// Vertical displacement per longitudinal load.
     vertical_longitudinal: Option<Vec<Vec<f64>>>,
+    /// Lateral displacement per longitudinal load.
     lateral_longitudinal: Option<Vec<Vec<f64>>>,
 }
 
@@ -267,7 +294,9 @@ fn symmetric(block: &DMatrix<f64>, place: &Place<'_>, faults: &mut Faults) {
                 let expected =
                     format!("must be symmetric: [{column}][{row}] is {}", number(block[(column, row)]));
                 let fault = Fault::new(&line.index(column), expected).got(number(block[(row, column)]));
-                faults.add(fault.hint("a displacement at i from a load at j is the same as at j from i"));
+                faults.add(fault.hint(
+                    "a displacement at i due to a load at j equals that at j due to the same load at i",
+                ));
                 return;
             }
         }

@@ -87,7 +87,7 @@ pub fn summary(modes: &Modes) -> String {
         list.push("...".to_owned());
     }
     format!(
-        "modes: {} Hz; {} below {} Hz by count, none missed",
+        "modes: {} Hz; {} modes are below {} Hz, and all of them are listed",
         list.join(", "),
         modes.count_below_shift,
         hertz(modes.shift)
@@ -99,41 +99,58 @@ fn hertz(omega: f64) -> String {
     format!("{:.4}", omega / TAU)
 }
 
-/// The member as it stands in the file.
+/// Natural modes.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawModes {
+    /// Frequency below which all modes are listed, with their number.
     #[serde(rename = "complete_below")]
     _complete_below: Option<Value>,
+    /// Frequency of the first mode that is not listed, Hz; null if there is none.
     #[serde(rename = "next_hz")]
     _next_hz: Option<f64>,
+    /// Estimated relative error of the frequencies due to the mesh.
     #[serde(rename = "mesh_error")]
     _mesh_error: Option<f64>,
+    /// Mass matrix of the rigid-body motions, 6 x 6.
     #[serde(rename = "mass")]
     _mass: Option<[[f64; 6]; 6]>,
+    /// Modes in ascending order of frequency.
     modes: Option<Vec<RawMode>>,
 }
 
+/// A natural mode of modal mass 1.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawMode {
+    /// Natural frequency, Hz.
     hz: Option<f64>,
+    /// Natural angular frequency, radian / time.
     #[serde(rename = "omega")]
     _omega: Option<f64>,
+    /// Scaled residual of the eigenvalue equation.
     #[serde(rename = "residual")]
     _residual: Option<f64>,
+    /// Participation factors of three translations and three rotations.
     #[serde(rename = "coupling")]
     _coupling: Option<[f64; 6]>,
+    /// Vertical displacement at the stations.
     vertical: Option<RawShape>,
+    /// Lateral displacement at the stations.
     lateral: Option<RawShape>,
+    /// Longitudinal displacement at the stations.
     longitudinal: Option<RawShape>,
+    /// Rotation about the rail at the stations.
     twist: Option<Vec<f64>>,
 }
 
+/// Displacement of a mode in one direction at the stations.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawShape {
+    /// Displacements.
     value: Vec<f64>,
+    /// Derivatives with respect to the rail coordinate.
     slope: Vec<f64>,
 }
 

@@ -18,27 +18,37 @@ use crate::text::place::Place;
 
 crate::text::object::objects!(RawSurface, RawCell);
 
-/// The member `surface` as it stands in the file.
+/// The exact influence surface between the stations.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 pub(crate) struct RawSurface {
+    /// Rail elements.
     cells: Vec<RawCell>,
+    /// Compliance of the end states of all rail elements, with six degrees of freedom for each state.
     compliance: Vec<Vec<Option<f64>>>,
 }
 
+/// A rail element: a part of a rail on one member.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, expecting = "an object", remote = "Self")]
 struct RawCell {
+    /// Index of the rail.
     rail: usize,
+    /// First and last coordinate along the rail, length.
     x: [f64; 2],
+    /// Indices of the two end states.
     ends: [usize; 2],
+    /// Length of the element.
     length: f64,
+    /// Unit vectors of the local axes, in the axes of the rail.
     frame: [[f64; 3]; 3],
+    /// Vector from the element to the rail, length.
     offset: [f64; 3],
-    /// 1/EA, 1/GJ, 1/EIy, 1/EIz, 1/(G Asy), 1/(G Asz).
+    /// 1/EA, 1/GJ, 1/EIy, 1/EIz, 1/(G Asy) and 1/(G Asz); null where nothing resists.
     flexibility: [Option<f64>; 6],
-    /// The member that carries it, and whether that runs against the rail.
+    /// Number that is equal for all elements on one member.
     member: Option<usize>,
+    /// Whether the member runs opposite to the rail.
     #[serde(default)]
     reversed: bool,
 }
@@ -107,7 +117,10 @@ impl RawSurface {
         let size = 6 * line.state_count();
         let at = place.key("compliance");
         if self.compliance.len() != size || self.compliance.iter().any(|row| row.len() != size) {
-            faults.add(Fault::new(&at, format!("must be {size} x {size}: six freedoms a state")));
+            faults.add(Fault::new(
+                &at,
+                format!("must be {size} x {size}: six degrees of freedom for each state"),
+            ));
             return None;
         }
         let nodal = DMatrix::from_fn(size, size, |i, j| finite_or_infinite(self.compliance[i][j]));

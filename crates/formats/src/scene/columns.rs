@@ -12,7 +12,7 @@ pub const MOST_BY_DEFAULT: usize = 100;
 /// A reaction, a component of the internal force at a section, or the stress at a point of a section.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
-    /// `<structure>.<support>.<freedom>`, `<structure>.<section>.<component>` or `<structure>.<section>.<point>`.
+    /// `<structure>.<support>.<dof>`, `<structure>.<section>.<component>` or `<structure>.<section>.<point>`.
     pub name: String,
     /// Force or moment.
     pub dimension: Dimension,
@@ -50,10 +50,7 @@ pub fn names(structure: &str, spec: &Spec) -> [Vec<String>; 2] {
         |(model, _)| {
             let grounds = spec.supported_points(&model);
             let all = grounds.iter().flat_map(|ground| {
-                ground
-                    .dofs
-                    .iter()
-                    .map(|freedom| format!("{structure}.{}.{}", ground.name, spec.dof_word(*freedom)))
+                ground.dofs.iter().map(|dof| format!("{structure}.{}.{}", ground.name, spec.dof_word(*dof)))
             });
             all.collect()
         },

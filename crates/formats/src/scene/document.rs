@@ -109,7 +109,10 @@ fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
                 seen.push(label);
             }
             Some(None) => faults.add(Fault::new(&at.key("label"), "must be a string")),
-            None => faults.add(Fault::new(&at, "missing key `label`").hint("it names history-<label>.csv")),
+            None => faults.add(
+                Fault::new(&at, "missing key `label`")
+                    .hint("the label is part of the file name history-<label>.csv"),
+            ),
         }
         for key in ["format", "units", "name", "compare"] {
             if changes.member(key).is_some() {

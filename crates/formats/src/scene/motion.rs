@@ -42,7 +42,7 @@ pub struct NamedWheel {
 /// An equaliser whose wheels carry unequal fractions of its load.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[error(
-    "{truck}: wheels under one equaliser must carry equal shares: give both its ends the same number of wheels"
+    "{truck}: all wheels under one equaliser must carry equal loads: both its ends need the same number of wheels"
 )]
 pub struct UnequalFractions {
     /// Name of the truck.
@@ -62,7 +62,7 @@ pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractio
         let rail = &scene.rails[truck.rail];
         for node in &truck.tree {
             let below = node.wheels();
-            if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
+            if below.iter().any(|(_, fraction)| (fraction - below[0].1).abs() > 1e-12) {
                 return Err(UnequalFractions { truck: truck.name.clone() });
             }
             contacts.push(Contact {
@@ -179,8 +179,8 @@ fn actuators(scene: &Scene, contacts: &[Contact]) -> sim::Actuators {
     let in_space = scene.bodies.iter().enumerate().filter(|(_, body)| body.in_space && body.start.is_none());
     out.hanging = in_space.map(|(b, _)| b).collect();
     for load in &scene.loads {
-        let freedom = sim::BodyDof::ALL[load.dof];
-        out.loads.push(sim::Load { body: load.body, dof: freedom, value: load.value.clone() });
+        let dof = sim::BodyDof::ALL[load.dof];
+        out.loads.push(sim::Load { body: load.body, dof, value: load.value.clone() });
     }
     for (b, body) in scene.bodies.iter().enumerate() {
         if let BodyMotion::Driven(drive) = &body.motion {

@@ -88,7 +88,7 @@ pub trait Item: Sized + for<'de> Deserialize<'de> {
 }
 
 impl Item for String {
-    const WHAT: &'static str = "a word for the whole block, or a list of one for each cell";
+    const WHAT: &'static str = "a keyword for the whole block, or a list with a keyword for each cell";
 
     fn of_word(word: &str) -> Option<Self> {
         Some(word.to_owned())
@@ -96,7 +96,7 @@ impl Item for String {
 }
 
 impl Item for Reference {
-    const WHAT: &'static str = "a section for the whole block, or a list of one for each cell";
+    const WHAT: &'static str = "a section for the whole block, or a list with a section for each cell";
 
     fn of_index(index: usize) -> Option<Self> {
         Some(Reference::Index(index))
@@ -120,7 +120,7 @@ impl Item for Option<Reference> {
 }
 
 impl Item for Option<usize> {
-    const WHAT: &'static str = "a number for the whole block, or a list of one for each cell";
+    const WHAT: &'static str = "a number for the whole block, or a list with a number for each cell";
 
     fn of_index(index: usize) -> Option<Self> {
         Some(Some(index))
@@ -147,7 +147,7 @@ fn classified<L, T, E: Error>(
         }
     }
     match (leaves.is_empty(), items.is_empty()) {
-        (false, false) => Err(E::custom(format_args!("invalid type: both, expected {what}"))),
+        (false, false) => Err(E::custom(format_args!("invalid type: a mixture of both, expected {what}"))),
         (false, true) => of_leaves(leaves).map(Block::All),
         (true, _) => Ok(Block::Each(items)),
     }
@@ -186,7 +186,7 @@ impl<'de> Deserialize<'de> for Entry<f64, [f64; 3]> {
 }
 
 impl Item for [f64; 3] {
-    const WHAT: &'static str = "a vector for the whole block, or a list of one for each cell";
+    const WHAT: &'static str = "a vector for the whole block, or a list with a vector for each cell";
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries = Vec::deserialize(SeqAccessDeserializer::new(list))?;
@@ -223,7 +223,7 @@ impl<'de> Deserialize<'de> for Entry<String, Vec<String>> {
 
 impl Item for Vec<String> {
     const WHAT: &'static str =
-        "a list of freedoms for the whole block, or a list of such lists, one for each cell";
+        "a list of degrees of freedom for the whole block, or a list with such a list for each cell";
 
     fn list<'de, A: SeqAccess<'de>>(list: A) -> Result<Block<Self>, A::Error> {
         let entries: Vec<Entry<String, Self>> = Vec::deserialize(SeqAccessDeserializer::new(list))?;
@@ -292,7 +292,7 @@ mod tests {
     }
 
     #[test]
-    fn an_empty_list_has_no_cells_or_no_freedoms() {
+    fn an_empty_list_has_no_cells_or_no_dofs() {
         assert_eq!(of("[]"), Ok(Block::<String>::Each(Vec::new())));
         assert_eq!(of("[]"), Ok(Block::<Vec<String>>::Absent));
     }

@@ -61,8 +61,11 @@ pub(super) fn read_girder(
     each(raw, root, check, |raw, at, name, check| {
         for (key, given) in [("cell", raw.cell.is_some()), ("at", raw.at.is_some())] {
             if given {
-                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the general form")).at_key();
-                check.faults.add(fault.hint("on a `girder` a section is at `x`, from the first support"));
+                let fault =
+                    Fault::new(&at.key(key), format!("`{key}` is a key of the general form")).at_key();
+                check.faults.add(
+                    fault.hint("in the short form its position is `x`, measured from the first support"),
+                );
             }
         }
         let Some(&given) = check.faults.require(&raw.x, at, "x") else { return };
@@ -97,14 +100,18 @@ pub(super) fn read_frame(
     let mut cuts = Vec::new();
     each(raw, root, check, |raw, at, name, check| {
         if raw.x.is_some() {
-            let fault = Fault::new(&at.key("x"), "`x` belongs to the short form").at_key();
-            check.faults.add(fault.hint("in the general form a section is `at` a share of its `cell`"));
+            let fault = Fault::new(&at.key("x"), "`x` is a key of the short form").at_key();
+            check
+                .faults
+                .add(fault.hint(
+                    "in the general form its position is `at`, a fraction of the length of its `cell`",
+                ));
         }
         let cell = check.faults.require(&raw.cell, at, "cell").copied();
         let place = check.faults.require(&raw.at, at, "at").copied();
         if let Some(place) = place.filter(|place| !(0.0..=1.0).contains(place)) {
             let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(place));
-            check.faults.add(fault.hint("0 is the cell's flexible end a, 1 its end b"));
+            check.faults.add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
         }
         let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));
         if let (Some(cell), Some(member), Some(place)) = (cell, member, place) {
@@ -133,7 +140,8 @@ fn each(
         let at = list.index(index);
         let name = check.faults.require(&raw.name, &at, "name").map(String::as_str).unwrap_or_default();
         if raw.name.is_some() && (name.is_empty() || names.contains(&name)) {
-            let fault = Fault::new(&at.key("name"), "must be a name of its own").got(format!("\"{name}\""));
+            let fault =
+                Fault::new(&at.key("name"), "must differ from the other names").got(format!("\"{name}\""));
             check.faults.add(fault);
         }
         names.push(name);

@@ -7,7 +7,7 @@ use super::raw::RawSpec;
 use super::references::{Points, dofs, index_below};
 use super::stress::{self, StressPoint};
 use super::structure::FrameSpec;
-use super::words::FREEDOMS;
+use super::words::DOF_WORDS;
 use super::{members, rails, sections};
 use crate::check::Check;
 use crate::text::fault::Fault;
@@ -38,8 +38,8 @@ pub(super) fn read(
         model.points.push(check.vector(*point, &place.index(index), Dimension::LENGTH));
     }
     if raw.stations.is_some() {
-        let fault = Fault::new(&root.key("stations"), "`stations` belongs to the short form").at_key();
-        check.faults.add(fault.hint("in the general form each of `rails` has its own"));
+        let fault = Fault::new(&root.key("stations"), "`stations` is a key of the short form").at_key();
+        check.faults.add(fault.hint("in the general form each rail has its own `stations`"));
     }
     let sections = sections::read(raw, root, &mut model, check);
     let cells = members::read(raw, root, &sections, &mut model, check);
@@ -140,15 +140,15 @@ fn read_springs(
     for (index, raw) in raw.springs.iter().flatten().enumerate() {
         let at = list.index(index);
         let point = known.one(&raw.point, "point", &at, check);
-        let freedom = check
+        let dof = check
             .faults
             .require(&raw.dof, &at, "dof")
-            .and_then(|word| check.faults.one_of(word, &at.key("dof"), &FREEDOMS));
-        let rotational = matches!(freedom, Some(Dof::Rx | Dof::Ry | Dof::Rz));
+            .and_then(|word| check.faults.one_of(word, &at.key("dof"), &DOF_WORDS));
+        let rotational = matches!(dof, Some(Dof::Rx | Dof::Ry | Dof::Rz));
         let dimension = if rotational { Dimension::MOMENT } else { Dimension::STIFFNESS };
         let stiffness = check.required_positive(raw.k, &at, "k", dimension, "stiffness to ground");
-        let both = point.zip(freedom);
-        model.springs.extend(both.map(|(point, freedom)| GroundSpring { point, dof: freedom, stiffness }));
+        let both = point.zip(dof);
+        model.springs.extend(both.map(|(point, dof)| GroundSpring { point, dof, stiffness }));
     }
 }
 

@@ -18,24 +18,8 @@ pub(super) fn read(
     check: &mut Check<'_>,
 ) -> Girder {
     let at = root.key("girder");
-    let mut spans = Vec::new();
     let before = check.faults.0.len();
-    if let Some(given) = check.faults.require(&raw.spans, &at, "spans") {
-        let place = at.key("spans");
-        if given.is_empty() {
-            check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
-        }
-        for (index, span) in given.iter().enumerate() {
-            let hint = "spans are lengths, first support to last";
-            spans.push(check.positive(*span, &place.index(index), Dimension::LENGTH, hint));
-        }
-    }
-    let mut overhangs = [0.0; 2];
-    let place = at.key("overhangs");
-    for (index, overhang) in raw.overhangs.unwrap_or_default().into_iter().enumerate() {
-        let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
-        overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
-    }
+    let (spans, overhangs) = read_lengths(raw, &at, check);
     // stations can only be checked if the lengths are valid
     let raw_range = (check.faults.0.len() == before).then(|| range_of(raw));
     let mut optional =
@@ -48,7 +32,7 @@ pub(super) fn read(
     let ka_lateral = optional(raw.ka_lateral, "kA_lateral", Dimension::AREA);
     let e = check.required_positive(raw.e, &at, "E", Dimension::STRESS, "");
     let i_vertical = check.required_positive(raw.i_vertical, &at, "I_vertical", Dimension::SECOND_MOMENT, "");
-    let hint = "0 where the rail lies on the elastic axis";
+    let hint = "0 if the rail lies on the elastic axis";
     let height = raw.rail_height.unwrap_or_default();
     let rail_height = check.not_negative(height, &at.key("rail_height"), Dimension::LENGTH, hint);
     let mass_per_length = raw
@@ -82,6 +66,28 @@ pub(super) fn read(
     girder
 }
 
+/// Reads the spans and the overhangs.
+fn read_lengths(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> (Vec<f64>, [f64; 2]) {
+    let mut spans = Vec::new();
+    if let Some(given) = check.faults.require(&raw.spans, at, "spans") {
+        let place = at.key("spans");
+        if given.is_empty() {
+            check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
+        }
+        for (index, span) in given.iter().enumerate() {
+            let hint = "spans are lengths, first support to last";
+            spans.push(check.positive(*span, &place.index(index), Dimension::LENGTH, hint));
+        }
+    }
+    let mut overhangs = [0.0; 2];
+    let place = at.key("overhangs");
+    for (index, overhang) in raw.overhangs.unwrap_or_default().into_iter().enumerate() {
+        let hint = "overhangs are lengths beyond the first and the last support; 0 for none";
+        overhangs[index] = check.not_negative(overhang, &place.index(index), Dimension::LENGTH, hint);
+    }
+    (spans, overhangs)
+}
+
 /// First and last coordinate of the rail, in the units of the file.
 fn range_of(raw: &RawGirder) -> [f64; 2] {
     let [before, after] = raw.overhangs.unwrap_or_default();
@@ -109,7 +115,7 @@ fn read_stations(
             let slack = 1e-12 * (last - first);
             if station < first - slack || station > last + slack {
                 let expected = format!("must be on the rail, from {first} to {last}");
-                let hint = "stations are coordinates from the first support, overhangs included";
+                let hint = "stations are coordinates from the first support, and may be on the overhangs";
                 check.faults.add(Fault::new(&item, expected).got(number(station)).hint(hint));
             }
             station = station.max(first).min(last);

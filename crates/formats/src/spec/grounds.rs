@@ -3,7 +3,7 @@
 use fea::{Dof, Model};
 
 use super::structure::{Form, Spec};
-use super::words::FREEDOMS;
+use super::words::DOF_WORDS;
 
 /// A point restrained by supports or springs.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,15 +26,15 @@ impl Spec {
     pub fn supported_points(&self, model: &Model) -> Vec<SupportedPoint> {
         let mut all: Vec<SupportedPoint> = Vec::new();
         let supports = model.supports.iter().flat_map(|support| {
-            let held = Dof::ALL.into_iter().filter(|freedom| support.fixed[*freedom as usize]);
-            held.map(|freedom| (support.point, freedom))
+            let fixed = Dof::ALL.into_iter().filter(|dof| support.fixed[*dof as usize]);
+            fixed.map(|dof| (support.point, dof))
         });
         let springs = model.springs.iter().map(|spring| (spring.point, spring.dof));
-        for (point, freedom) in supports.chain(springs) {
+        for (point, dof) in supports.chain(springs) {
             match all.iter_mut().find(|ground| ground.point == point) {
-                Some(ground) if ground.dofs.contains(&freedom) => {}
-                Some(ground) => ground.dofs.push(freedom),
-                None => all.push(SupportedPoint { point, name: String::new(), dofs: vec![freedom] }),
+                Some(ground) if ground.dofs.contains(&dof) => {}
+                Some(ground) => ground.dofs.push(dof),
+                None => all.push(SupportedPoint { point, name: String::new(), dofs: vec![dof] }),
             }
         }
         if let Form::Girder(_) = self.form {
@@ -72,13 +72,13 @@ impl Spec {
     /// The name of a degree of freedom in column names. For a girder, `longitudinal`, `vertical`, `lateral` and
     /// `twist` replace `ux`, `uy`, `uz` and `rx`.
     #[must_use]
-    pub fn dof_word(&self, freedom: Dof) -> &'static str {
-        match (&self.form, freedom) {
+    pub fn dof_word(&self, dof: Dof) -> &'static str {
+        match (&self.form, dof) {
             (Form::Girder(_), Dof::Ux) => "longitudinal",
             (Form::Girder(_), Dof::Uy) => "vertical",
             (Form::Girder(_), Dof::Uz) => "lateral",
             (Form::Girder(_), Dof::Rx) => "twist",
-            _ => FREEDOMS.iter().find(|(_, known)| *known == freedom).map_or("", |(word, _)| word),
+            _ => DOF_WORDS.iter().find(|(_, known)| *known == dof).map_or("", |(word, _)| word),
         }
     }
 }

@@ -33,34 +33,32 @@ impl Spec {
                 };
                 SolveError::Input(source.diagnose(&Faults(vec![fault])))
             }
-            Error::Mechanism { point, dof: freedom } => SolveError::NoSolution(format!(
-                "{}: mechanism: nothing holds {} in {freedom} ({})",
+            Error::Mechanism { point, dof } => SolveError::NoSolution(format!(
+                "{}: mechanism: {} is not restrained in {dof} ({})",
                 source.name,
                 self.point(*point),
-                meaning(*freedom)
+                meaning(*dof)
             )),
-            Error::IllConditioned { condition, bound, asked, point, dof: freedom } => {
-                SolveError::NoSolution(format!(
-                    "{}: condition {condition:.1e} bounds the relative error by {bound:.1e}, asked \
-                 {asked:.1e}; weakest is {} in {freedom} ({})  hint: lengthen or join the shortest members, one a span is \
-                 best, or ask less with --accuracy",
-                    source.name,
-                    self.point(*point),
-                    meaning(*freedom)
-                ))
-            }
-            Error::Released { member, end, dof: freedom } => SolveError::NoSolution(format!(
-                "{}: mechanism: releases of {} leave {freedom} free at its end {}",
+            Error::IllConditioned { condition, bound, asked, point, dof } => SolveError::NoSolution(format!(
+                "{}: the condition {condition:.1e} permits a relative error of {bound:.1e}, above the accuracy of \
+                     {asked:.1e}; the worst degree of freedom is {dof} of {} ({})  hint: lengthen or join the \
+                     shortest members, or request less with --accuracy",
+                source.name,
+                self.point(*point),
+                meaning(*dof)
+            )),
+            Error::Released { member, end, dof } => SolveError::NoSolution(format!(
+                "{}: mechanism: with its releases {} has no stiffness in {dof} at its end {}",
                 source.name,
                 self.path(ModelEntry::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
             )),
             Error::Memory { quantity, bytes, most } => SolveError::NoSolution(format!(
-                "{}: the {quantity} would take {:.1} GB of memory, {:.1} GB are allowed  hint: {}",
+                "{}: the {quantity} would need {:.1} GB of memory, more than the permitted {:.1} GB  hint: {}",
                 source.name,
                 *bytes as f64 / 1e9,
                 *most as f64 / 1e9,
-                "let the rails cover only what carriages reach, or join members"
+                "shorten the rails to the travel of the wheels, or use fewer members"
             )),
             Error::NotFactorable { .. }
             | Error::NoRails
@@ -148,8 +146,8 @@ impl Spec {
 }
 
 /// Description of a degree of freedom.
-const fn meaning(freedom: Dof) -> &'static str {
-    match freedom {
+const fn meaning(dof: Dof) -> &'static str {
+    match dof {
         Dof::Ux => "displacement along x",
         Dof::Uy => "displacement along y",
         Dof::Uz => "displacement along z",

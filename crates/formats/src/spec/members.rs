@@ -144,69 +144,103 @@ impl<'r> Columns<'r> {
             .get(block, index)
             .and_then(|word| self.kind.at(here, &data, |place| check.faults.one_of(word, place, &kinds)));
         let kind = kind.unwrap_or(MemberKind::Beam);
-        let section = match self.section.get(block, index) {
-            Some(section) => {
-                self.section.at(here, &data, |place| refer(section, names, "section", place, check))
-            }
-            None if model.sections.len() == 1 => Some(0),
-            None => {
-                let absent = self.section.absent(block);
-                if index == 0 && (absent || block == 0) && !model.sections.is_empty() {
-                    let hint = "with several sections each cell needs its own, by name or index";
-                    let fault = Fault::new(root, "missing key `cell_data.section`").hint(hint);
-                    match absent {
-                        true => {
-                            let fault = Fault { path: data.key("section").index(block).path(), ..fault };
-                            let expected = "must be the sections of this block".to_owned();
-                            check.faults.add(Fault { expected, ..fault }.got("null"));
-                        }
-                        false if !self.section.given => check.faults.add(fault),
-                        false => {}
-                    }
-                }
-                None
-            }
-        };
-        let mut offsets = [[0.0; 3]; 2];
-        let mut releases = [[false; 6]; 2];
-        for end in 0..2 {
-            let column = &self.offsets[end];
-            if let Some(offset) = column.get(block, index) {
-                offsets[end] = column.at(here, &data, |at| check.vector(*offset, at, Dimension::LENGTH));
-            }
-            let column = &self.releases[end];
-            if let Some(words) = column.get(block, index) {
-                releases[end] = column.at(here, &data, |at| dofs(words, at, check));
-            }
-        }
+        let section = self.section(here, root, names, model.sections.len(), check);
+        let (offsets, releases) = self.ends(here, &data, check);
         if !ends_exist {
             return None;
         }
         let tip = |end: usize, axis: usize| model.points[points[end]][axis] + offsets[end][axis];
         let along = [0, 1, 2].map(|axis| tip(1, axis) - tip(0, axis));
         if length(along) == 0.0 {
-            let fault = Fault::new(cell, "must have a length between its flexible ends").got(0);
-            check.faults.add(fault.hint("its two ends coincide, offsets included"));
+            let fault = Fault::new(cell, "must have a positive length between its flexible ends").got(0);
+            check.faults.add(fault.hint("its two ends coincide after the offsets are added"));
         }
-        let given = self.orientation.get(block, index);
-        let orientation = given.copied().unwrap_or(model.up);
+        let orientation = self.orientation.get(block, index).copied().unwrap_or(model.up);
         if kind == MemberKind::Beam && length(along) > 0.0 && parallel(orientation, along) {
-            let fault = |place: &Place<'_>| {
-                let found = format!("{} on a member along {}", listed(orientation), listed(along));
-                let fault =
-                    Fault::new(place, "its orientation must not be zero or along the member").got(found);
-                fault.hint(match given {
-                    Some(_) => "local y is the part of `orientation` normal to the member",
-                    None => "without `orientation` local y is `up`: give upright members, as columns, one that lies across them, such as [0, 0, 1]",
-                })
-            };
-            let fault = match given {
-                Some(_) => self.orientation.at(here, &data, fault),
-                None => fault(cell),
-            };
-            check.faults.add(fault);
+            self.refuse_orientation(here, (orientation, along), cell, &data, check);
         }
         Some(Member { points, kind, section: section?, orientation, offsets, releases })
+    }
+
+    /// The section of a cell. It may be left out if the spec has only one section; otherwise a missing section is
+    /// reported once for its block.
+    fn section(
+        &self,
+        here: [usize; 2],
+        root: &Place<'_>,
+        names: &[(&str, usize)],
+        count: usize,
+        check: &mut Check<'_>,
+    ) -> Option<usize> {
+        let data = root.key("cell_data");
+        let [block, index] = here;
+        if let Some(section) = self.section.get(block, index) {
+            return self.section.at(here, &data, |place| refer(section, names, "section", place, check));
+        }
+        if count == 1 {
+            return Some(0);
+        }
+        let absent = self.section.absent(block);
+        if index == 0 && (absent || block == 0) && count > 0 {
+            let hint = "if there are several sections, state the name or index of the section of each cell";
+            if absent {
+                let place = data.key("section");
+                let fault = Fault::new(&place.index(block), "must state the sections of this block");
+                check.faults.add(fault.got("null").hint(hint));
+            } else if !self.section.given {
+                check.faults.add(Fault::new(root, "missing key `cell_data.section`").hint(hint));
+            }
+        }
+        None
+    }
+
+    /// Offsets and releases of the two ends of a cell.
+    fn ends(
+        &self,
+        here: [usize; 2],
+        data: &Place<'_>,
+        check: &mut Check<'_>,
+    ) -> ([[f64; 3]; 2], [[bool; 6]; 2]) {
+        let [block, index] = here;
+        let mut offsets = [[0.0; 3]; 2];
+        let mut releases = [[false; 6]; 2];
+        for end in 0..2 {
+            let column = &self.offsets[end];
+            if let Some(offset) = column.get(block, index) {
+                offsets[end] = column.at(here, data, |at| check.vector(*offset, at, Dimension::LENGTH));
+            }
+            let column = &self.releases[end];
+            if let Some(words) = column.get(block, index) {
+                releases[end] = column.at(here, data, |at| dofs(words, at, check));
+            }
+        }
+        (offsets, releases)
+    }
+
+    /// Adds the fault of an orientation that is parallel to its member, located at the orientation or, if it is the
+    /// default, at the cell.
+    fn refuse_orientation(
+        &self,
+        here: [usize; 2],
+        (orientation, along): ([f64; 3], [f64; 3]),
+        cell: &Place<'_>,
+        data: &Place<'_>,
+        check: &mut Check<'_>,
+    ) {
+        let found = format!("{} on a member along {}", listed(orientation), listed(along));
+        let fault = |place: &Place<'_>| {
+            Fault::new(place, "its orientation must not be zero or along the member").got(found)
+        };
+        check.faults.add(match self.orientation.get(here[0], here[1]) {
+            Some(_) => self
+                .orientation
+                .at(here, data, fault)
+                .hint("local y is the part of `orientation` normal to the member"),
+            None => fault(cell).hint(
+                "without `orientation` local y is `up`: vertical members such as columns need an orientation \
+                 perpendicular to them, such as [0, 0, 1]",
+            ),
+        });
     }
 }
 

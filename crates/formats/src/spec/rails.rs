@@ -56,23 +56,7 @@ fn read_rail(
         let fault = Fault::new(&at.key("axis"), "must not be zero or along `up`").got(format!("{axis:?}"));
         check.faults.add(fault);
     }
-    let place = at.key("segments");
-    let mut segments = Vec::new();
-    let mut places = Vec::new();
-    if let Some(given) = check.faults.require(&raw.segments, at, "segments") {
-        if given.is_empty() {
-            check.faults.add(Fault::new(&place, "must have at least one segment").got("an empty list"));
-        }
-        for (index, raw) in given.iter().enumerate() {
-            let item = place.index(index);
-            let offset = check.vector(raw.offset.unwrap_or_default(), &item.key("offset"), Dimension::LENGTH);
-            let Some(&cell) = check.faults.require(&raw.cell, &item, "cell") else { continue };
-            if let Some(member) = cells.of(cell, &item.key("cell"), check) {
-                segments.push(RailSegment { member, offset });
-                places.push(index);
-            }
-        }
-    }
+    let (segments, places) = read_segments(raw, at, cells, check);
     let stations = raw.stations.as_deref();
     if stations.is_none() {
         check.faults.require(&raw.stations, at, "stations");
@@ -90,7 +74,7 @@ fn read_rail(
     if check.faults.0.len() > before || !cells.complete {
         return (rail, [0.0; 2]);
     }
-    let range = cover(&rail, &places, model, &place, check);
+    let range = cover(&rail, &places, model, &at.key("segments"), check);
     if check.faults.0.len() > before {
         return (rail, range);
     }
@@ -108,6 +92,32 @@ fn read_rail(
     (rail, range)
 }
 
+/// Reads the segments of a rail. The second list contains their indices in the file.
+fn read_segments(
+    raw: &RawRail,
+    at: &Place<'_>,
+    cells: &Cells,
+    check: &mut Check<'_>,
+) -> (Vec<RailSegment>, Vec<usize>) {
+    let place = at.key("segments");
+    let mut segments = Vec::new();
+    let mut places = Vec::new();
+    let Some(given) = check.faults.require(&raw.segments, at, "segments") else { return (segments, places) };
+    if given.is_empty() {
+        check.faults.add(Fault::new(&place, "must have at least one segment").got("an empty list"));
+    }
+    for (index, raw) in given.iter().enumerate() {
+        let item = place.index(index);
+        let offset = check.vector(raw.offset.unwrap_or_default(), &item.key("offset"), Dimension::LENGTH);
+        let Some(&cell) = check.faults.require(&raw.cell, &item, "cell") else { continue };
+        if let Some(member) = cells.of(cell, &item.key("cell"), check) {
+            segments.push(RailSegment { member, offset });
+            places.push(index);
+        }
+    }
+    (segments, places)
+}
+
 /// First and last coordinate of the segments along the rail. `places` contains their indices in the file. A segment
 /// whose member has no extent along the rail is a fault.
 fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &mut Check<'_>) -> [f64; 2] {
@@ -123,7 +133,7 @@ fn cover(rail: &Rail, places: &[usize], model: &Model, at: &Place<'_>, check: &m
         let ends = [0, 1].map(|end| along(member.points[end], member.offsets[end]));
         if ends[0] == ends[1] {
             let fault = Fault::new(&at.index(*index), "its cell must have an extent along the rail");
-            check.faults.add(fault.hint("a cell at right angles to the rail cannot carry it"));
+            check.faults.add(fault.hint("a cell that is perpendicular to the rail cannot carry it"));
         }
         range = [range[0].min(ends[0]).min(ends[1]), range[1].max(ends[0]).max(ends[1])];
     }

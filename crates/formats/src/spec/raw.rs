@@ -28,110 +28,177 @@ crate::text::object::objects!(
     RawCut
 );
 
+/// A beam spec: a structure and its rails, in the short form with `girder` or in the general form with `points`
+/// and `cells`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpec {
+    /// Name and version of the format.
     pub format: Option<String>,
+    /// Name of the structure; by default that of the file.
     pub name: Option<String>,
+    /// Units of all numbers of the file.
     pub units: Option<RawUnits>,
+    /// Beam theory: "euler-bernoulli" or "timoshenko" (default).
     pub theory: Option<String>,
+    /// Short form: a straight uniform girder, continuous over its supports.
     pub girder: Option<RawGirder>,
+    /// Short form: coordinates along the girder at which grids and tables have values, length.
     pub stations: Option<Vec<f64>>,
+    /// General form: vector that points vertically upwards; by default [0, 1, 0].
     pub up: Option<[f64; 3]>,
+    /// General form: coordinates of the points, length.
     pub points: Option<Vec<[f64; 3]>>,
+    /// General form: blocks of cells, which are the members.
     pub cells: Option<Vec<RawBlock>>,
+    /// General form: data of the cells.
     pub cell_data: Option<RawCellData>,
+    /// General form: lists of indices of points, by name.
     pub point_sets: Option<Entries<Vec<usize>>>,
+    /// General form: lists of cells by name, with one list for each block; accepted, but not used.
     pub cell_sets: Option<Entries<Vec<Option<Vec<usize>>>>>,
+    /// General form: materials of the sections.
     pub materials: Option<Vec<RawMaterial>>,
+    /// General form: cross sections of the members.
     pub sections: Option<Vec<RawSection>>,
+    /// General form: restraints of points.
     pub supports: Option<Vec<RawSupport>>,
+    /// General form: springs between points and ground.
     pub springs: Option<Vec<RawSpring>>,
+    /// General form: rigid links between points.
     pub links: Option<Vec<RawLink>>,
+    /// General form: point masses.
     pub masses: Option<Vec<RawMass>>,
+    /// General form: rails by name.
     pub rails: Option<Entries<RawRail>>,
+    /// General form: number of uniform parts in which each tapered member is solved, 1 to 1000.
     pub parts: Option<usize>,
+    /// Sections of members at which internal forces are evaluated.
     pub effects: Option<Vec<RawCut>>,
 }
 
+/// A straight uniform girder, continuous over its supports. Its coordinate is 0 at the first support.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawGirder {
+    /// Distances between the supports, from first to last, length.
     pub spans: Option<Vec<f64>>,
+    /// Lengths beyond the first and the last support; by default [0, 0].
     pub overhangs: Option<[f64; 2]>,
+    /// Young's modulus, force / length^2.
     #[serde(rename = "E")]
     pub e: Option<f64>,
+    /// Shear modulus, force / length^2.
     #[serde(rename = "G")]
     pub g: Option<f64>,
+    /// Area of the cross section, length^2.
     #[serde(rename = "A")]
     pub area: Option<f64>,
+    /// Second moment of area for vertical bending, length^4.
     #[serde(rename = "I_vertical")]
     pub i_vertical: Option<f64>,
+    /// Second moment of area for lateral bending, length^4.
     #[serde(rename = "I_lateral")]
     pub i_lateral: Option<f64>,
+    /// Torsion constant, length^4.
     #[serde(rename = "J")]
     pub j: Option<f64>,
+    /// Effective shear area for vertical forces, length^2; without it the girder is rigid in vertical shear.
     #[serde(rename = "kA_vertical")]
     pub ka_vertical: Option<f64>,
+    /// Effective shear area for lateral forces, length^2; without it the girder is rigid in lateral shear.
     #[serde(rename = "kA_lateral")]
     pub ka_lateral: Option<f64>,
+    /// Height of the rail above the elastic axis, length; by default 0.
     pub rail_height: Option<f64>,
+    /// Mass per length, mass / length; by default 0.
     pub mass_per_length: Option<f64>,
+    /// Points of the cross section at which stresses are evaluated.
     #[serde(default)]
     pub points: Vec<RawPoint>,
 }
 
+/// A block of cells of one type.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawBlock {
+    /// Type of the cells: "line".
     #[serde(rename = "type")]
     pub kind: Option<String>,
+    /// Indices of the two points of each cell, counted from 0.
     pub data: Option<Vec<[usize; 2]>>,
 }
 
+/// Data of the cells. Each array has an entry for each block of cells: a list with one item for each cell, one
+/// item for all cells, or null for the default.
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
+    /// Kind of the member: "beam" (default) or "truss".
     pub kind: Option<Vec<Block<String>>>,
+    /// Name or index of the section; may be left out if there is only one section.
     pub section: Option<Vec<Block<Reference>>>,
+    /// Name or index of the section at end b of a tapered member; null for a uniform member.
     pub section_b: Option<Vec<Block<Option<Reference>>>>,
+    /// Number of uniform parts in which a tapered member is solved, 1 to 1000; by default `parts` of the spec.
     pub parts: Option<Vec<Block<Option<usize>>>>,
+    /// Vector whose component normal to the member is the local y axis; by default `up`.
     pub orientation: Option<Vec<Block<[f64; 3]>>>,
+    /// Vector from the first point of the cell to the flexible end a, length; by default zero.
     pub offset_a: Option<Vec<Block<[f64; 3]>>>,
+    /// Vector from the second point of the cell to the flexible end b, length; by default zero.
     pub offset_b: Option<Vec<Block<[f64; 3]>>>,
+    /// Degrees of freedom that are released at end a, in local axes: "ux" to "rz".
     pub release_a: Option<Vec<Block<Vec<String>>>>,
+    /// Degrees of freedom that are released at end b, in local axes: "ux" to "rz".
     pub release_b: Option<Vec<Block<Vec<String>>>>,
 }
 
+/// A linear elastic material.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub struct RawMaterial {
+    /// Name of the material.
     pub name: Option<String>,
+    /// Young's modulus, force / length^2.
     #[serde(rename = "E")]
     pub e: Option<f64>,
+    /// Shear modulus, force / length^2; needed for beams.
     #[serde(rename = "G")]
     pub g: Option<f64>,
+    /// Mass density, mass / length^3; by default 0.
     pub density: Option<f64>,
 }
 
+/// A cross section. Properties that are left out are computed from `shape`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub struct RawSection {
+    /// Name of the section.
     pub name: Option<String>,
+    /// Name of the material.
     pub material: Option<String>,
+    /// Area, length^2.
     #[serde(rename = "A")]
     pub area: Option<f64>,
+    /// Second moment of area about the local y axis, length^4; needed for beams.
     #[serde(rename = "Iy")]
     pub iy: Option<f64>,
+    /// Second moment of area about the local z axis, length^4; needed for beams.
     #[serde(rename = "Iz")]
     pub iz: Option<f64>,
+    /// Torsion constant, length^4; needed for beams.
     #[serde(rename = "J")]
     pub j: Option<f64>,
+    /// Effective shear area for forces along local y, length^2; without it the section is rigid in this shear.
     #[serde(rename = "Asy")]
     pub asy: Option<f64>,
+    /// Effective shear area for forces along local z, length^2; without it the section is rigid in this shear.
     #[serde(rename = "Asz")]
     pub asz: Option<f64>,
+    /// Dimensions of the section, from which missing properties are computed.
     pub shape: Option<RawShape>,
+    /// Points of the section at which stresses are evaluated.
     #[serde(default)]
     pub points: Vec<RawPoint>,
 }
@@ -154,31 +221,48 @@ impl RawSection {
     }
 }
 
+/// Dimensions of a cross section. The local y axis is along its height.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawShape {
+    /// Kind of the shape: "I", "box", "tube" or "bar".
     pub kind: Option<String>,
+    /// Unit of the dimensions; by default that of the file.
     pub length: Option<String>,
+    /// Height of an I, a box or a bar.
     pub height: Option<f64>,
+    /// Width of an I (of its upper flange), a box or a bar.
     pub width: Option<f64>,
+    /// Thickness of both flanges of a box, or of the upper flange of an I.
     pub flange: Option<f64>,
+    /// Thickness of the web of an I, or of each web of a box.
     pub web: Option<f64>,
+    /// Width of the lower flange of an I; by default `width`.
     pub lower_width: Option<f64>,
+    /// Thickness of the lower flange of an I; by default `flange`.
     pub lower_flange: Option<f64>,
+    /// Outer diameter of a tube.
     pub diameter: Option<f64>,
+    /// Wall thickness of a tube.
     pub wall: Option<f64>,
 }
 
+/// A point of a cross section at which the direct stress is evaluated.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawPoint {
+    /// Name of the point.
     pub name: Option<String>,
+    /// Coordinate from the centroid along local y, length; by default 0.
     pub y: Option<f64>,
+    /// Coordinate from the centroid along local z, length; by default 0.
     pub z: Option<f64>,
+    /// Detail category for direct stress: a number of EN 1993-1-9 in N/mm2, or a stress category "A" to "E'" of
+    /// AISC 360.
     pub detail: Option<RawDetail>,
 }
 
-/// A detail category: a number of N/mm2, or a letter.
+/// A detail category: a number of EN 1993-1-9 in N/mm2, or a letter of AISC 360.
 #[derive(Debug)]
 pub(crate) enum RawDetail {
     Number(f64),
@@ -217,58 +301,86 @@ impl Visitor<'_> for DetailVisitor {
     }
 }
 
+/// A restraint of a point, or of every point of a set.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSupport {
+    /// Index of the point, or name of a point set.
     pub point: Option<Reference>,
+    /// Restrained degrees of freedom: "ux", "uy", "uz", "rx", "ry", "rz".
     pub fix: Option<Vec<String>>,
 }
 
+/// A spring between a point and ground.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSpring {
+    /// Index of the point, or name of a set of one point.
     pub point: Option<Reference>,
+    /// Degree of freedom: "ux", "uy", "uz", "rx", "ry" or "rz".
     pub dof: Option<String>,
+    /// Stiffness, force / length, or force length / radian for a rotation.
     pub k: Option<f64>,
 }
 
+/// A rigid link between two points.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawLink {
+    /// Index of the first point, or name of a set of one point.
     pub from: Option<Reference>,
+    /// Index of the second point, or name of a set of one point.
     pub to: Option<Reference>,
 }
 
+/// A point mass.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawMass {
+    /// Index of the point, or name of a set of one point.
     pub point: Option<Reference>,
+    /// Mass, force time^2 / length.
     pub mass: Option<f64>,
+    /// Moments of inertia about the global axes, mass length^2; by default zero.
     pub inertia: Option<[f64; 3]>,
+    /// Vector from the point to the mass, length; by default zero.
     pub offset: Option<[f64; 3]>,
 }
 
+/// A rail on members. Its coordinate is the distance from `origin` along `axis`.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawRail {
+    /// Point at which the coordinate is 0, length; by default [0, 0, 0].
     pub origin: Option<[f64; 3]>,
+    /// Vector along the rail.
     pub axis: Option<[f64; 3]>,
+    /// Members that carry the rail.
     pub segments: Option<Vec<RawSegment>>,
+    /// Coordinates at which grids and tables have values, length.
     pub stations: Option<Vec<f64>>,
 }
 
+/// A segment of a rail on one member.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawSegment {
+    /// Member as [block, index], counted from 0.
     pub cell: Option<[usize; 2]>,
+    /// Vector from the axis of the member to the rail, length; by default zero.
     pub offset: Option<[f64; 3]>,
 }
 
+/// A section of a member at which internal forces are evaluated.
 #[derive(Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCut {
+    /// Name of the section.
     pub name: Option<String>,
+    /// Short form: coordinate from the first support, length.
     pub x: Option<f64>,
+    /// General form: member as [block, index], counted from 0.
     pub cell: Option<[usize; 2]>,
+    /// General form: position as a fraction of the flexible length of the member, from end a.
     pub at: Option<f64>,
 }

@@ -2,11 +2,10 @@
 
 use fea::BeamTheory;
 
-use super::header::format;
 use super::raw::RawSpec;
 use super::structure::{Form, Spec};
 use super::words::THEORIES;
-use super::{cuts, frame, girder, header, stress};
+use super::{cuts, frame, girder, stress};
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults};
@@ -69,7 +68,7 @@ impl Spec {
                 return None;
             }
         };
-        let name = raw.name.clone().unwrap_or_else(|| header::stem(file));
+        let name = raw.name.clone().unwrap_or_else(|| stem(file));
         Some(Spec { name, units: to, theory, form, effects })
     }
 }
@@ -94,10 +93,24 @@ fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
     ];
     for (key, given) in general {
         if given {
-            let fault = Fault::new(&root.key(key), format!("`{key}` cannot stand beside `girder`")).at_key();
+            let fault =
+                Fault::new(&root.key(key), format!("`{key}` cannot be combined with `girder`")).at_key();
             faults.add(
                 fault.hint("a spec is either a short `girder` or the general form with `points` and `cells`"),
             );
         }
     }
+}
+
+/// Checks that the member `format` is present and equal to `expected`.
+pub fn format(found: &Option<String>, expected: &str, root: &Place<'_>, faults: &mut Faults) {
+    if let Some(word) = faults.require(found, root, "format") {
+        faults.one_of(word, &root.key("format"), &[(expected, ())]);
+    }
+}
+
+/// The name of a file without folder and extension.
+pub fn stem(file: &str) -> String {
+    let path = std::path::Path::new(file);
+    path.file_stem().map_or_else(|| file.to_owned(), |stem| stem.to_string_lossy().into_owned())
 }

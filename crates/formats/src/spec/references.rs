@@ -1,7 +1,7 @@
 //! References within a spec: indices, names of sections and of point sets, keywords of degrees of freedom.
 
 use super::block::Reference;
-use super::words::FREEDOMS;
+use super::words::DOF_WORDS;
 use crate::check::Check;
 use crate::text::fault::Fault;
 use crate::text::names::resolve;
@@ -54,7 +54,7 @@ impl Points<'_> {
         if found.len() != 1 && check.faults.0.len() == before {
             let fault =
                 Fault::new(&at.key(key), "must be one point").got(format!("a set of {}", found.len()));
-            check.faults.add(fault.hint("supports alone take sets of several points"));
+            check.faults.add(fault.hint("only supports accept sets of several points"));
         }
         found.first().copied().filter(|_| found.len() == 1)
     }
@@ -97,9 +97,9 @@ pub(super) fn dofs(words: &[String], at: &Place<'_>, check: &mut Check<'_>) -> [
     let mut set = [false; 6];
     for (index, word) in words.iter().enumerate() {
         let item = at.index(index);
-        let Some(dof) = check.faults.one_of(word, &item, &FREEDOMS) else { continue };
+        let Some(dof) = check.faults.one_of(word, &item, &DOF_WORDS) else { continue };
         if set[dof as usize] {
-            check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+            check.faults.add(Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")));
         }
         set[dof as usize] = true;
     }

@@ -97,13 +97,13 @@ fn read_section(
             raw.asy,
             &at.key("Asy"),
             Dimension::AREA,
-            "leave it out for rigid in shear",
+            "leave it out for a section that is rigid in shear",
         ),
         shear_z: check.optional_positive(
             raw.asz,
             &at.key("Asz"),
             Dimension::AREA,
-            "leave it out for rigid in shear",
+            "leave it out for a section that is rigid in shear",
         ),
         mass: material.map_or(0.0, |material| material.density * area),
     }

@@ -62,7 +62,7 @@ pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> V
         let name = check.faults.require(&raw.name, &at, "name").cloned().unwrap_or_default();
         let is_taken = points.iter().any(|other| other.name == name);
         if raw.name.is_some() && (name.is_empty() || is_taken || name.contains('.')) {
-            let fault = Fault::new(&at.key("name"), "must be a name of its own, without dots");
+            let fault = Fault::new(&at.key("name"), "must differ from the other names and contain no dots");
             check.faults.add(fault.got(format!("\"{name}\"")));
         } else if COMPONENTS.iter().any(|(word, _)| *word == name) {
             let fault = Fault::new(&at.key("name"), "must not be the name of an internal force");
@@ -70,7 +70,7 @@ pub(super) fn read(raw: &[RawPoint], at: &Place<'_>, check: &mut Check<'_>) -> V
         }
         if raw.y.is_none() && raw.z.is_none() {
             let fault = Fault::new(&at, "must have `y`, `z` or both");
-            check.faults.add(fault.hint("from the centroid, along the section's local axes"));
+            check.faults.add(fault.hint("coordinates from the centroid along the local axes of the section"));
         }
         let mut place = |value: Option<f64>, key: &str| {
             check.number(value.unwrap_or_default(), &at.key(key), Dimension::LENGTH)

@@ -96,7 +96,7 @@ impl<'r> Tapers<'r> {
         // a tapered truss member remains a single bar unless the file specifies otherwise
         let of_kind = (member.kind == MemberKind::Truss).then_some(1);
         let Some(parts) = own.or(self.default).or(of_kind) else {
-            let hint = "a cell with `section_b` is solved in uniform parts: give their number in `parts` or \
+            let hint = "a cell with `section_b` is solved in uniform parts: state their number in `parts` or \
                         `cell_data.parts`";
             check.faults.add(Fault::new(place, "missing key `parts`").hint(hint));
             return None;

@@ -41,7 +41,7 @@ fn read(source: &Source, units: Option<Units>) -> Spec {
 
 fn solve(spec: &Spec) -> StationGrid {
     let (model, rails) = spec.model().expect("usable numbers");
-    let frame = FactoredFrame::new(&model, &rails).expect("a structure that stands");
+    let frame = FactoredFrame::new(&model, &rails).expect("a stable structure");
     StationGrid::of(spec, &frame).expect("stations on the rail")
 }
 

@@ -16,7 +16,7 @@ use thiserror::Error;
 
 use super::cuts::Cut;
 pub use super::structure::Pad;
-use super::structure::{Form, FrameSpec, GIRDER_RAIL, Spec};
+use super::structure::{Form, FrameSpec, GIRDER_RAIL, RailOutline, Spec};
 use crate::units::Units;
 
 /// Maximum number of elements of one rail: bays between ties times elements per bay.
@@ -101,13 +101,13 @@ pub enum TiesError {
         range: [f64; 2],
     },
     /// More than [`MAX_ELEMENTS`] elements of a rail.
-    #[error("must leave at most {MAX_ELEMENTS} elements of rail, got {bays}")]
+    #[error("must lead to at most {MAX_ELEMENTS} elements of rail, got {bays}")]
     Many {
         /// Number of elements that would be required.
         bays: f64,
     },
     /// A tie at the end of a member that has releases.
-    #[error("the tie at {x} stands on a hinge of cell {cell}")]
+    #[error("the tie at {x} is at a hinge of cell {cell}")]
     Hinge {
         /// Coordinate along the rail.
         x: f64,
@@ -115,13 +115,13 @@ pub enum TiesError {
         cell: usize,
     },
     /// A rail that is not parallel to a global axis.
-    #[error("rail {rail} must run along a global axis, square to `up`")]
+    #[error("rail {rail} must be parallel to a global axis and perpendicular to `up`")]
     Oblique {
         /// Index of the rail.
         rail: usize,
     },
     /// A structure without a model.
-    #[error("the structure cannot carry ties: no model can be made of it")]
+    #[error("the structure cannot carry ties, because its model cannot be formed")]
     Model,
 }
 
@@ -170,16 +170,7 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
 /// parallel to a global axis; a structure without a model.
 pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     let (model, rails) = spec.model().map_err(|_| TiesError::Model)?;
-    let mut seats = Vec::new();
-    let mut lines = Vec::new();
-    for (index, (rail, outline)) in rails.iter().zip(spec.rails()).enumerate() {
-        let line = Line::of(&model, rail).ok_or(TiesError::Oblique { rail: index })?;
-        let places = ties.places(outline.range)?;
-        for &x in &places {
-            seats.push(Seat::of(&model, rail, &line, x).ok_or(TiesError::Model)?);
-        }
-        lines.push((line, places, outline));
-    }
+    let (seats, lines) = seats_on(spec, &model, &rails, ties)?;
     let (mut model, points, parts) = split(&model, &seats)?;
     let base = model.points.len();
     // EA / L = k for a truss member of length L = spacing
@@ -189,33 +180,13 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
     let mut pads = Vec::new();
     let mut trusses = Vec::new();
     let mut seated = seats.iter().zip(points);
-    for (rail, (mut line, places, outline)) in rails.iter().zip(lines) {
+    for (rail, (line, places, outline)) in rails.iter().zip(lines) {
         let own: Vec<_> = seated.by_ref().take(places.len()).collect();
-        if let Some((seat, _)) = own.first() {
-            // the axis of the new rail intersects the rail of the structure at the first tie
-            let off = seat.place - line.origin;
-            line.origin += off - line.x * off.dot(&line.x);
-        }
-        let mut new = Rail { segments: Vec::new(), ..rail.clone() };
-        let on_rail = lay(&mut model, &mut new, ties, &line, outline.range, &places);
-        for (&x, (&point, (_, seat))) in places.iter().zip(on_rail.iter().zip(own)) {
-            let foot = Vector3::from(model.points[seat]);
-            let at = line.origin + line.x * x;
-            let mut spring = |direction: Vector3<f64>, section: usize| {
-                let tip = at + direction * ties.spacing;
-                let offsets = [[0.0; 3], (tip - foot).into()];
-                let kind = fea::MemberKind::Truss;
-                trusses.push(Member { kind, offsets, ..Member::beam([point, seat], section, line.y.into()) });
-            };
-            spring(-line.y, section);
-            if ties.lateral_k.is_some() {
-                spring(line.x.cross(&line.y), section + 1);
-            }
-            pads.push(Pad { rail: point, base: Some((seat, (at - foot).into())), up: line.y.into() });
-            restrain(&mut model, ties, point, &line);
-        }
-        new.stations.clone_from(&outline.stations);
-        new_rails.push((outline.name, new));
+        let above = RailAbove::new(&mut model, rail, (line, &places, outline.range), &own, section, ties);
+        pads.extend(above.pads);
+        trusses.extend(above.trusses);
+        let stations = outline.stations;
+        new_rails.push((outline.name, Rail { stations, ..above.rail }));
     }
     let mut sections = match &spec.form {
         Form::Girder(_) => vec!["girder".to_owned()],
@@ -253,6 +224,74 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
         pads,
     };
     Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
+}
+
+/// The seats of the ties of all rails of a structure, and the line, the positions of the ties and the outline of each
+/// rail.
+#[allow(clippy::type_complexity)]
+fn seats_on(
+    spec: &Spec,
+    model: &Model,
+    rails: &[Rail],
+    ties: &Ties,
+) -> Result<(Vec<Seat>, Vec<(Line, Vec<f64>, RailOutline)>), TiesError> {
+    let mut seats = Vec::new();
+    let mut lines = Vec::new();
+    for (index, (rail, outline)) in rails.iter().zip(spec.rails()).enumerate() {
+        let line = Line::of(model, rail).ok_or(TiesError::Oblique { rail: index })?;
+        let places = ties.places(outline.range)?;
+        for &x in &places {
+            seats.push(Seat::of(model, rail, &line, x).ok_or(TiesError::Model)?);
+        }
+        lines.push((line, places, outline));
+    }
+    Ok((seats, lines))
+}
+
+/// A rail on ties above a rail of a structure, with the trusses that connect them.
+struct RailAbove {
+    rail: Rail,
+    trusses: Vec<Member>,
+    pads: Vec<Pad>,
+}
+
+impl RailAbove {
+    /// Adds the new rail to the model along the line of `rail`, with its restraints. `own` are the seats of its ties
+    /// and their points; `section` is the index of the section of the trusses, which are not yet part of the model.
+    fn new(
+        model: &mut Model,
+        rail: &Rail,
+        (mut line, places, range): (Line, &[f64], [f64; 2]),
+        own: &[(&Seat, usize)],
+        section: usize,
+        ties: &Ties,
+    ) -> RailAbove {
+        if let Some((seat, _)) = own.first() {
+            // the axis of the new rail intersects the rail of the structure at the first tie
+            let off = seat.place - line.origin;
+            line.origin += off - line.x * off.dot(&line.x);
+        }
+        let mut new = Rail { segments: Vec::new(), ..rail.clone() };
+        let on_rail = lay(model, &mut new, ties, &line, range, places);
+        let (mut trusses, mut pads) = (Vec::new(), Vec::new());
+        for (&x, (&point, &(_, seat))) in places.iter().zip(on_rail.iter().zip(own)) {
+            let foot = Vector3::from(model.points[seat]);
+            let at = line.origin + line.x * x;
+            let mut spring = |direction: Vector3<f64>, section: usize| {
+                let tip = at + direction * ties.spacing;
+                let offsets = [[0.0; 3], (tip - foot).into()];
+                let kind = fea::MemberKind::Truss;
+                trusses.push(Member { kind, offsets, ..Member::beam([point, seat], section, line.y.into()) });
+            };
+            spring(-line.y, section);
+            if ties.lateral_k.is_some() {
+                spring(line.x.cross(&line.y), section + 1);
+            }
+            pads.push(Pad { rail: point, base: Some((seat, (at - foot).into())), up: line.y.into() });
+            restrain(model, ties, point, &line);
+        }
+        RailAbove { rail: new, trusses, pads }
+    }
 }
 
 /// The straight line of a rail: a point on it, its direction x and its upward direction y, both unit vectors.

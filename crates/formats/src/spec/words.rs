@@ -16,7 +16,7 @@ pub const fn theory_word(theory: BeamTheory) -> &'static str {
 }
 
 /// Keywords of the degrees of freedom of points and of the ends of members.
-pub(super) const FREEDOMS: [(&str, Dof); 6] =
+pub(super) const DOF_WORDS: [(&str, Dof); 6] =
     [("ux", Dof::Ux), ("uy", Dof::Uy), ("uz", Dof::Uz), ("rx", Dof::Rx), ("ry", Dof::Ry), ("rz", Dof::Rz)];
 
 /// Keywords of the components of an internal force, in the local axes of the member.

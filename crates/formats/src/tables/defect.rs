@@ -84,10 +84,10 @@ pub(super) fn checked(x: Vec<f64>, z: Vec<f64>, values: Vec<Vec<f64>>) -> Result
 pub(crate) fn disorder(rows: &[[f64; 2]]) -> Option<String> {
     match rows {
         [.., before, last] if last[0] < before[0] => {
-            Some(format!("x must not fall: the row before is at {}", number(before[0])))
+            Some(format!("x must not decrease: the row before is at {}", number(before[0])))
         }
         [.., first, _, last] if last[0] == first[0] => {
-            Some("two rows at one x at most: they are a step".to_owned())
+            Some("at most two rows can have the same x: they form a step".to_owned())
         }
         _ => None,
     }

@@ -111,12 +111,10 @@ fn significant(factor: &TableFactor) -> usize {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FactorError {
     /// No table with four stations along x and along z.
-    #[error("there is no table of four stations both ways")]
+    #[error("no table has four stations in both directions")]
     Empty,
     /// A table whose rails or directions are unknown.
-    #[error(
-        "SPLINE/{id} does not say which directions of which rails it relates, and its x differ from its z"
-    )]
+    #[error("SPLINE/{id} does not state which directions and rails it relates, and its x differ from its z")]
     Unknown {
         /// The table.
         id: u32,

@@ -44,7 +44,8 @@ impl TableFormat {
             "csv" => Ok(TableFormat::Csv),
             "npz" => Ok(TableFormat::Npz),
             _ => {
-                let fault = Diagnostic::of_file(name, "the ending says no format");
+                let fault =
+                    Diagnostic::of_file(name, "the extension of the file is not that of a known format");
                 Err(Box::new(fault.hint("use .adm, .cmd, .csv, .json or .npz")))
             }
         }
@@ -88,14 +89,15 @@ pub fn read(name: &str, bytes: &[u8], units: Option<Units>) -> Result<TableSet, 
     let units = match (parsed.units, units) {
         (Some(own), Some(given)) if own != given => {
             let words = |units: Units| format!("{} and {}", units.length.word(), units.force.word());
-            let expected = format!("says its units itself: {}", words(own));
+            let expected = format!("already states its units: {}", words(own));
             let fault = Diagnostic { found: Some(words(given)), ..Diagnostic::of_file(name, expected) };
             return Err(vec![fault.hint("leave the units out")]);
         }
         (Some(units), _) | (None, Some(units)) => units,
         (None, None) => {
             let [missing, hint] = parsed.missing_units;
-            let more = "none is guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
+            let more =
+                "units are not guessed: --length ft --force lbf, or in a scene \"units\" of the tables";
             return Err(vec![Diagnostic::of_file(name, missing).hint(format!("{hint}; {more}"))]);
         }
     };

@@ -133,7 +133,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         ] {
             if there {
                 let fault = Fault::new(&root.key(key), format!("unknown key `{key}`")).at_key();
-                faults.add(fault.hint("numbers stand in `tables`"));
+                faults.add(fault.hint("numbers belong in `tables`"));
             }
         }
         let list = root.key("tables");
@@ -162,7 +162,7 @@ fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> 
     let values = faults.require(&raw.values, root, "values")?;
     let (key, x) = match (&raw.stations, &raw.x) {
         (Some(_), Some(_)) => {
-            faults.add(Fault::new(&root.key("x"), "cannot stand beside `stations`"));
+            faults.add(Fault::new(&root.key("x"), "cannot be combined with `stations`"));
             return None;
         }
         (Some(stations), None) => ("stations", stations),
@@ -170,7 +170,7 @@ fn single(raw: &RawSet, root: &Place<'_>, faults: &mut Faults) -> Option<Draft> 
     };
     let z = match (&raw.stations, &raw.z) {
         (Some(_), Some(_)) => {
-            faults.add(Fault::new(&root.key("z"), "cannot stand beside `stations`"));
+            faults.add(Fault::new(&root.key("z"), "cannot be combined with `stations`"));
             return None;
         }
         (Some(stations), None) => stations.clone(),

@@ -30,7 +30,7 @@ pub enum RoundError {
         id: u32,
     },
     /// Two stations that become equal.
-    #[error("SPLINE/{id} has stations that fall together when rounded")]
+    #[error("SPLINE/{id} has stations that coincide after rounding")]
     Stations {
         /// The table.
         id: u32,

@@ -56,7 +56,7 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             if lost {
                 let finding =
                     ImportFinding::new(line.at, "", "must be the name of a card").with_found(&parts.head);
-                let hint = "a name is letters and digits; `=` and `/` are not read";
+                let hint = "a name is letters and digits; `=` and `/` are not supported";
                 findings.error(finding.hint(hint));
             } else {
                 cards.push(Card { name, at: line.at, fields: parts.fields });
@@ -68,7 +68,7 @@ pub fn cards(lines: &[BulkLine], findings: &mut ImportFindings) -> Vec<Card> {
             Some(card) if !lost => card,
             _ => {
                 if cards.is_empty() {
-                    let finding = ImportFinding::new(line.at, "", "continues no card");
+                    let finding = ImportFinding::new(line.at, "", "does not continue a card");
                     findings.error(
                         finding.hint("a line that begins with blanks, `+` or `*` continues the one above"),
                     );
@@ -143,7 +143,7 @@ fn free(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
     if fields.len() > count + 1 || !marker {
         let what = if large { "four fields in a line of large fields" } else { "eight fields in a line" };
         let finding = ImportFinding::new(fields[count].at, &head, format!("has more than {what}"));
-        findings.error(finding.hint("go on in the next line, which begins with a comma or +"));
+        findings.error(finding.hint("continue in the next line, which begins with a comma or +"));
         return None;
     }
     fields.resize(count, CardField { at: line.at, text: String::new() });
@@ -221,8 +221,8 @@ mod tests {
 
     #[test]
     fn lost_continuations_are_refused() {
-        for (text, told) in [
-            ("+A      1", "continues no card"),
+        for (text, expected) in [
+            ("+A      1", "does not continue a card"),
             (
                 "GRID    1                                                               +A\n+B      1",
                 "must continue with the marker A",
@@ -233,7 +233,7 @@ mod tests {
             ("GR.ID   1", "must be the name of a card"),
         ] {
             let errors = read(text).1.errors();
-            assert_eq!(errors.first().map(|error| error.expected.as_str()), Some(told), "{text}");
+            assert_eq!(errors.first().map(|error| error.expected.as_str()), Some(expected), "{text}");
         }
     }
 }

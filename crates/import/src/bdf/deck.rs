@@ -56,7 +56,7 @@ pub struct BulkDeck {
     /// Positions and stiffnesses of PELAS cards by number.
     pub stiffness: BTreeMap<u64, (FilePlace, f64)>,
     /// SPC and SPC1 cards.
-    pub holds: Vec<SupportCard>,
+    pub supports: Vec<SupportCard>,
     /// Sets that each SPCADD card combines, by number.
     pub adds: BTreeMap<u64, Vec<u64>>,
     /// Whether the deck has a case control section.
@@ -108,12 +108,12 @@ impl BulkDeck {
             }
         }
         for (name, (at, number)) in left_out {
-            findings.warn(ImportFinding::new(at, name, format!("left out, {}", cards_of(number))));
+            findings.warn(ImportFinding::new(at, name, format!("is left out, {}", cards_of(number))));
         }
         for (name, (at, number)) in unknown {
-            let hint = format!("{}; if it does not matter, add --skip {name}", advice(name));
+            let hint = format!("{}; if it can be ignored, add --skip {name}", advice(name));
             findings.error(
-                ImportFinding::new(at, name, format!("cannot be taken, {}", cards_of(number))).hint(hint),
+                ImportFinding::new(at, name, format!("is not supported, {}", cards_of(number))).hint(hint),
             );
         }
         deck
@@ -143,8 +143,8 @@ impl BulkDeck {
         };
         for &other in &begins[1..] {
             findings.error(
-                ImportFinding::new(lines[other].at, "BEGIN", "must stand once")
-                    .hint("superelements cannot be taken"),
+                ImportFinding::new(lines[other].at, "BEGIN", "must occur only once")
+                    .hint("superelements are not supported"),
             );
         }
         self.controlled = lines[..begin].iter().any(|line| word(line, 0) == "CEND");
@@ -163,8 +163,9 @@ impl BulkDeck {
                     );
                 }
                 ("MPC", _) if skip.iter().all(|name| name != "MPC") => {
-                    let hint = "constraints by equations cannot be taken; rigid links are RBE2 and RBAR; to leave them out, add --skip MPC";
-                    findings.error(ImportFinding::new(line.at, "MPC", "cannot be taken").hint(hint));
+                    let hint = "constraints by equations are not supported; rigid links are RBE2 and RBAR; to leave them \
+                            out, add --skip MPC";
+                    findings.error(ImportFinding::new(line.at, "MPC", "is not supported").hint(hint));
                 }
                 _ => {}
             }
@@ -175,7 +176,7 @@ impl BulkDeck {
     fn weight(&mut self, fields: &mut CardFields<'_, '_>) {
         if let Some(value) = property::positive(fields, 2, "WTMASS") {
             if self.wtmass.is_some() {
-                fields.refuse(2, "WTMASS", "must stand once", "");
+                fields.refuse(2, "WTMASS", "must occur only once", "");
             }
             self.wtmass = Some(value);
         }
@@ -230,8 +231,8 @@ impl BulkDeck {
                     put(&mut self.stiffness, id, (card, k), |other| other.0, at, name, fields.findings);
                 }
             }
-            "SPC" => self.holds.extend(support::spc(fields)),
-            "SPC1" => self.holds.extend(support::spc1(fields)),
+            "SPC" => self.supports.extend(support::spc(fields)),
+            "SPC1" => self.supports.extend(support::spc1(fields)),
             "SPCADD" => {
                 if let Some((set, parts)) = support::spcadd(fields)
                     && self.adds.insert(set, parts).is_some()
@@ -259,7 +260,7 @@ fn put<T>(
         let other = card(other);
         let file =
             if other.file == at.file { String::new() } else { format!(" of {}", findings.files[other.file]) };
-        let expected = format!("must not stand there twice: line {}{file} has this number", other.line);
+        let expected = format!("must have a unique number: line {}{file} has the same", other.line);
         findings.error(ImportFinding::new(at, format!("{name} {id}"), expected));
         return;
     }
@@ -268,7 +269,7 @@ fn put<T>(
 
 fn once<'c>(seen: &mut BTreeMap<&'c str, FilePlace>, card: &'c Card, findings: &mut ImportFindings) {
     if let Some(other) = seen.insert(&card.name, card.at) {
-        let expected = format!("must stand once; line {} has one", other.line);
+        let expected = format!("must occur only once; line {} already has one", other.line);
         findings.error(ImportFinding::new(card.at, &card.name, expected));
     }
 }
@@ -283,13 +284,19 @@ fn cards_of(number: usize) -> String {
 
 fn advice(name: &str) -> &'static str {
     match name {
-        "CORD1R" | "CORD1C" | "CORD1S" | "CORD2C" | "CORD2S" => "systems are CORD2R, given by points",
-        "MPC" | "MPCADD" | "RBE1" | "RBE3" | "RROD" | "RJOINT" => "rigid links are RBE2 and RBAR with 123456",
-        "CBUSH" | "CELAS3" | "CELAS4" => "springs are CELAS1 and CELAS2",
-        "CONM1" | "CMASS1" | "CMASS2" => "masses are CONM2",
-        "SPCD" | "SPCOFF" | "SPCOFF1" => "supports are SPC and SPC1",
-        "CBEND" | "CTUBE" | "CBEAM3" | "CBAR3" => "members are CBAR, CBEAM, CROD and CONROD",
-        _ if name.starts_with('C') => "a beam spec has members, links, masses and springs to ground",
+        "CORD1R" | "CORD1C" | "CORD1S" | "CORD2C" | "CORD2S" => {
+            "supported coordinate systems are CORD2R, given by points"
+        }
+        "MPC" | "MPCADD" | "RBE1" | "RBE3" | "RROD" | "RJOINT" => {
+            "supported rigid links are RBE2 and RBAR with 123456"
+        }
+        "CBUSH" | "CELAS3" | "CELAS4" => "supported springs are CELAS1 and CELAS2",
+        "CONM1" | "CMASS1" | "CMASS2" => "supported masses are CONM2",
+        "SPCD" | "SPCOFF" | "SPCOFF1" => "supported restraints are SPC and SPC1",
+        "CBEND" | "CTUBE" | "CBEAM3" | "CBAR3" => "supported members are CBAR, CBEAM, CROD and CONROD",
+        _ if name.starts_with('C') => {
+            "a beam spec consists of members, rigid links, masses and springs to ground"
+        }
         _ => "this card is not known",
     }
 }

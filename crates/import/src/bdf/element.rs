@@ -78,13 +78,13 @@ pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64
     let grids = ends(card, 3);
     let given = orientation(card).map(|given| given.or(defaults.orientation));
     if given == Some(None) {
-        card.refuse(5, "X1", "is missing", "give the orientation as vector X1, X2, X3 or grid G0");
+        card.refuse(5, "X1", "is missing", "state the orientation as vector X1, X2, X3 or grid G0");
     }
     let frame =
         if card.blank(8) { defaults.frame.clone().unwrap_or_default() } else { card.text(8).to_owned() };
     // the first letter selects the displacement or the basic system, which have the same axes here
     if !matches!(frame.as_str(), "" | "GGG" | "BGG") {
-        let hint = "offsets and orientation in the element's own system cannot be taken; use GGG";
+        let hint = "offsets and orientation in the element's own system are not supported; use GGG";
         card.refuse(8, "OFFT", "must be GGG, BGG or blank", hint);
     }
     let pins = [(9, "PA"), (10, "PB")].map(|(index, name)| card.freedoms(index, name));
@@ -92,7 +92,7 @@ pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64
     let to = card.vector(14, ["W1B", "W2B", "W3B"]);
     let mut last = 17;
     if card.card.name == "CBEAM" {
-        let warping = "warping of the section cannot be taken";
+        let warping = "warping of the section is not supported";
         card.zero(17, "SA", warping);
         card.zero(18, "SB", warping);
         last = 19;

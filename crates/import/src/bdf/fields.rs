@@ -107,7 +107,7 @@ impl CardFields<'_, '_> {
                 let hint = format!("write {value}. for {value}, and check the columns");
                 self.refuse(index, name, "must be a real number, with its decimal point", &hint);
             }
-            Some(Number::Huge) => self.refuse(index, name, "must be a number that a double can hold", ""),
+            Some(Number::Huge) => self.refuse(index, name, "must be a number within double precision", ""),
             None => self.refuse(index, name, "must be a real number", "such as 12. or 1.2+3 or 1.2E3"),
         }
         None

@@ -78,13 +78,13 @@ pub fn grid(card: &mut CardFields<'_, '_>) -> Option<(u64, GridCard)> {
     let cd = match card.text(6) {
         "" => Some(None),
         "-1" => {
-            card.refuse(6, "CD", "must not be -1", "points of a fluid cannot be taken");
+            card.refuse(6, "CD", "must not be -1", "points of a fluid are not supported");
             None
         }
         _ => card.whole(6, "CD").map(Some),
     };
     let fix = if card.blank(7) { Some(None) } else { card.freedoms(7, "PS").map(Some) };
-    card.zero(8, "SEID", "superelements cannot be taken");
+    card.zero(8, "SEID", "superelements are not supported");
     card.end(9);
     let spots = [card.at(2), card.at(6)];
     Some((id, GridCard { card: card.card.at, at: at?, cp: cp?, cd: cd?, fix: fix?, spots }))
@@ -95,7 +95,7 @@ pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<GridDefaults> {
     let cp = card.whole(2, "CP");
     let cd = card.whole(6, "CD");
     let fix = card.freedoms(7, "PS");
-    card.zero(8, "SEID", "superelements cannot be taken");
+    card.zero(8, "SEID", "superelements are not supported");
     card.end(9);
     Some(GridDefaults { cp: cp?, cd: cd?, fix: fix? })
 }
@@ -197,7 +197,7 @@ fn frames(
         if left.len() == before {
             for (id, system) in left.drain(..) {
                 let about = format!("CORD2R {id}: RID");
-                let expected = "must lead to the basic system, which is 0";
+                let expected = "must refer, directly or through other systems, to the basic system 0";
                 findings.error(ImportFinding::new(system.card, about, expected).with_found(system.reference));
             }
         }

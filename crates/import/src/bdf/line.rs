@@ -102,7 +102,7 @@ impl Reader<'_> {
         };
         if self.stack.contains(path) {
             findings.error(
-                refuse("must not lead back to a file that is being read", "take out one of the INCLUDEs")
+                refuse("must not include a file that is already being read", "remove one of the INCLUDEs")
                     .with_found(name),
             );
         } else if findings.files.len() >= MOST_FILES {

@@ -51,7 +51,7 @@ pub fn mass(card: &mut CardFields<'_, '_>) -> Option<MassCard> {
     let grid = card.id(2, "G");
     let absolute = card.text(3) == "-1";
     if !absolute {
-        card.zero(3, "CID", "masses in another system than the basic one cannot be taken")?;
+        card.zero(3, "CID", "masses in a system other than the basic one are not supported")?;
     }
     let mass = card.not_negative(4, "M");
     let offset = card.vector(5, ["X1", "X2", "X3"]);
@@ -87,15 +87,15 @@ pub fn spring(card: &mut CardFields<'_, '_>) -> Option<SpringCard> {
             continue;
         }
         let grid = card.id(first, "G")?;
-        let freedom = match number(card.text(first + 1)) {
+        let dof = match number(card.text(first + 1)) {
             Some(Number::Integer(c @ 1..=6)) => usize::try_from(c - 1).ok(),
             _ => None,
         };
-        let Some(freedom) = freedom else {
+        let Some(dof) = dof else {
             card.refuse(first + 1, "C", "must be one digit from 1 to 6", "");
             return None;
         };
-        ends[end] = Some((grid, freedom));
+        ends[end] = Some((grid, dof));
     }
     card.end(9);
     if ends == [None; 2] {

@@ -26,7 +26,12 @@ pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
     let (e, g, nu, density) = (e?, g?, nu?, density?);
     for (index, name, value) in [(2, "E", e), (3, "G", g)] {
         if value.is_some_and(|value| value <= 0.0) {
-            card.refuse(index, name, "must be positive", "leave it blank where E, G and NU have a third");
+            card.refuse(
+                index,
+                name,
+                "must be positive",
+                "leave it blank if the other two of E, G and NU are given",
+            );
             return None;
         }
     }
@@ -41,13 +46,13 @@ pub fn material(card: &mut CardFields<'_, '_>) -> Option<(u64, MaterialCard)> {
         (Some(e), None, None) => (e, None),
         (None, Some(g), Some(nu)) => (ratio(nu) * g, Some(g)),
         (None, ..) => {
-            card.refuse(2, "E", "is missing", "give E, or G and NU");
+            card.refuse(2, "E", "is missing", "state E, or G and NU");
             return None;
         }
     };
     let finite = e.is_finite() && g.is_none_or(|g| g.is_finite() && g > 0.0);
     if !finite {
-        card.refuse(2, "E", "must give moduli that a double can hold", "");
+        card.refuse(2, "E", "must lead to moduli within double precision", "");
     }
     finite.then_some((id, MaterialCard { card: card.card.at, e, g, density }))
 }

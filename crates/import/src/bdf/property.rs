@@ -33,7 +33,7 @@ pub struct Property {
     pub end: Option<Box<Property>>,
 }
 
-const NO_PRODUCT: &str = "give the principal second moments, and turn the orientation of the elements";
+const NO_PRODUCT: &str = "state the principal second moments, and rotate the orientation of the elements";
 
 /// Reads PROD.
 pub fn rod(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -101,18 +101,18 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
 /// Checks that a bar has bending stiffness in both planes or in none.
 fn whole(card: &mut CardFields<'_, '_>, property: &Property) -> bool {
     let [i1, i2] = property.bending.map(|value| value > 0.0);
-    let hint = "give both second moments, or neither for a bar that only changes its length";
+    let hint = "state both second moments, or neither for a bar without bending stiffness";
     if i1 != i2 {
         let (index, name) = if i1 { (5, "I2") } else { (4, "I1") };
-        card.refuse(index, name, "must be positive where the other plane bends", hint);
+        card.refuse(index, name, "must be positive if the other second moment is", hint);
     } else if !i1 && property.j > 0.0 {
-        card.refuse(4, "I1", "must be positive where J is", hint);
+        card.refuse(4, "I1", "must be positive if J is", hint);
         return false;
     }
     i1 == i2
 }
 
-const STATIONS: &str = "beams vary linearly from end A to end B: cut others at their stations";
+const STATIONS: &str = "beams vary linearly from end A to end B: divide other beams at their stations";
 
 /// Reads PBEAM, whose properties must vary linearly between the ends.
 pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -121,40 +121,17 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let own = stiffness(card, 3, None);
     let nsm = card.not_negative(8, "NSM");
     let (own, nsm) = (own?, nsm?);
-    let rows = card.card.fields.len().div_ceil(8);
-    let station =
-        |card: &CardFields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
-    let blank = |card: &CardFields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
-    // the second row contains stress recovery points, unless it is already a station
-    let mut row = if station(card, 1) { 1 } else { 2 };
-    let mut other = own;
-    while row < rows && station(card, row) {
-        let first = 8 * row;
-        let x = card.real(first + 2, "X/XB")?;
-        let values = stiffness(card, first + 3, Some(own))?;
-        if card.optional(first + 8, "NSM")?.is_some_and(|value| value != nsm) {
-            card.refuse(first + 8, "NSM", "must be that of end A", "the further mass cannot vary");
-            return None;
-        }
-        if x == 1.0 {
-            other = values;
-        } else if values != own {
-            card.refuse(first + 2, "X/XB", "must be 1. where a beam is tapered", STATIONS);
-            return None;
-        }
-        row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) { 2 } else { 1 };
-    }
-    let first = 8 * row;
+    let (other, first) = end_b(card, own, nsm)?;
     let shear = [(first + 1, "K1"), (first + 2, "K2")]
         .map(|(index, name)| if card.blank(index) { Some(1.0) } else { card.not_negative(index, name) });
-    let relief = "shear relief of tapered beams cannot be taken";
+    let relief = "shear relief of tapered beams is not supported";
     let relief = [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
-    let apart = "give the neutral axis as offset of the elements";
+    let apart = "state the neutral axis as offset of the elements";
     let apart =
         (first + 13..first + 17).map(|index| card.zero(index, "N", apart)).collect::<Option<Vec<_>>>();
     let lost = [first + 5, first + 6, first + 9, first + 10, first + 11, first + 12];
     if let Some(index) = lost.into_iter().find(|index| !card.blank(*index) && card.text(*index) != "0.") {
-        let fault = card.fault(index, "", "inertia and offset of the further mass are left out");
+        let fault = card.fault(index, "", "inertia and offset of the non-structural mass are left out");
         card.findings.warn(fault);
     }
     card.end(first + 17);
@@ -180,6 +157,36 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         card.refuse(3, "A", "must be positive like I1, I2 and J at both ends of a tapered beam", "");
     }
     (is_positive && spread(card, &result, 8) && whole(card, &result)).then_some((id, result))
+}
+
+/// Reads the stations of a PBEAM. Returns A, I1, I2 and J at end B, and the number of fields before the first field
+/// that follows the stations. `own` and `nsm` are the values at end A.
+fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 4], nsm: f64) -> Option<([f64; 4], usize)> {
+    let rows = card.card.fields.len().div_ceil(8);
+    let station =
+        |card: &CardFields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
+    let blank = |card: &CardFields<'_, '_>, row: usize| (1..=8).all(|field| card.blank(8 * row + field));
+    // the second row contains stress recovery points, unless it is already a station
+    let mut row = if station(card, 1) { 1 } else { 2 };
+    let mut other = own;
+    while row < rows && station(card, row) {
+        let first = 8 * row;
+        let x = card.real(first + 2, "X/XB")?;
+        let values = stiffness(card, first + 3, Some(own))?;
+        if card.optional(first + 8, "NSM")?.is_some_and(|value| value != nsm) {
+            let hint = "the non-structural mass cannot vary";
+            card.refuse(first + 8, "NSM", "must be equal to that of end A", hint);
+            return None;
+        }
+        if x == 1.0 {
+            other = values;
+        } else if values != own {
+            card.refuse(first + 2, "X/XB", "must be 1. if the beam is tapered", STATIONS);
+            return None;
+        }
+        row += if card.text(first + 1) == "YES" || (row + 1 < rows && blank(card, row + 1)) { 2 } else { 1 };
+    }
+    Some((other, 8 * row))
 }
 
 /// Reads the consecutive fields A, I1, I2, I12 and J, of which I12 must be 0. Blank fields have the values of `own`.
@@ -241,8 +248,8 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
 fn spread(card: &mut CardFields<'_, '_>, property: &Property, index: usize) -> bool {
     let varies = property.end.as_ref().is_some_and(|end| end.area != property.area);
     if varies && property.nsm > 0.0 {
-        let hint = "give the further mass as CONM2";
-        card.refuse(index, "NSM", "must be 0 where the area of a beam varies", hint);
+        let hint = "state the non-structural mass as CONM2";
+        card.refuse(index, "NSM", "must be 0 if the area of the beam varies", hint);
     }
     !varies || property.nsm == 0.0
 }
@@ -262,8 +269,8 @@ fn section(
             return None;
         }
         Err(ShapeError::Dimensions | ShapeError::Unknown) => {
-            let hint = "some of them leave no room for others";
-            card.refuse(9, "DIM1", "must begin dimensions of a section", hint);
+            let hint = "the dimensions leave no space between the plates";
+            card.refuse(9, "DIM1", "must be the first of valid dimensions of a section", hint);
             return None;
         }
     };
@@ -298,12 +305,17 @@ fn stations(card: &mut CardFields<'_, '_>, dimensions: &[f64], nsm: f64) -> Opti
             here.push(card.real_or(first + 2 + k, &format!("DIM{}", k + 1), *own)?);
         }
         if card.optional(first + 2 + count, "NSM")?.is_some_and(|value| value != nsm) {
-            card.refuse(first + 2 + count, "NSM", "must be that of end A", "the further mass cannot vary");
+            card.refuse(
+                first + 2 + count,
+                "NSM",
+                "must be equal to that of end A",
+                "the non-structural mass cannot vary",
+            );
             return None;
         }
         if here != dimensions {
             if x != 1.0 {
-                card.refuse(first + 1, "X/XB", "must be 1. where a beam is tapered", STATIONS);
+                card.refuse(first + 1, "X/XB", "must be 1. if the beam is tapered", STATIONS);
                 return None;
             }
             other = Some(here);

@@ -17,7 +17,7 @@ use std::collections::BTreeMap;
 use super::deck::BulkDeck;
 use super::element::{ElementCard, Orientation, SectionOf as Given};
 use super::grid::{self, Resolved};
-use super::lump::Stiffness;
+use super::lump::{SpringCard, Stiffness};
 use super::property::Property;
 use super::section::SectionTable;
 use super::support;
@@ -90,7 +90,7 @@ impl<'d> Resolver<'d, '_> {
         // an error has already been added for a grid that exists but could not be read
         if index.is_none() && !self.deck.grids.contains_key(&id) {
             self.findings
-                .error(ImportFinding::new(at, about, "names a grid that is not there").with_found(id));
+                .error(ImportFinding::new(at, about, "refers to a grid that does not exist").with_found(id));
         }
         index
     }
@@ -100,7 +100,7 @@ impl<'d> Resolver<'d, '_> {
         let deck = self.deck;
         if deck.elements.is_empty() {
             let finding = ImportFinding::new(FilePlace { line: 1, column: 1, file: 0 }, "", "has no member");
-            self.findings.error(finding.hint("members are CBAR, CBEAM, CROD and CONROD"));
+            self.findings.error(finding.hint("supported members are CBAR, CBEAM, CROD and CONROD"));
         }
         for (&id, element) in &deck.elements {
             if let Some(member) = self.member(id, element) {
@@ -118,7 +118,7 @@ impl<'d> Resolver<'d, '_> {
             Given::Number(number) => {
                 let Some(property) = deck.properties.get(number) else {
                     let finding =
-                        ImportFinding::new(element.card, about, "names a property that is not there");
+                        ImportFinding::new(element.card, about, "refers to a property that does not exist");
                     self.findings.error(finding.with_found(number));
                     return None;
                 };
@@ -132,7 +132,7 @@ impl<'d> Resolver<'d, '_> {
         };
         if !fits {
             let expected = format!("cannot have the property {} {number}", property.kind);
-            let hint = "CBAR takes PBAR and PBARL, CBEAM takes PBEAM and PBEAML, CROD takes PROD";
+            let hint = "CBAR needs PBAR or PBARL, CBEAM needs PBEAM or PBEAML, CROD needs PROD";
             self.findings.error(ImportFinding::new(element.card, about, expected).hint(hint));
             return None;
         }
@@ -155,7 +155,7 @@ impl<'d> Resolver<'d, '_> {
                         let finding = ImportFinding::new(
                             element.card,
                             format!("{about}: G0"),
-                            "names a grid that is not there",
+                            "refers to a grid that does not exist",
                         );
                         self.findings.error(finding.with_found(grid));
                     }
@@ -182,8 +182,9 @@ impl<'d> Resolver<'d, '_> {
         let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + element.offsets[end][axis]);
         let along = minus(tip(1), tip(0));
         if along == [0.0; 3] {
-            let finding = ImportFinding::new(element.card, about, "must have a length between its ends");
-            self.findings.error(finding.hint("its ends coincide, offsets included"));
+            let finding =
+                ImportFinding::new(element.card, about, "must have a positive length between its ends");
+            self.findings.error(finding.hint("its ends coincide after the offsets are added"));
             return None;
         }
         let orientation = self.orientation(element, ends[0], &about)?;
@@ -191,7 +192,7 @@ impl<'d> Resolver<'d, '_> {
         if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
             let finding =
                 ImportFinding::new(element.card, about, "its orientation must not be zero or along it");
-            self.findings.error(finding.hint("X1, X2, X3 or G0 give the side of the local y axis"));
+            self.findings.error(finding.hint("X1, X2, X3 or G0 define the side of the local y axis"));
             return None;
         }
         let mut member = ImportedMember {
@@ -256,7 +257,7 @@ impl<'d> Resolver<'d, '_> {
                 self.findings.error(ImportFinding::new(
                     mass.at,
                     &mass.label,
-                    "must be a mass that a double can hold",
+                    "must be a mass within double precision",
                 ));
             }
         }
@@ -273,30 +274,31 @@ impl<'d> Resolver<'d, '_> {
             }
         }
         let sets =
-            support::chosen(&deck.holds, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
+            support::chosen(&deck.supports, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
         let mut unused: BTreeMap<u64, FilePlace> = BTreeMap::new();
-        for hold in &deck.holds {
-            if !sets.contains(&hold.set) {
-                unused.entry(hold.set).or_insert(hold.card);
+        for support in &deck.supports {
+            if !sets.contains(&support.set) {
+                unused.entry(support.set).or_insert(support.card);
                 continue;
             }
-            let about = format!("SPC set {}", hold.set);
+            let about = format!("SPC set {}", support.set);
             let mut restrained: Vec<usize> = Vec::new();
-            for [from, to] in &hold.ranges {
+            for [from, to] in &support.ranges {
                 restrained.extend(self.index.range(from..=to).map(|(_, point)| *point));
             }
-            for (grid, at) in &hold.grids {
+            for (grid, at) in &support.grids {
                 if !deck.grids.contains_key(grid) {
                     self.findings.error(
-                        ImportFinding::new(*at, &about, "names a grid that is not there").with_found(grid),
+                        ImportFinding::new(*at, &about, "refers to a grid that does not exist")
+                            .with_found(grid),
                     );
                 }
                 restrained.extend(self.index.get(grid));
             }
             for point in restrained {
-                let support = self.structure.supports.entry(point).or_default();
-                for (dof, fix) in hold.fix.iter().enumerate() {
-                    support[dof] |= fix;
+                let fixed = self.structure.supports.entry(point).or_default();
+                for (dof, fix) in support.fix.iter().enumerate() {
+                    fixed[dof] |= fix;
                 }
             }
         }
@@ -304,7 +306,7 @@ impl<'d> Resolver<'d, '_> {
             self.findings.warn(ImportFinding::new(
                 at,
                 format!("SPC set {set}"),
-                "is not the one chosen, and left out",
+                "is not the selected set and is left out",
             ));
         }
     }
@@ -314,24 +316,7 @@ impl<'d> Resolver<'d, '_> {
     fn springs(&mut self) {
         let deck = self.deck;
         for spring in &deck.springs {
-            let k = match spring.stiffness {
-                Stiffness::Own(k) => k,
-                Stiffness::Number(number) => match deck.stiffness.get(&number) {
-                    Some((_, k)) => *k,
-                    None => {
-                        let finding =
-                            ImportFinding::new(spring.card, &spring.label, "names a PELAS that is not there");
-                        self.findings.error(finding.with_found(number));
-                        continue;
-                    }
-                },
-            };
-            if k <= 0.0 {
-                let finding =
-                    ImportFinding::new(spring.card, &spring.label, "must have a positive stiffness");
-                self.findings.error(finding.with_found(k));
-                continue;
-            }
+            let Some(k) = self.stiffness(spring) else { continue };
             let mut free = Vec::new();
             let mut known = true;
             for (grid, dof) in spring.ends.iter().flatten() {
@@ -351,20 +336,45 @@ impl<'d> Resolver<'d, '_> {
                     self.structure.springs.push(ImportedSpring { point: *point, dof: *dof, k });
                 }
                 [] => {
-                    let finding =
-                        ImportFinding::new(spring.card, &spring.label, "left out: all its ends are held");
+                    let finding = ImportFinding::new(
+                        spring.card,
+                        &spring.label,
+                        "is left out, because all its ends are restrained",
+                    );
                     self.findings.warn(finding);
                 }
                 _ => {
                     let finding = ImportFinding::new(
                         spring.card,
                         &spring.label,
-                        "must have one end at ground, or held",
+                        "must have one end at ground or restrained",
                     );
-                    self.findings.error(finding.hint("springs between two moving grids cannot be taken"));
+                    self.findings.error(finding.hint("springs between two moving grids are not supported"));
                 }
             }
         }
+    }
+
+    /// The stiffness of a spring; `None`, with an error, if its PELAS does not exist or the stiffness is not
+    /// positive.
+    fn stiffness(&mut self, spring: &SpringCard) -> Option<f64> {
+        let finding = |expected: &str| ImportFinding::new(spring.card, &spring.label, expected);
+        let k = match spring.stiffness {
+            Stiffness::Own(k) => k,
+            Stiffness::Number(number) => {
+                let Some((_, k)) = self.deck.stiffness.get(&number) else {
+                    let missing = finding("refers to a PELAS that does not exist");
+                    self.findings.error(missing.with_found(number));
+                    return None;
+                };
+                *k
+            }
+        };
+        if k <= 0.0 {
+            self.findings.error(finding("must have a positive stiffness").with_found(k));
+            return None;
+        }
+        Some(k)
     }
 
     /// Adds a set for each point, so that messages can refer to its grid, and a set of the members of each section.

@@ -16,7 +16,7 @@ pub struct Rigid {
 }
 
 const WHOLE: [bool; 6] = [true; 6];
-const PARTIAL: &str = "links that leave freedoms of their ends free cannot be taken";
+const PARTIAL: &str = "links that do not join all degrees of freedom of their ends are not supported";
 
 /// Reads RBE2.
 pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
@@ -39,7 +39,7 @@ pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
         return None;
     }
     if to.is_empty() {
-        card.refuse(4, "GM1", "is missing", "name the grids that follow");
+        card.refuse(4, "GM1", "is missing", "state the dependent grids");
         return None;
     }
     Some(Rigid { label: card.label(), from: (from?, card.at(2)), to })

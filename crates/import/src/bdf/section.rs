@@ -55,7 +55,7 @@ impl SectionTable {
             material = format!("{material} and NSM of {name}");
         }
         if !density.is_finite() {
-            let expected = "must have a mass that a double can hold";
+            let expected = "must have a mass within double precision";
             findings.error(ImportFinding::new(property.card, &name, expected));
             return None;
         }
@@ -68,7 +68,7 @@ impl SectionTable {
         let section = section_of(property, format!("{name}{end}"), material);
         let numbers = [section.iy, section.iz, section.j, section.shear_y, section.shear_z];
         if numbers.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
-            let expected = "must have properties that a double can hold";
+            let expected = "must have properties within double precision";
             findings.error(ImportFinding::new(property.card, &name, expected));
             return None;
         }
@@ -100,7 +100,7 @@ fn material_of<'d>(
     if material.g.is_none() && (property.j > 0.0 || is_shear_flexible) {
         let expected = format!("is missing, and {name} of {about} needs it");
         let finding = ImportFinding::new(material.card, format!("MAT1 {}: G", property.material), expected);
-        findings.error(finding.hint("give G, or NU"));
+        findings.error(finding.hint("state G or NU"));
         return None;
     }
     Some(material)
@@ -110,20 +110,21 @@ fn material_of<'d>(
 fn warn_of_placeholders(property: &Property, name: &str, findings: &mut ImportFindings) {
     let bends = property.bending[0] > 0.0;
     if bends && property.j == 0.0 {
-        let expected = "has no J: its members turn freely about their axes";
+        let expected = "has no J: its members have no torsional stiffness";
         let finding = ImportFinding::new(property.card, name, expected);
-        findings.warn(finding.hint("taken as a release of rx; the J written is a placeholder"));
+        findings
+            .warn(finding.hint("its members get a release of rx, and the J in the spec is a placeholder"));
     }
     if !bends && property.j > 0.0 {
-        let expected = "has J: its rods are taken as beams hinged at both ends";
+        let expected = "has J: its rods become beams with hinges at both ends";
         let finding = ImportFinding::new(property.card, name, expected);
-        findings.warn(finding.hint("the Iy and Iz written are placeholders"));
+        findings.warn(finding.hint("the Iy and Iz in the spec are placeholders"));
     }
     if property.end.is_some() {
-        let expected = format!("is tapered, and solved in {PARTS} uniform parts a member");
+        let expected = format!("is tapered, and each member is solved in {PARTS} uniform parts");
         findings.warn(
             ImportFinding::new(property.card, name, expected)
-                .hint("`parts` of the spec may say another number"),
+                .hint("another number can be stated in `parts` of the spec"),
         );
     }
 }

@@ -22,22 +22,22 @@ pub struct SupportCard {
 
 /// Reads SPC, which names up to two grids.
 pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
-    let mut holds = Vec::new();
-    let Some(set) = card.id(1, "SID") else { return holds };
+    let mut supports = Vec::new();
+    let Some(set) = card.id(1, "SID") else { return supports };
     for first in [2, 5] {
         if first == 5 && (5..8).all(|index| card.blank(index)) {
             continue;
         }
         let grid = card.id(first, "G");
         let fix = card.freedoms(first + 1, "C");
-        let moved = card.zero(first + 2, "D", "supports that move cannot be taken");
+        let moved = card.zero(first + 2, "D", "prescribed displacements of supports are not supported");
         if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
             let grids = vec![(grid, card.at(first))];
-            holds.push(SupportCard { set, card: card.card.at, grids, ranges: Vec::new(), fix });
+            supports.push(SupportCard { set, card: card.card.at, grids, ranges: Vec::new(), fix });
         }
     }
     card.end(8);
-    holds
+    supports
 }
 
 /// Reads SPC1, which contains grids and ranges of grids.
@@ -45,7 +45,7 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
     let set = card.id(1, "SID")?;
     let fix = card.freedoms(2, "C")?;
     let last = card.last();
-    let mut hold = SupportCard { set, card: card.card.at, grids: Vec::new(), ranges: Vec::new(), fix };
+    let mut support = SupportCard { set, card: card.card.at, grids: Vec::new(), ranges: Vec::new(), fix };
     let mut index = 3;
     while index <= last {
         if card.blank(index) {
@@ -60,17 +60,17 @@ pub fn spc1(card: &mut CardFields<'_, '_>) -> Option<SupportCard> {
                 card.refuse(index + 2, "G", "must not be below the grid before THRU", "");
                 return None;
             }
-            hold.ranges.push([from, to]);
+            support.ranges.push([from, to]);
             index += 3;
         } else {
-            hold.grids.push((from, at));
+            support.grids.push((from, at));
             index += 1;
         }
     }
-    if hold.grids.is_empty() && hold.ranges.is_empty() {
-        card.refuse(3, "G1", "is missing", "name the grids that the set holds");
+    if support.grids.is_empty() && support.ranges.is_empty() {
+        card.refuse(3, "G1", "is missing", "state the grids that the set restrains");
     }
-    Some(hold)
+    Some(support)
 }
 
 /// Reads SPCADD, which defines a set as the union of others.
@@ -91,54 +91,32 @@ pub fn spcadd(card: &mut CardFields<'_, '_>) -> Option<(u64, Vec<u64>)> {
 /// that case control selects, with their positions. The selection of the user has priority. If neither selects a
 /// set, the deck must have a single one.
 pub fn chosen(
-    holds: &[SupportCard],
+    supports: &[SupportCard],
     adds: &BTreeMap<u64, Vec<u64>>,
     asked: Option<u64>,
     controlled: bool,
     control: &[(u64, FilePlace)],
     findings: &mut ImportFindings,
 ) -> BTreeSet<u64> {
-    let plain: BTreeSet<u64> = holds.iter().map(|hold| hold.set).collect();
+    let plain: BTreeSet<u64> = supports.iter().map(|support| support.set).collect();
     let known: Vec<String> = plain.iter().chain(adds.keys()).map(u64::to_string).collect();
-    let list =
-        if known.is_empty() { "there is none".to_owned() } else { format!("there is {}", known.join(", ")) };
+    let list = if known.is_empty() {
+        "there are no sets".to_owned()
+    } else {
+        format!("known sets: {}", known.join(", "))
+    };
     let selected: BTreeSet<u64> = control.iter().map(|(set, _)| *set).collect();
     let first = control.first().map_or(FilePlace::default(), |(_, at)| *at);
     let (set, at) = match (asked, selected.len()) {
         (Some(set), _) => (set, FilePlace::default()),
         (None, 1) => (*selected.first().unwrap_or(&0), first),
-        (None, 0) => {
-            let tops: Vec<u64> = if adds.is_empty() {
-                plain.iter().copied().collect()
-            } else {
-                adds.keys().copied().collect()
-            };
-            match tops.as_slice() {
-                [] => return BTreeSet::new(),
-                [only] => {
-                    if controlled {
-                        let at = holds.first().map_or(first, |hold| hold.card);
-                        let told =
-                            format!("set {only} is taken: case control chooses none, and there is no other");
-                        findings.warn(ImportFinding::new(at, "SPC", told));
-                    }
-                    (*only, FilePlace::default())
-                }
-                _ => {
-                    let at = holds.first().map_or(first, |hold| hold.card);
-                    let finding = ImportFinding::new(
-                        at,
-                        "SPC",
-                        "must be chosen: case control chooses none of several sets",
-                    );
-                    findings.error(finding.hint(format!("add --spc N; {list}")));
-                    return BTreeSet::new();
-                }
-            }
-        }
+        (None, 0) => match only_set(supports, adds, controlled, &list, findings) {
+            Some(only) => (only, FilePlace::default()),
+            None => return BTreeSet::new(),
+        },
         (None, _) => {
             let finding = ImportFinding::new(first, "SPC", "must be the same in all subcases");
-            findings.error(finding.hint(format!("choose with --spc N; {list}")));
+            findings.error(finding.hint(format!("select one with --spc N; {list}")));
             return BTreeSet::new();
         }
     };
@@ -147,7 +125,7 @@ pub fn chosen(
             findings.error(ImportFinding::new(
                 at,
                 format!("SPCADD {set}"),
-                format!("names set {part}, which is not there"),
+                format!("refers to set {part}, which does not exist"),
             ));
         }
         return parts.iter().copied().collect();
@@ -158,4 +136,39 @@ pub fn chosen(
         findings.error(finding.hint(list));
     }
     BTreeSet::from([set])
+}
+
+/// The only set of a deck whose case control selects none: the only SPCADD set or, if there is no SPCADD, the only
+/// set. Several sets are an error that lists them.
+fn only_set(
+    supports: &[SupportCard],
+    adds: &BTreeMap<u64, Vec<u64>>,
+    controlled: bool,
+    list: &str,
+    findings: &mut ImportFindings,
+) -> Option<u64> {
+    let tops: BTreeSet<u64> = if adds.is_empty() {
+        supports.iter().map(|support| support.set).collect()
+    } else {
+        adds.keys().copied().collect()
+    };
+    let at = supports.first().map_or(FilePlace::default(), |support| support.card);
+    let mut sets = tops.into_iter();
+    match (sets.next(), sets.next()) {
+        (Some(only), None) => {
+            if controlled {
+                let message =
+                    format!("set {only} is used, because it is the only one and case control selects none");
+                findings.warn(ImportFinding::new(at, "SPC", message));
+            }
+            Some(only)
+        }
+        (Some(_), Some(_)) => {
+            let message = "must be selected, because there are several sets and case control selects none";
+            let finding = ImportFinding::new(at, "SPC", message);
+            findings.error(finding.hint(format!("add --spc N; {list}")));
+            None
+        }
+        (None, _) => None,
+    }
 }

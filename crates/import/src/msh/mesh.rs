@@ -36,7 +36,7 @@ impl Mesh {
                 findings.error(ImportFinding::new(
                     section.at,
                     format!("${}", section.name),
-                    "must stand once",
+                    "must occur only once",
                 ));
                 continue;
             }
@@ -48,7 +48,7 @@ impl Mesh {
                 "Nodes" => mesh.read_nodes(&mut section, findings),
                 "Elements" => mesh.read_elements(&mut section, findings),
                 "PartitionedEntities" => {
-                    let finding = ImportFinding::new(section.at, "$PartitionedEntities", "cannot be taken");
+                    let finding = ImportFinding::new(section.at, "$PartitionedEntities", "is not supported");
                     findings.error(finding.hint("write the mesh without partitions"));
                     None
                 }
@@ -72,7 +72,7 @@ impl Mesh {
             let tag = record.tag(1, "physical group", findings)?;
             let name = record.line.split_once('"').and_then(|(_, rest)| rest.strip_suffix('"'));
             let Some(name) = name.filter(|name| !name.is_empty()) else {
-                findings.error(ImportFinding::new(record.at, "name", "must stand between quotation marks"));
+                findings.error(ImportFinding::new(record.at, "name", "must be between quotation marks"));
                 return None;
             };
             if self.names.insert((dimension, tag), name.to_owned()).is_some() {
@@ -102,8 +102,7 @@ impl Mesh {
                     list.push(record.tag(index, "physical group", findings)?);
                 }
                 if self.groups.insert((dimension, tag), list).is_some() {
-                    findings
-                        .error(ImportFinding::new(record.at, "entity", "stands there twice").with_found(tag));
+                    findings.error(ImportFinding::new(record.at, "entity", "occurs twice").with_found(tag));
                 }
             }
         }
@@ -129,7 +128,7 @@ impl Mesh {
                     place[axis] = record.real(axis, name, findings)?;
                 }
                 if self.nodes.insert(tag, place).is_some() {
-                    findings.error(ImportFinding::new(at, "node", "stands there twice").with_found(tag));
+                    findings.error(ImportFinding::new(at, "node", "occurs twice").with_found(tag));
                 }
                 if dimension == 0 {
                     self.points.entry(entity).or_default().push(tag);
@@ -169,8 +168,12 @@ impl Mesh {
             if matches!(kind, 8 | 26..=28) {
                 let hint = "mesh with Mesh.ElementOrder = 1";
                 findings.error(
-                    ImportFinding::new(at, about, format!("{name} cannot be taken: members have two nodes"))
-                        .hint(hint),
+                    ImportFinding::new(
+                        at,
+                        about,
+                        format!("{name} are not supported: members have two nodes"),
+                    )
+                    .hint(hint),
                 );
             } else {
                 findings.warn(ImportFinding::new(at, about, format!("{name} are left out, {count} of them")));
@@ -186,7 +189,7 @@ impl Mesh {
             findings.error(ImportFinding::new(record.at, format!("element {tag}"), "must join two nodes"));
         }
         if self.lines.insert(tag, (curve, nodes, record.at)).is_some() {
-            findings.error(ImportFinding::new(record.at, "element", "stands there twice").with_found(tag));
+            findings.error(ImportFinding::new(record.at, "element", "occurs twice").with_found(tag));
         }
         Some(())
     }

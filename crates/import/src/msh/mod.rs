@@ -11,11 +11,11 @@ mod mesh;
 mod sections;
 mod text;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub use sections::{FORMAT, Sections};
 
-use super::findings::{ImportFinding, ImportFindings};
+use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use mesh::Mesh;
@@ -40,46 +40,31 @@ pub fn read(
     let index = points(&mesh, factor, &mut structure);
     let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     // curves for which an error was added, so that each causes one error instead of one for each of its elements
-    let mut reported = Vec::new();
+    let mut reported = BTreeSet::new();
     for (&id, &(curve, nodes, at)) in &mesh.lines {
         let about = format!("element {id}");
         let [a, b] = nodes.map(|node| index.get(&node).copied());
         let (Some(a), Some(b)) = (a, b) else {
             let missing = nodes.into_iter().find(|node| !index.contains_key(node)).unwrap_or_default();
-            findings
-                .error(ImportFinding::new(at, about, "names a node that is not there").with_found(missing));
+            findings.error(
+                ImportFinding::new(at, about, "refers to a node that does not exist").with_found(missing),
+            );
             continue;
         };
         let names: Vec<&str> = names(&mesh, 1, curve);
-        let known: Vec<&str> =
-            names.iter().filter(|name| groups.groups.contains_key(**name)).copied().collect();
-        let &[name] = known.as_slice() else {
-            if !reported.contains(&curve) {
-                reported.push(curve);
-                let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
-                let expected = format!(
-                    "must be in one physical group that is a section or in `members`, {}",
-                    list(&names)
-                );
-                let hint = format!("in the sections file: {}", known.join(", "));
-                findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
-            }
-            continue;
-        };
+        let Some(name) = group_of(curve, &names, groups, at, &mut reported, findings) else { continue };
         let group = &groups.groups[name];
         let along = minus(structure.points[b].at, structure.points[a].at);
         let orientation = group.orientation.or(structure.up);
         if along == [0.0; 3] {
-            findings.error(ImportFinding::new(at, about, "must have a length"));
+            findings.error(ImportFinding::new(at, about, "must have a positive length"));
             continue;
         }
         if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
-            if !reported.contains(&curve) {
-                reported.push(curve);
-                let hint = format!("give \"{name}\" an `orientation` in `members` of the sections file");
-                findings.error(
-                    ImportFinding::new(at, about, "must have an orientation that is not along it").hint(hint),
-                );
+            if reported.insert(curve) {
+                let hint = format!("state the `orientation` of \"{name}\" in `members` of the sections file");
+                let expected = "must have an orientation that is not parallel to it";
+                findings.error(ImportFinding::new(at, about, expected).hint(hint));
             }
             continue;
         }
@@ -98,7 +83,7 @@ pub fn read(
         });
     }
     if structure.members.is_empty() && !findings.has_errors() {
-        let at = super::findings::FilePlace { file: 0, line: 1, column: 1 };
+        let at = FilePlace { file: 0, line: 1, column: 1 };
         let hint = "mesh the curves (gmsh -1), and put them in physical groups";
         findings.error(ImportFinding::new(at, "", "has no line cells").hint(hint));
     }
@@ -106,10 +91,34 @@ pub fn read(
     structure
 }
 
+/// The only one of the physical groups `names` of a curve that the sections file defines. If there is no such group
+/// or there are several, an error is added unless the curve is among `reported`.
+fn group_of<'m>(
+    curve: u64,
+    names: &[&'m str],
+    groups: &Sections,
+    at: FilePlace,
+    reported: &mut BTreeSet<u64>,
+    findings: &mut ImportFindings,
+) -> Option<&'m str> {
+    let mut known = names.iter().filter(|name| groups.groups.contains_key(**name));
+    if let (Some(&only), None) = (known.next(), known.next()) {
+        return Some(only);
+    }
+    if reported.insert(curve) {
+        let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
+        let expected =
+            format!("must be in one physical group that is a section or in `members`, {}", list(names));
+        let hint = format!("in the sections file: {}", known.join(", "));
+        findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
+    }
+    None
+}
+
 /// Part of a message that lists the physical groups of a curve.
 fn list(names: &[&str]) -> String {
     if names.is_empty() {
-        "and is in none with a name".to_owned()
+        "but is in none with a name".to_owned()
     } else {
         format!("and is in {}", names.join(", "))
     }

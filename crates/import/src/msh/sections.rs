@@ -213,8 +213,8 @@ fn named_groups(
         {
             let list = at.key(key);
             for (index, word) in words.iter().flatten().enumerate() {
-                if let Some(freedom) = faults.one_of(word, &list.index(index), &DOFS) {
-                    group.releases[end][freedom] = true;
+                if let Some(dof) = faults.one_of(word, &list.index(index), &DOFS) {
+                    group.releases[end][dof] = true;
                 }
             }
         }
@@ -258,7 +258,7 @@ fn groups(
         let at = list.index(index);
         for (key, value) in [("A", section.area), ("Iy", section.iy), ("Iz", section.iz), ("J", section.j)] {
             if value.is_none() && (beams || key == "A") {
-                let hint = "beams need A, Iy, Iz and J; for trusses give `members` the kind \"truss\"";
+                let hint = "beams need A, Iy, Iz and J; trusses need the kind \"truss\" in `members`";
                 faults.add(Fault::new(&at, format!("missing key `{key}`")).hint(hint));
             }
         }

@@ -92,8 +92,9 @@ impl<'t> MeshBlock<'t> {
         self.next += 1;
         if record.is_none() {
             let finding = ImportFinding::new(self.at, format!("${}", self.name), "ends too early");
-            findings
-                .error(finding.hint("the numbers of entries do not fit what follows; write the mesh again"));
+            findings.error(
+                finding.hint("the stated numbers of entries do not match the section; write the mesh again"),
+            );
         }
         record
     }
@@ -111,7 +112,7 @@ pub fn sections<'t>(text: &'t str, findings: &mut ImportFindings) -> Vec<MeshBlo
                     findings.error(ImportFinding::new(
                         record.at,
                         format!("$End{name}"),
-                        "must end a section that has begun",
+                        "must end a section that was begun",
                     ));
                     continue;
                 }

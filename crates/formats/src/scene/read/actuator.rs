@@ -28,27 +28,27 @@ fn read_load(raw: &RawLoad, bodies: &[Body], at: &Place<'_>, check: &mut Check<'
     });
     let words: Vec<(&str, usize)> = DOFS.iter().enumerate().map(|(index, word)| (*word, index)).collect();
     let place = at.key("dof");
-    let freedom = check.faults.require(&raw.dof, at, "dof");
-    let freedom = freedom.and_then(|word| check.faults.one_of(word, &place, &words));
-    let unit = if freedom.is_some_and(|freedom| freedom > 2) { Dimension::MOMENT } else { Dimension::FORCE };
+    let dof = check.faults.require(&raw.dof, at, "dof");
+    let dof = dof.and_then(|word| check.faults.one_of(word, &place, &words));
+    let unit = if dof.is_some_and(|dof| dof > 2) { Dimension::MOMENT } else { Dimension::FORCE };
     let value = check.faults.require(&raw.value, at, "value");
     let value = value.and_then(|table| read_schedule(table, &at.key("value"), unit, check));
-    let (body, freedom) = (body?, freedom?);
+    let (body, dof) = (body?, dof?);
     let owner = &bodies[body];
     let prescribed = matches!(owner.motion, BodyMotion::Prescribed(_));
     let is_free = |i: usize| owner.free[i] && !(i == 0 && prescribed);
-    if !is_free(freedom) {
-        let state = if owner.free[freedom] { "prescribed" } else { "held" };
-        let fault = Fault::new(&place, format!("{} of body {} is {state}", DOFS[freedom], owner.name));
+    if !is_free(dof) {
+        let state = if owner.free[dof] { "prescribed" } else { "fixed" };
+        let fault = Fault::new(&place, format!("{} of body {} is {state}", DOFS[dof], owner.name));
         let free: Vec<&str> = (0..6).filter(|&i| is_free(i)).map(|i| DOFS[i]).collect();
         let hint = if free.is_empty() {
-            "nothing of it is free".to_owned()
+            "the body has no free degree of freedom".to_owned()
         } else {
-            alternatives(&free) + " can be loaded"
+            alternatives(&free) + " can have a load"
         };
         check.faults.add(fault.hint(hint));
     }
-    Some(Load { body, dof: freedom, value: value? })
+    Some(Load { body, dof, value: value? })
 }
 
 /// Reads the drive of a motion; none if its table of speeds is missing or invalid.
@@ -58,7 +58,7 @@ pub(super) fn read_drive(motion: &RawMotion, at: &Place<'_>, check: &mut Check<'
         at,
         "gain",
         Dimension::DAMPING,
-        "force per speed that is missing",
+        "drive force per difference of speed",
     );
     let max_force = motion.max_force.map(|force| {
         check.not_negative(force, &at.key("max_force"), Dimension::FORCE, "leave it out for no limit")
@@ -94,9 +94,11 @@ pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
                 let place = kinds.key(&kind.name);
                 let fault = Fault::new(
                     &place.key("spin_inertia"),
-                    "a wheel with a spin of its own under a drive or a brake is not available in this version",
+                    "a driven or braked wheel with `spin_inertia` is not available in this version",
                 );
-                faults.add(fault.at_key().hint("leave `spin_inertia` out: the wheel rolls with its body"));
+                faults.add(
+                    fault.at_key().hint("leave `spin_inertia` out: the wheel then rolls without inertia"),
+                );
             }
         }
         if body.brake.is_none() {
@@ -104,11 +106,11 @@ pub(super) fn check_wheels(raw: &RawScene, scene: &Scene, faults: &mut Faults) {
         }
         if !own().any(|kind| kind.braked) {
             let fault = brake_fault(raw, &body.name, format!("no wheel of body {} is braked", body.name));
-            faults.add(fault.at_key().hint("give a kind of its wheels \"braked\": true"));
+            faults.add(fault.at_key().hint("set \"braked\": true in the wheel type of one of its trucks"));
         }
         if let Some(kind) = own().find(|kind| kind.braked && kind.friction.is_none()) {
             let fault = Fault::new(&kinds.key(&kind.name), "a braked wheel needs `friction`").at_key();
-            faults.add(fault.hint("its `mu` limits the brake"));
+            faults.add(fault.hint("its `mu` limits the brake force"));
         }
     }
 }

@@ -1,9 +1,9 @@
 //! Bodies of a scene and their motion along their rails.
 
-use sim::{MotionKind, Profile};
+use sim::MotionKind;
 
 use super::actuator::read_drive;
-use super::schedule::read_rows;
+use super::schedule::{MotionTable, motion_tables, read_profile};
 use super::spin;
 use crate::check::Check;
 use crate::scene::raw::{RawBody, RawMotion, RawStart};
@@ -29,7 +29,7 @@ pub(super) fn read(
         inertia[index] = check.not_negative(value, &place.index(index), Dimension::INERTIA, hint);
     }
     let cg = check.vector(raw.cg.unwrap_or_default(), &at.key("cg"), Dimension::LENGTH);
-    let free = read_freedoms(raw, at, check);
+    let free = read_dofs(raw, at, check);
     let x0 = check.number(raw.x0.unwrap_or_default(), &at.key("x0"), Dimension::LENGTH);
     let v0 = check.number(raw.v0.unwrap_or_default(), &at.key("v0"), Dimension::SPEED);
     let start = raw.start.as_ref().map(|start| read_start(start, &free, &at.key("start"), check));
@@ -72,7 +72,7 @@ fn read_mass(raw: &RawBody, at: &Place<'_>, gravity: Option<f64>, check: &mut Ch
     }
 }
 
-fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
+fn read_dofs(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool; 6] {
     let mut free = [false; 6];
     let Some(words) = check.faults.require(&raw.dof, at, "dof") else { return free };
     let place = at.key("dof");
@@ -87,7 +87,9 @@ fn read_freedoms(raw: &RawBody, at: &Place<'_>, check: &mut Check<'_>) -> [bool;
         let item = place.index(index);
         match DOFS.iter().position(|known| known == word) {
             Some(known) if free[known] => {
-                check.faults.add(Fault::new(&item, "must stand there once").got(format!("\"{word}\" again")));
+                check
+                    .faults
+                    .add(Fault::new(&item, "must be listed only once").got(format!("\"{word}\" again")));
             }
             Some(known) => free[known] = true,
             None => {
@@ -112,8 +114,7 @@ fn read_start(raw: &RawStart, free: &[bool; 6], at: &Place<'_>, check: &mut Chec
         let dimension = if index < 2 { Dimension::LENGTH } else { Dimension::NUMBER };
         start[index] = check.number(value, &at.key(word), dimension);
         if !free[index + 1] {
-            let fault =
-                Fault::new(&at.key(word), format!("`{word}` is held")).hint("list it in `dof` to free it");
+            let fault = Fault::new(&at.key(word), format!("`{word}` is not free")).hint("list it in `dof`");
             check.faults.add(fault);
         }
     }
@@ -132,42 +133,26 @@ pub(super) fn read_motions(
     let mut first: Vec<Option<usize>> = vec![None; bodies.len()];
     for (index, motion) in raw.iter().enumerate().filter(|(_, motion)| !spin::is_spin(motion)) {
         let at = list.index(index);
-        for (key, given) in [("truck", motion.truck.is_some()), ("wheel", motion.wheel.is_some())] {
-            if given {
-                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion of a spin"));
-                check.faults.add(fault.at_key().hint("\"dof\": \"spin\""));
-            }
-        }
-        let body = check.faults.require(&motion.body, &at, "body").and_then(|name| {
-            let known = names(bodies, |body| &body.name);
-            resolve(name, &known, "body", &at.key("body"), check.faults)
-        });
-        if let Some(dof) = check.faults.require(&motion.dof, &at, "dof") {
-            let place = at.key("dof");
-            if DOFS[1..].contains(&dof.as_str()) {
-                let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
-                check.faults.add(fault.hint("motions along the rail, \"dof\": \"x\", are"));
-            } else {
-                check.faults.one_of(dof, &place, &[("x", ())]);
-            }
-        }
+        let body = read_subject(motion, bodies, &at, check);
         let Some(body) = body else {
             read_kind(motion, &at, check);
             continue;
         };
         if let Some(earlier) = first[body].replace(index) {
-            let expected = format!("body {} has its motion in motions[{earlier}] already", bodies[body].name);
-            check.faults.add(Fault::new(&at, expected).hint("every body has one motion along the rail"));
+            let expected = format!("body {} already has a motion in motions[{earlier}]", bodies[body].name);
+            check.faults.add(Fault::new(&at, expected).hint("a body can have one motion along its rail"));
             continue;
         }
         if bodies[body].in_space {
             let fault = Fault::new(&at.key("body"), format!("body {} runs on no rail", bodies[body].name));
-            check.faults.add(fault.hint("a body in space moves by its ropes, stops and weight"));
+            check
+                .faults
+                .add(fault.hint("the motion of a body in space follows from its ropes, stops and weight"));
             continue;
         }
         if raw_bodies.0[body].1.pinned.is_some() {
             let fault = Fault::new(&at.key("body"), format!("body {} is pinned", bodies[body].name));
-            check.faults.add(fault.hint("move the body that carries it"));
+            check.faults.add(fault.hint("prescribe the motion of the body that carries it"));
             continue;
         }
         read_motion(motion, &raw_bodies.0[body].1, &mut bodies[body], &at, check);
@@ -177,9 +162,34 @@ pub(super) fn read_motions(
         let at = at.key(name);
         if raw.v0.is_some() && raw.pinned.is_none() && body.motion == BodyMotion::Held {
             let fault = Fault::new(&at.key("v0"), "the body cannot move along its rail");
-            check.faults.add(fault.hint("list \"x\" in `dof` to free it"));
+            check.faults.add(fault.hint("list \"x\" in `dof`"));
         }
     }
+}
+
+/// The body of a motion along the rail.
+fn read_subject(motion: &RawMotion, bodies: &[Body], at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
+    for (key, given) in [("truck", motion.truck.is_some()), ("wheel", motion.wheel.is_some())] {
+        if given {
+            let fault =
+                Fault::new(&at.key(key), format!("`{key}` is only available in the motion of a spin"));
+            check.faults.add(fault.at_key().hint("such a motion has \"dof\": \"spin\""));
+        }
+    }
+    let body = check.faults.require(&motion.body, at, "body").and_then(|name| {
+        let known = names(bodies, |body| &body.name);
+        resolve(name, &known, "body", &at.key("body"), check.faults)
+    });
+    if let Some(dof) = check.faults.require(&motion.dof, at, "dof") {
+        let place = at.key("dof");
+        if DOFS[1..].contains(&dof.as_str()) {
+            let fault = Fault::new(&place, format!("a motion of {dof} is not available in this version"));
+            check.faults.add(fault.hint("motions of x, and of \"spin\" for wheels, are available"));
+        } else {
+            check.faults.one_of(dof, &place, &[("x", ())]);
+        }
+    }
+    body
 }
 
 /// The keywords of `kind`.
@@ -204,51 +214,53 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
         ("brake", motion.brake.is_some(), kind != Kind::Prescribed, "\"drive\" or \"free\""),
     ] {
         if given && !holds {
-            let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion {owner}"));
+            let fault = Fault::new(&at.key(key), format!("`{key}` is only available in the motion {owner}"));
             check.faults.add(fault.at_key());
         }
     }
-    let tables = [
-        ("position", MotionKind::Position, &motion.position, Dimension::LENGTH),
-        ("speed", MotionKind::Speed, &motion.speed, Dimension::SPEED),
-        ("acceleration", MotionKind::Acceleration, &motion.acceleration, Dimension::ACCELERATION),
-    ];
-    let given: Vec<_> = tables
-        .into_iter()
-        .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
-        .collect();
-    if kind != Kind::Prescribed {
-        for (key, what, ..) in &given {
-            if kind == Kind::Free || *what != MotionKind::Speed {
-                let fault = Fault::new(&at.key(key), format!("`{key}` belongs to the motion \"prescribed\""));
-                check.faults.add(fault.at_key());
-            }
-        }
-        if !body.free[0] {
-            let expected = format!("body {} cannot move freely: \"x\" is not in its `dof`", body.name);
-            check.faults.add(Fault::new(at, expected));
-        }
-        body.brake = motion.brake.map(|time| {
-            check.not_negative(time, &at.key("brake"), Dimension::TIME, "time from which the brakes are on")
-        });
-        let drive = if kind == Kind::Drive { read_drive(motion, at, check) } else { None };
-        body.motion = drive.map_or(BodyMotion::Free, BodyMotion::Driven);
-        return;
+    let tables = motion_tables(motion, [Dimension::LENGTH, Dimension::SPEED, Dimension::ACCELERATION]);
+    match kind {
+        Kind::Prescribed => read_prescribed(&tables, raw, body, at, check),
+        Kind::Drive | Kind::Free => read_unprescribed(motion, kind, &tables, body, at, check),
     }
-    let [(key, what, table, unit)] = given[..] else {
-        let expected = "must have one table: `position`, `speed` or `acceleration`";
-        check.faults.add(Fault::new(at, expected).got(if given.is_empty() { "none" } else { "several" }));
-        return;
-    };
-    let place = at.key(key);
-    let Some(rows) = read_rows(table, &place, unit, check) else { return };
-    let travel = match Profile::new(what, &rows, body.x0, body.v0) {
-        Ok(travel) => travel,
-        Err(error) => {
-            check.faults.add(Fault::new(&place, error.to_string()));
-            return;
+}
+
+/// Reads a motion that follows from forces: a free motion, or one with a drive.
+fn read_unprescribed(
+    motion: &RawMotion,
+    kind: Kind,
+    tables: &[MotionTable<'_>],
+    body: &mut Body,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    for (key, what, ..) in tables {
+        if kind == Kind::Free || *what != MotionKind::Speed {
+            let expected = format!("`{key}` is only available in the motion \"prescribed\"");
+            check.faults.add(Fault::new(&at.key(key), expected).at_key());
         }
-    };
+    }
+    if !body.free[0] {
+        let expected = format!("body {} cannot move freely: \"x\" is not in its `dof`", body.name);
+        check.faults.add(Fault::new(at, expected));
+    }
+    body.brake = motion.brake.map(|time| {
+        check.not_negative(time, &at.key("brake"), Dimension::TIME, "time from which the brakes are on")
+    });
+    let drive = if kind == Kind::Drive { read_drive(motion, at, check) } else { None };
+    body.motion = drive.map_or(BodyMotion::Free, BodyMotion::Driven);
+}
+
+/// Reads a prescribed motion. `x0` and `v0` of the body must agree with it.
+fn read_prescribed(
+    tables: &[MotionTable<'_>],
+    raw: &RawBody,
+    body: &mut Body,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let Some(travel) = read_profile(tables, [body.x0, body.v0], at, check) else { return };
+    let what = tables[0].1;
     let begin = travel.at(0.0);
     let clashes = [
         ("x0", what == MotionKind::Position, raw.x0, begin.x),
@@ -259,8 +271,12 @@ fn read_motion(motion: &RawMotion, raw: &RawBody, body: &mut Body, at: &Place<'_
             let root = Place::root();
             let at = root.key("bodies");
             let at = at.key(&body.name);
-            let expected = format!("must be {}, as the motion prescribes at time 0", number(table));
-            check.faults.add(Fault::new(&at.key(key), expected).got(number(own)).hint("or leave it out"));
+            let expected = format!("must be {}, the value of the motion at time 0", number(table));
+            check.faults.add(
+                Fault::new(&at.key(key), expected)
+                    .got(number(own))
+                    .hint("leave it out, or change the motion"),
+            );
         }
     }
     (body.x0, body.v0) = (begin.x, begin.v);

@@ -5,7 +5,7 @@ use sim::{Action, Channel, Compare, Condition, Rule};
 use crate::check::Check;
 use crate::scene::motion::wheels;
 use crate::scene::quantity::{Quantity, quantities};
-use crate::scene::raw::{RawDo, RawEvent};
+use crate::scene::raw::{RawDo, RawEvent, RawFollow, RawHoist};
 use crate::scene::values::actuator::{Event, Rope};
 use crate::scene::values::body::{Body, BodyMotion};
 use crate::scene::values::scene::{Analysis, Scene};
@@ -31,8 +31,8 @@ pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -
     let root = Place::root();
     let list = root.key("events");
     if scene.analysis == Analysis::QuasiStatic {
-        let fault = Fault::new(&list, "a quasi-static scene has no events").at_key();
-        check.faults.add(fault.hint("leave `analysis` out for the equations of motion"));
+        let fault = Fault::new(&list, "a quasi-static analysis cannot have events").at_key();
+        check.faults.add(fault.hint("leave `analysis` out to solve the equations of motion"));
     }
     let known = quantities(scene);
     let mut events: Vec<Event> = Vec::new();
@@ -62,7 +62,7 @@ pub(super) fn read_all(raw: &[RawEvent], scene: &Scene, check: &mut Check<'_>) -
 /// condition can be met, and actions with the same condition must not contradict each other.
 fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Check<'_>) {
     if before.iter().any(|other| other.name == event.name) {
-        let expected = format!("the name \"{}\" is taken by another event", event.name);
+        let expected = format!("the name \"{}\" is already used by another event", event.name);
         check.faults.add(Fault::new(&at.key("name"), expected));
     }
     for other in before {
@@ -77,7 +77,7 @@ fn compare_with(event: &Event, before: &[Event], at: &Place<'_>, check: &mut Che
         let pairs = || event.rule.actions.iter().flat_map(|a| other.rule.actions.iter().map(move |b| (a, b)));
         if together && pairs().any(|(a, b)| contradict(a, b)) {
             let expected =
-                format!("contradicts {}, which happens at once: {}", other.name, other.description);
+                format!("contradicts {}, which has the same condition: {}", other.name, other.description);
             let fault = Fault::new(&at.key("do"), expected).got(event.description.clone());
             check.faults.add(fault.hint("give them different conditions"));
         }
@@ -129,13 +129,15 @@ fn read_condition(
         let own: Vec<&str> =
             names.iter().copied().filter(|known| known.split('.').next() == Some(owner)).collect();
         let mut hint = match &own[..] {
-            [] => "names are those of the history's columns".to_owned(),
+            [] => "quantities have the names of the columns of the history".to_owned(),
             own => format!("known: {}", own.join(", ")),
         };
         if let Some(near) = nearest(name, &names) {
             hint = format!("did you mean \"{near}\"? {hint}");
         }
-        check.faults.add(Fault::new(place, "must compare a quantity").got(format!("\"{name}\"")).hint(hint));
+        check.faults.add(
+            Fault::new(place, "must begin with the name of a quantity").got(format!("\"{name}\"")).hint(hint),
+        );
         return None;
     };
     let level = check.number(level, place, quantity.dimension);
@@ -158,22 +160,22 @@ fn why_useless(condition: &Condition, quantity: &Quantity, scene: &Scene) -> Opt
         return Some(format!("can never be met: {} is always 0", quantity.name));
     };
     match channel {
-        Channel::Time if !rises => Some("is met from the start: time only grows".to_owned()),
+        Channel::Time if !rises => Some("is met from the start, because time only increases".to_owned()),
         Channel::Time if level >= scene.end => {
             Some(format!("can never be met: the scene ends at {}", number(scene.end)))
         }
-        Channel::Tension(_) => least(0.0, "a rope never pushes"),
-        Channel::Stop(_) => least(0.0, "a stop never pulls"),
+        Channel::Tension(_) => least(0.0, "a rope cannot push"),
+        Channel::Stop(_) => least(0.0, "a stop cannot pull"),
         Channel::Vertical(w) => {
             let wheels = wheels(scene);
             let pulls = scene.wheels[wheels[w].kind].vertical.bilateral;
-            if pulls { None } else { least(0.0, "a wheel never pulls") }
+            if pulls { None } else { least(0.0, "a wheel cannot pull") }
         }
         Channel::Position(w) => {
             let wheels = wheels(scene);
             let [low, high] = scene.rails[wheels[w].rail].range;
             let beyond = if rises { level > high } else { level < low };
-            let range = format!("the rail reaches from {} to {}", number(low), number(high));
+            let range = format!("the rail extends from {} to {}", number(low), number(high));
             beyond.then(|| format!("can never be met: {range}"))
         }
         Channel::Displacement(b, sim::BodyDof::X) | Channel::Speed(b, sim::BodyDof::X) => {
@@ -200,8 +202,81 @@ fn why_out_of_range(b: usize, level: Option<f64>, rises: bool, scene: &Scene) ->
         }
     }
     let beyond = level.is_some_and(|level| if rises { level > high } else { level < low });
-    beyond
-        .then(|| format!("can never be met: the wheels hold x between {} and {}", number(low), number(high)))
+    beyond.then(|| {
+        format!(
+            "can never be met: the wheels are on their rails only where x is between {} and {}",
+            number(low),
+            number(high)
+        )
+    })
+}
+
+/// The actions of an event and their descriptions.
+#[derive(Default)]
+struct Actions {
+    list: Vec<Action>,
+    words: Vec<String>,
+}
+
+impl Actions {
+    fn brake(&mut self, raw: &RawDo, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        for (key, name, on) in [("release_brake", &raw.release_brake, false), ("brake", &raw.brake, true)] {
+            let Some(name) = name else { continue };
+            let place = at.key(key);
+            let Some(b) = body(name, &place, scene, check) else { continue };
+            let given = &scene.bodies[b];
+            if !given.motion.is_free() {
+                let fault = Fault::new(&place, format!("body {name} does not move freely along its rail"));
+                check.faults.add(fault.hint("brakes need a motion \"drive\" or \"free\""));
+            } else if given.brake.is_none() {
+                let fault = Fault::new(&place, format!("the brakes of body {name} are never applied"));
+                check.faults.add(fault.hint("apply them with `brake` of its motion or of another event"));
+            }
+            if on && matches!(given.motion, BodyMotion::Driven(_)) && raw.drive.is_none() {
+                self.list.push(Action::Drive { body: b, speed: None });
+            }
+            self.list.push(Action::Brake { body: b, on });
+            self.words.push(format!("{} {name}", if on { "brake" } else { "release the brake of" }));
+        }
+    }
+
+    fn drive_off(&mut self, name: &str, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        if let Some(b) = driven(name, &at.key("drive_off"), scene, check) {
+            self.list.push(Action::Drive { body: b, speed: None });
+            self.words.push(format!("turn the drive of {name} off"));
+        }
+    }
+
+    fn drive(&mut self, raw: &RawFollow, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        let place = at.key("drive");
+        let name = check.faults.require(&raw.body, &place, "body");
+        let b = name.and_then(|name| driven(name, &place.key("body"), scene, check));
+        let speed = check.faults.require(&raw.speed, &place, "speed").copied();
+        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
+        if let (Some(b), Some(speed)) = (b, speed) {
+            self.list.push(Action::Drive { body: b, speed: Some(speed) });
+            self.words.push(format!("drive {} at {}", scene.bodies[b].name, number(speed)));
+        }
+    }
+
+    fn hoist(&mut self, raw: &RawHoist, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        let place = at.key("hoist");
+        let known = names(&scene.ropes, |rope| &rope.name);
+        let name = check.faults.require(&raw.rope, &place, "rope");
+        let rope = name.and_then(|name| resolve(name, &known, "rope", &place.key("rope"), check.faults));
+        let speed = check.faults.require(&raw.speed, &place, "speed").copied();
+        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
+        if let (Some(rope), Some(speed)) = (rope, speed) {
+            self.list.push(Action::Hoist { rope, speed });
+            self.words.push(format!("hoist with {} at {}", scene.ropes[rope].name, number(speed)));
+        }
+    }
+
+    fn drop(&mut self, name: &str, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) {
+        let ropes = dropped(name, &at.key("drop"), scene, check);
+        self.list.extend(ropes.into_iter().map(|rope| Action::Release { rope }));
+        self.words.push(format!("drop {name}"));
+    }
 }
 
 /// Reads the actions of an event and their description.
@@ -212,73 +287,35 @@ fn read_actions(
     check: &mut Check<'_>,
 ) -> Option<(Vec<Action>, String)> {
     let faults = check.faults.0.len();
-    let (mut actions, mut words) = (Vec::new(), Vec::new());
-    for (key, name, on) in [("release_brake", &raw.release_brake, false), ("brake", &raw.brake, true)] {
-        let Some(name) = name else { continue };
-        let place = at.key(key);
-        let Some(b) = body(name, &place, scene, check) else { continue };
-        let given = &scene.bodies[b];
-        if !given.motion.is_free() {
-            let fault = Fault::new(&place, format!("body {name} does not move freely along its rail"));
-            check.faults.add(fault.hint("brakes need a motion \"drive\" or \"free\""));
-        } else if given.brake.is_none() {
-            let fault = Fault::new(&place, format!("nothing puts the brakes of body {name} on"));
-            check.faults.add(fault.hint("`brake` of its motion or of another event does"));
-        }
-        if on && matches!(given.motion, BodyMotion::Driven(_)) && raw.drive.is_none() {
-            actions.push(Action::Drive { body: b, speed: None });
-        }
-        actions.push(Action::Brake { body: b, on });
-        words.push(format!("{} {name}", if on { "brake" } else { "release the brake of" }));
-    }
+    let mut actions = Actions::default();
+    actions.brake(raw, scene, at, check);
     if let Some(name) = &raw.drive_off {
-        let place = at.key("drive_off");
-        if let Some(b) = driven(name, &place, scene, check) {
-            actions.push(Action::Drive { body: b, speed: None });
-            words.push(format!("turn the drive of {name} off"));
-        }
+        actions.drive_off(name, scene, at, check);
     }
     if let Some(follow) = &raw.drive {
-        let place = at.key("drive");
-        let name = check.faults.require(&follow.body, &place, "body");
-        let b = name.and_then(|name| driven(name, &place.key("body"), scene, check));
-        let speed = check.faults.require(&follow.speed, &place, "speed").copied();
-        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
-        if let (Some(b), Some(speed)) = (b, speed) {
-            actions.push(Action::Drive { body: b, speed: Some(speed) });
-            words.push(format!("drive {} at {}", scene.bodies[b].name, number(speed)));
-        }
+        actions.drive(follow, scene, at, check);
     }
     if let Some(hoist) = &raw.hoist {
-        let place = at.key("hoist");
-        let known = names(&scene.ropes, |rope| &rope.name);
-        let name = check.faults.require(&hoist.rope, &place, "rope");
-        let rope = name.and_then(|name| resolve(name, &known, "rope", &place.key("rope"), check.faults));
-        let speed = check.faults.require(&hoist.speed, &place, "speed").copied();
-        let speed = speed.map(|speed| check.number(speed, &place.key("speed"), Dimension::SPEED));
-        if let (Some(rope), Some(speed)) = (rope, speed) {
-            actions.push(Action::Hoist { rope, speed });
-            words.push(format!("hoist with {} at {}", scene.ropes[rope].name, number(speed)));
-        }
+        actions.hoist(hoist, scene, at, check);
     }
     if let Some(name) = &raw.drop {
-        let ropes = dropped(name, &at.key("drop"), scene, check);
-        actions.extend(ropes.into_iter().map(|rope| Action::Release { rope }));
-        words.push(format!("drop {name}"));
+        actions.drop(name, scene, at, check);
     }
+    let Actions { mut list, mut words } = actions;
     if raw.end == Some(true) {
-        actions.push(Action::End);
+        list.push(Action::End);
         words.push("end the run".to_owned());
     }
     if words.is_empty() && check.faults.0.len() == faults {
         let hint = "`brake`, `release_brake`, `drive`, `drive_off`, `hoist`, `drop` or `end`";
-        check.faults.add(Fault::new(at, "must do something").hint(hint));
+        check.faults.add(Fault::new(at, "must have at least one action").hint(hint));
     }
-    let mut pairs = actions.iter().enumerate().flat_map(|(i, a)| actions[..i].iter().map(move |b| (a, b)));
+    let mut pairs = list.iter().enumerate().flat_map(|(i, a)| list[..i].iter().map(move |b| (a, b)));
     if pairs.any(|(a, b)| contradict(a, b)) {
-        check.faults.add(Fault::new(at, "contradicts itself").got(words.join("; ")));
+        let fault = Fault::new(at, "has actions that contradict each other");
+        check.faults.add(fault.got(words.join("; ")));
     }
-    (check.faults.0.len() == faults).then(|| (actions, words.join("; ")))
+    (check.faults.0.len() == faults).then(|| (list, words.join("; ")))
 }
 
 fn body(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -> Option<usize> {
@@ -291,7 +328,7 @@ fn driven(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) -
     let b = body(name, place, scene, check)?;
     if !matches!(scene.bodies[b].motion, BodyMotion::Driven(_)) {
         let fault = Fault::new(place, format!("body {name} has no drive"));
-        check.faults.add(fault.hint("give it a motion of \"kind\": \"drive\""));
+        check.faults.add(fault.hint("a drive is a motion of \"kind\": \"drive\""));
         return None;
     }
     Some(b)
@@ -312,7 +349,7 @@ fn dropped(name: &str, place: &Place<'_>, scene: &Scene, check: &mut Check<'_>) 
     let all: Vec<usize> =
         scene.ropes.iter().enumerate().filter(|(_, rope)| own(rope)).map(|(index, _)| index).collect();
     if all.is_empty() {
-        check.faults.add(Fault::new(place, format!("no rope holds body {name}")));
+        check.faults.add(Fault::new(place, format!("no rope is attached to body {name}")));
     }
     all
 }

@@ -38,7 +38,7 @@ pub(super) fn read(
         let [first, last] = rails[rail].range;
         if x < first || x > last {
             let fault = Fault::new(&place, format!("must lie on rail {}", rails[rail].name)).got(x);
-            check.faults.add(fault.hint(format!("it runs from {first} to {last}")));
+            check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
         }
         gauges.push(Gauge { name: name.clone(), rail, x, axis });
     }

@@ -108,9 +108,8 @@ fn refuse_foreign_keys(raw: &RawIrregularity, kind: Kind, at: &Place<'_>, check:
     let foreign = given.into_iter().filter(|(key, given)| *given && !kind.keys().contains(key));
     let mut some = false;
     for (key, _) in foreign {
-        let fault =
-            Fault::new(&at.key(key), format!("`{key}` does not belong to the kind \"{word}\"")).at_key();
-        check.faults.add(fault.hint(format!("it has {}", kind.keys().join(", "))));
+        let fault = Fault::new(&at.key(key), format!("`{key}` is not a key of the kind \"{word}\"")).at_key();
+        check.faults.add(fault.hint(format!("its keys are {}", kind.keys().join(", "))));
         some = true;
     }
     some
@@ -134,7 +133,15 @@ fn local(
     let size = check.faults.require(size, at, key).copied();
     let half = match kind {
         Kind::Step => 0.0,
-        _ => 0.5 * check.required_positive(raw.length, at, "length", Dimension::LENGTH, "from end to end"),
+        _ => {
+            0.5 * check.required_positive(
+                raw.length,
+                at,
+                "length",
+                Dimension::LENGTH,
+                "distance from end to end",
+            )
+        }
     };
     let (x, size) = (x?, size?);
     let x = check.number(x, &at.key("x"), Dimension::LENGTH);
@@ -163,7 +170,8 @@ fn sinusoid(
 ) -> Result<Irregularity, sim::Error> {
     let amplitude = check.faults.require(&raw.amplitude, at, "amplitude").copied().unwrap_or_default();
     let amplitude = check.number(amplitude, &at.key("amplitude"), Dimension::LENGTH);
-    let length = check.required_positive(raw.length, at, "length", Dimension::LENGTH, "from crest to crest");
+    let length =
+        check.required_positive(raw.length, at, "length", Dimension::LENGTH, "distance from crest to crest");
     let phase = check.number(raw.phase.unwrap_or_default(), &at.key("phase"), Dimension::NUMBER);
     let place = at.key("range");
     let range = match raw.range {
@@ -190,6 +198,6 @@ fn on_rail(range: [f64; 2], rail: &RailOutline, at: &Place<'_>, check: &mut Chec
             format!("from {} to {}", number(range[0]), number(range[1]))
         };
         let fault = Fault::new(at, format!("must lie on rail {}", rail.name)).got(found);
-        check.faults.add(fault.hint(format!("it runs from {first} to {last}")));
+        check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
     }
 }

@@ -21,7 +21,7 @@ pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> S
     let step = check.optional_positive(raw.step, &length, Dimension::TIME, "leave it out for adaptive steps");
     if matches!(method, Method::Gauss2 | Method::Gauss3) && step.is_none() {
         let fault = Fault::new(root, "missing key `step`");
-        check.faults.add(fault.hint("the time of a step of \"gauss2\" and \"gauss3\", which are all equal"));
+        check.faults.add(fault.hint("\"gauss2\" and \"gauss3\" integrate with steps of one size"));
     }
     Stepping { method, step }
 }
@@ -37,7 +37,9 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     let wanted = match method.suits(&cast.scene, &rigid) {
         Err(sim::Error::Method { wanted, .. }) => Some(wanted),
         _ => scene.structures.iter().find_map(|structure| match structure.foundation {
-            Foundation::Parts { handover: Handover::PerPart { .. }, .. } => Some("one force a wheel"),
+            Foundation::Parts { handover: Handover::PerPart { .. }, .. } => {
+                Some("one contact force for each wheel")
+            }
             Foundation::Ties { has_mass: true, c, .. } if c > 0.0 => Some("ties without dampers"),
             _ => None,
         }),
@@ -45,6 +47,8 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     if let Some(wanted) = wanted {
         let word = stepper_word(method);
         let fault = Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
-        faults.add(fault.hint("\"sdirk4\" integrates every scene, \"auto\" takes what suits"));
+        faults.add(
+            fault.hint("\"sdirk4\" integrates every scene, \"auto\" chooses a method that suits the scene"),
+        );
     }
 }

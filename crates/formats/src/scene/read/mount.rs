@@ -26,7 +26,7 @@ pub(super) fn read(
         let at = list.key(name);
         let Some(carrier) = &raw.on else {
             if raw.at.is_some() {
-                let fault = Fault::new(&at.key("at"), "`at` belongs to a structure `on` a body");
+                let fault = Fault::new(&at.key("at"), "`at` is only available for a structure `on` a body");
                 check.faults.add(fault.at_key());
             }
             continue;
@@ -85,17 +85,23 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) {
         let (own, below) = (tree(truck.body), tree(on));
         let apart = |other: &&Truck| tree(other.body) == own && carrier(other).map(tree) != Some(below);
         if below == own {
-            let fault = Fault::new(&at, format!("\"{}\" cannot ride on what it carries", name(truck.body)));
+            let fault = Fault::new(
+                &at,
+                format!("\"{}\" cannot run on a structure that it carries", name(truck.body)),
+            );
             faults.add(fault.got(format!("rail {}", scene.rails[truck.rail].name)));
         } else if let Some(other) = scene.trucks.iter().find(apart) {
             let expected = format!("all wheels of \"{}\" must run on structures of one body", name(own));
             let fault = Fault::new(&at, expected);
             faults.add(fault.got(format!("others on rail {}", scene.rails[other.rail].name)));
         } else if scene.trucks.iter().any(|other| tree(other.body) == below && carrier(other).is_some()) {
-            faults.unavailable(&at, &format!("\"{}\", which rides itself, as a carrier", name(below)));
+            faults.unavailable(
+                &at,
+                &format!("\"{}\", which itself runs on a carried structure, as a carrier", name(below)),
+            );
         }
         for (load, _) in scene.loads.iter().enumerate().filter(|(_, load)| tree(load.body) == own) {
-            faults.unavailable(&loads.index(load), "a load on a body that rides on another");
+            faults.unavailable(&loads.index(load), "a load on a body that runs on a carried structure");
         }
     }
 }

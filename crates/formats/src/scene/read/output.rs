@@ -26,7 +26,7 @@ fn read_fatigue(raw: &Option<RawFatigue>, at: &Place<'_>, check: &mut Check<'_>)
     let words = [("once", Repetition::Once), ("repeated", Repetition::Repeated)];
     let history = raw.history.as_ref().and_then(|word| check.faults.one_of(word, &at.key("history"), &words));
     fatigue.history = history.unwrap_or(Repetition::Once);
-    let hint = "how often the run happens in a life";
+    let hint = "number of runs in the design life";
     fatigue.crossings = check.optional_positive(raw.crossings, &at.key("crossings"), Dimension::NUMBER, hint);
     fatigue
 }
@@ -50,32 +50,12 @@ pub(super) fn read(
             Origin::Tables { .. } => None,
         })
         .collect();
-    let mut pick = |raw: &Option<RawColumns>, key: &str, kind: usize, form: &str| match raw {
-        None => ColumnSelection::Few,
-        Some(RawColumns::All(true)) => ColumnSelection::All,
-        Some(RawColumns::All(false)) => ColumnSelection::None,
-        Some(RawColumns::Names(own)) => {
-            for (index, name) in own.iter().enumerate() {
-                let all = || known.iter().flat_map(|names| &names[kind]);
-                if all().any(|known| belongs(known, name)) {
-                    continue;
-                }
-                let place = at.key(key);
-                let mut fault = Fault::new(&place.index(index), format!("must be {form}"));
-                let mut words: Vec<&str> = all().map(String::as_str).collect();
-                words.extend(all().filter_map(|known| known.rsplit_once('.')).map(|(before, _)| before));
-                if let Some(near) = nearest(name, &words) {
-                    fault = fault.hint(format!("did you mean \"{near}\"?"));
-                } else if words.is_empty() {
-                    fault = fault.hint("no beam spec of this scene has any");
-                }
-                check.faults.add(fault.got(format!("\"{name}\"")));
-            }
-            ColumnSelection::Names(own.clone())
-        }
+    let mut pick = |raw: &Option<RawColumns>, key: &str, kind: usize, form: &str| {
+        let known: Vec<&String> = known.iter().flat_map(|names| &names[kind]).collect();
+        read_columns(raw, &at.key(key), &known, form, check)
     };
     let reactions =
-        pick(&raw.reactions, "reactions", 0, "a structure, or `<structure>.<support>` or `.<freedom>` of it");
+        pick(&raw.reactions, "reactions", 0, "a structure, or `<structure>.<support>` or `.<dof>` of it");
     let sections = pick(
         &raw.sections,
         "sections",
@@ -93,6 +73,37 @@ pub(super) fn read(
     Output { reactions, sections, stresses, fatigue, dead_load: raw.dead_load, spans }
 }
 
+/// Reads a selection of columns. Each name must select some of the columns `known`; `form` says what a name must be.
+fn read_columns(
+    raw: &Option<RawColumns>,
+    place: &Place<'_>,
+    known: &[&String],
+    form: &str,
+    check: &mut Check<'_>,
+) -> ColumnSelection {
+    let own = match raw {
+        None => return ColumnSelection::Few,
+        Some(RawColumns::All(true)) => return ColumnSelection::All,
+        Some(RawColumns::All(false)) => return ColumnSelection::None,
+        Some(RawColumns::Names(own)) => own,
+    };
+    for (index, name) in own.iter().enumerate() {
+        if known.iter().any(|known| belongs(known, name)) {
+            continue;
+        }
+        let mut fault = Fault::new(&place.index(index), format!("must be {form}"));
+        let mut words: Vec<&str> = known.iter().map(|name| name.as_str()).collect();
+        words.extend(known.iter().filter_map(|known| known.rsplit_once('.')).map(|(before, _)| before));
+        if let Some(near) = nearest(name, &words) {
+            fault = fault.hint(format!("did you mean \"{near}\"?"));
+        } else if words.is_empty() {
+            fault = fault.hint("no beam spec of this scene has any");
+        }
+        check.faults.add(fault.got(format!("\"{name}\"")));
+    }
+    ColumnSelection::Names(own.clone())
+}
+
 fn read_spans(
     raw: &RawOutput,
     rails: &[SceneRail],
@@ -104,7 +115,8 @@ fn read_spans(
         let at = place.key(name);
         let Some(rail) = rail_named(name, rails, &at, check.faults) else { continue };
         if given.len() < 2 {
-            let fault = Fault::new(&at, "must have the two ends of a span at least").got(given.len());
+            let fault =
+                Fault::new(&at, "must have at least two coordinates, the ends of a span").got(given.len());
             check.faults.add(fault);
         }
         if !check.faults.increasing(given, &at) {
@@ -118,7 +130,7 @@ fn read_spans(
         let [first, last] = rails[rail].range;
         if let Some(k) = ends.iter().position(|x| *x < first || *x > last) {
             let fault = Fault::new(&at.index(k), format!("must lie on rail {name}")).got(given[k]);
-            check.faults.add(fault.hint(format!("it runs from {first} to {last}")));
+            check.faults.add(fault.hint(format!("the rail extends from {first} to {last}")));
         }
         spans.push((rail, ends));
     }

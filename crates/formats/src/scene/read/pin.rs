@@ -26,13 +26,16 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
             [("track", raw.track.is_some()), ("x0", raw.x0.is_some()), ("v0", raw.v0.is_some())]
         {
             if given {
-                let fault = Fault::new(&own.key(key), format!("`{key}` cannot stand beside `pinned`"));
-                check.faults.add(fault.at_key().hint("a pinned body goes where its pin goes"));
+                let fault = Fault::new(&own.key(key), format!("`{key}` cannot be combined with `pinned`"));
+                check.faults.add(fault.at_key().hint("the position of a pinned body follows from its pin"));
             }
         }
         let free = bodies[b].free;
         for (i, word) in DOFS.iter().enumerate().take(3).filter(|(i, _)| free[*i]) {
-            let fault = Fault::new(&own.key("dof"), format!("{word} of a pinned body is that of its pin"));
+            let fault = Fault::new(
+                &own.key("dof"),
+                format!("{word} of a pinned body follows from its pin and cannot be free"),
+            );
             check.faults.add(fault.hint("\"roll\", \"yaw\" and \"pitch\" can be free"));
             bodies[b].free[i] = false;
         }
@@ -40,7 +43,7 @@ pub(super) fn read(raw: &Entries<RawBody>, bodies: &mut [Body], check: &mut Chec
         let Some(to) = to else { continue };
         bodies[b].pinned = Some((to, position));
         if root_of(bodies, b).is_none() {
-            let fault = Fault::new(&at.key("to"), "pins must not run in a circle");
+            let fault = Fault::new(&at.key("to"), "pins must not form a closed loop");
             check.faults.add(fault.got(format!("\"{}\"", bodies[to].name)));
             bodies[b].pinned = None;
         }

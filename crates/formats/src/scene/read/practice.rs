@@ -64,7 +64,8 @@ pub(super) fn read(
     let mut size = |value: Option<f64>, key: &str, dimension: Dimension, hint: &str| {
         check.optional_positive(value, &at.key(key), dimension, hint)
     };
-    let approach = size(raw.approach, "approach", Dimension::LENGTH, "from the hook to the nearer rail");
+    let approach =
+        size(raw.approach, "approach", Dimension::LENGTH, "distance from the hook to the nearer rail");
     let rail_head = size(raw.rail_head, "rail_head", Dimension::LENGTH, "width of the rail's head");
     let speeds = [
         size(raw.bridge_speed, "bridge_speed", Dimension::SPEED, "rated"),
@@ -80,29 +81,9 @@ pub(super) fn read(
         None => (only_crane(scene, &at, check)?, at),
     };
     let rails = rails_of(scene, crane, &place, check)?;
-    let rides = |body: usize| {
-        scene.trucks.iter().any(|truck| {
-            let on = scene.structures[scene.rails[truck.rail].structure].carrier;
-            root_body(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
-        })
-    };
-    let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
-    let holds = |body: Option<usize>| body.is_some() && (body == Some(crane) || body == trolley);
-    let mut loads = Vec::new();
-    for rope in &scene.ropes {
-        let [from, to] = rope.bodies;
-        let hung = if holds(from) { to } else { from.filter(|_| holds(to)) };
-        loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
-    }
+    let (trolley, loads) = hung_from(scene, crane);
     if let Some(approach) = approach {
-        let span = (mean_lateral_position(scene, crane, rails[0])
-            - mean_lateral_position(scene, crane, rails[1]))
-        .abs();
-        if approach > span {
-            let at = root.key("practice");
-            let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
-            check.faults.add(fault.got(approach).hint(format!("its rails are {span} apart")));
-        }
+        check_approach(approach, scene, (crane, rails), root, check);
     }
     Some(Practice {
         crane,
@@ -120,6 +101,43 @@ pub(super) fn read(
     })
 }
 
+/// The trolley, which runs on structures of the crane, and the bodies in space that hang by ropes from either of
+/// them.
+fn hung_from(scene: &Scene, crane: usize) -> (Option<usize>, Vec<usize>) {
+    let rides = |body: usize| {
+        scene.trucks.iter().any(|truck| {
+            let on = scene.structures[scene.rails[truck.rail].structure].carrier;
+            root_body(scene, truck.body).0 == body && on.is_some_and(|on| on.body == crane)
+        })
+    };
+    let trolley = (0..scene.bodies.len()).find(|body| rides(*body));
+    let holds = |body: Option<usize>| body.is_some() && (body == Some(crane) || body == trolley);
+    let mut loads = Vec::new();
+    for rope in &scene.ropes {
+        let [from, to] = rope.bodies;
+        let hung = if holds(from) { to } else { from.filter(|_| holds(to)) };
+        loads.extend(hung.filter(|body| scene.bodies[*body].in_space && !loads.contains(body)));
+    }
+    (trolley, loads)
+}
+
+/// Checks that the approach of the hook is not larger than the distance of the rails of the crane.
+fn check_approach(
+    approach: f64,
+    scene: &Scene,
+    (crane, rails): (usize, [usize; 2]),
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let span =
+        (mean_lateral_position(scene, crane, rails[0]) - mean_lateral_position(scene, crane, rails[1])).abs();
+    if approach > span {
+        let at = root.key("practice");
+        let fault = Fault::new(&at.key("approach"), "must be within the crane's span");
+        check.faults.add(fault.got(approach).hint(format!("its rails are {span} apart")));
+    }
+}
+
 /// The only body that carries structures or, if there is none, the only body on rails.
 fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<usize> {
     let mut found: Vec<usize> =
@@ -135,7 +153,7 @@ fn only_crane(scene: &Scene, at: &Place<'_>, check: &mut Check<'_>) -> Option<us
             let names: Vec<String> =
                 found.iter().map(|body| format!("\"{}\"", scene.bodies[*body].name)).collect();
             let fault = Fault::new(at, "missing key `crane`");
-            check.faults.add(fault.hint(format!("which body is the crane: {}", names.join(", "))));
+            check.faults.add(fault.hint(format!("name the body that is the crane: {}", names.join(", "))));
             None
         }
     }
@@ -164,10 +182,15 @@ fn rails_of(scene: &Scene, crane: usize, at: &Place<'_>, check: &mut Check<'_>) 
                 }
                 count => count.to_string(),
             };
-            let fault =
-                Fault::new(at, format!("\"{}\" must run on two rails, apart", scene.bodies[crane].name));
+            let fault = Fault::new(
+                at,
+                format!(
+                    "\"{}\" must run on two rails with different lateral positions",
+                    scene.bodies[crane].name
+                ),
+            );
             check.faults.add(fault.got(found).hint(
-                "the codes speak of cranes on a runway of two rails; z of a truck's `at` is its place across",
+                "the codes apply to cranes on two rails; z of `at` is the lateral position of a truck",
             ));
             None
         }

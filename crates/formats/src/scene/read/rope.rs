@@ -21,8 +21,10 @@ pub(super) fn read_all(raw: &[RawRope], bodies: &[Body], end: f64, check: &mut C
         if ropes.iter().any(|other| other.name == rope.name)
             || bodies.iter().any(|body| body.name == rope.name)
         {
-            let expected = format!("the name \"{}\" is taken", rope.name);
-            check.faults.add(Fault::new(&at, expected).hint("ropes and bodies name columns"));
+            let expected = format!("the name \"{}\" is already used", rope.name);
+            check
+                .faults
+                .add(Fault::new(&at, expected).hint("names of ropes and bodies are also names of columns"));
         }
         ropes.push(rope);
     }
@@ -46,7 +48,7 @@ fn read(
     let stiffness =
         check.required_positive(raw.stiffness, at, "EA", Dimension::FORCE, "a force: modulus times area");
     let length =
-        check.required_positive(raw.length, at, "length", Dimension::LENGTH, "unstretched, at time 0");
+        check.required_positive(raw.length, at, "length", Dimension::LENGTH, "unstretched length at time 0");
     let damping = check.not_negative(raw.c.unwrap_or_default(), &at.key("c"), Dimension::DAMPING, "");
     let place = at.key("speed");
     let still = vec![[0.0, 0.0]];
@@ -54,7 +56,7 @@ fn read(
     let speed = read_schedule(table, &place, Dimension::SPEED, check)?;
     let turns = speed.turns().chain(speed.breaks()).chain([end]).filter(|t| (0.0..=end).contains(t));
     if turns.map(|t| length - speed.integral(t)).any(|left| left <= 0.0) && length > 0.0 {
-        let fault = Fault::new(&place, "hoists more than the rope's length before the end");
+        let fault = Fault::new(&place, "hoists more rope than its length before the end");
         check.faults.add(fault.hint("positive speeds shorten the rope"));
     }
     let (from, to) = (from?, to?);

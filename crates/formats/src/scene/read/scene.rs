@@ -165,7 +165,7 @@ fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Opti
         }
         None => {
             let fault = Fault::new(root, "missing key `gravity`");
-            check.faults.add(fault.hint("such as 32.174 with ft and s, 9.80665 with m and s, 0 for none"));
+            check.faults.add(fault.hint("such as 32.174 with ft and s, 9.80665 with m and s, or 0"));
             None
         }
     }
@@ -228,9 +228,10 @@ fn read_interval(raw: &RawScene, end: f64, root: &Place<'_>, check: &mut Check<'
 fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut Check<'_>) {
     let place = root.key("trucks");
     if raw.trucks.is_empty() {
-        check
-            .faults
-            .add(Fault::new(root, "must have at least one truck in `trucks`").hint("bodies run on trucks"));
+        check.faults.add(
+            Fault::new(root, "must have at least one truck in `trucks`")
+                .hint("bodies run on their rails with trucks"),
+        );
     }
     let mut counts = vec![0; scene.bodies.len()];
     let mut trucks: Vec<Truck> = Vec::new();
@@ -249,7 +250,7 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
             continue;
         };
         if trucks.iter().any(|other| other.name == truck.name) {
-            let expected = format!("the name \"{}\" is taken by another truck", truck.name);
+            let expected = format!("the name \"{}\" is already used by another truck", truck.name);
             check.faults.add(Fault::new(&at.key("name"), expected));
         }
         trucks.push(truck);
@@ -272,8 +273,10 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
             }
         }
         if scene.analysis == Analysis::QuasiStatic && body.motion.is_free() {
-            let fault =
-                Fault::new(&place.key(&body.name), "a quasi-static scene needs every x prescribed or held");
+            let fault = Fault::new(
+                &place.key(&body.name),
+                "in a quasi-static analysis every x must be prescribed or fixed",
+            );
             check.faults.add(fault.hint("prescribe a motion of x, or take \"x\" out of `dof`"));
         }
     }

@@ -1,8 +1,9 @@
-//! Tables of a value as a function of time.
+//! Tables of a value as a function of time, and the tables of motions.
 
-use sim::Schedule;
+use sim::{MotionKind, Profile, Schedule};
 
 use crate::check::Check;
+use crate::scene::raw::RawMotion;
 use crate::text::fault::Fault;
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -36,4 +37,37 @@ pub(super) fn read_rows(
         rows.push([*t, check.number(*value, &place.index(index), unit)]);
     }
     ordered.then_some(rows)
+}
+
+/// A table of a motion: its key, its kind, its rows as written, and the dimension of its values.
+pub(super) type MotionTable<'r> = (&'static str, MotionKind, &'r Vec<[f64; 2]>, Dimension);
+
+/// The tables that a motion has. `dimensions` are those of position, speed and acceleration.
+pub(super) fn motion_tables(motion: &RawMotion, dimensions: [Dimension; 3]) -> Vec<MotionTable<'_>> {
+    let tables = [
+        ("position", MotionKind::Position, &motion.position),
+        ("speed", MotionKind::Speed, &motion.speed),
+        ("acceleration", MotionKind::Acceleration, &motion.acceleration),
+    ];
+    let given = tables.into_iter().zip(dimensions);
+    given.filter_map(|((key, kind, table), unit)| Some((key, kind, table.as_ref()?, unit))).collect()
+}
+
+/// The prescribed motion of the only one of `tables`, from the position and the speed `start`; a fault if there is no
+/// table or more than one.
+pub(super) fn read_profile(
+    tables: &[MotionTable<'_>],
+    start: [f64; 2],
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<Profile> {
+    let &[(key, kind, table, unit)] = tables else {
+        let fault = Fault::new(at, "must have one table: `position`, `speed` or `acceleration`");
+        check.faults.add(fault.got(if tables.is_empty() { "none" } else { "several" }));
+        return None;
+    };
+    let place = at.key(key);
+    let rows = read_rows(table, &place, unit, check)?;
+    let profile = Profile::new(kind, &rows, start[0], start[1]);
+    profile.map_err(|error| check.faults.add(Fault::new(&place, error.to_string()))).ok()
 }

@@ -1,8 +1,6 @@
 //! Wheels whose spin is prescribed by a motion.
 
-use sim::{MotionKind, Profile};
-
-use super::schedule::read_rows;
+use super::schedule::{motion_tables, read_profile};
 use crate::check::Check;
 use crate::scene::raw::RawMotion;
 use crate::scene::values::actuator::Spin;
@@ -30,7 +28,7 @@ pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) 
         let at = list.index(index);
         let Some(spin) = read(motion, scene, &at, check) else { continue };
         if spins.iter().any(|other| (other.truck, other.wheel) == (spin.truck, spin.wheel)) {
-            check.faults.add(Fault::new(&at, "the spin of this wheel has its motion already"));
+            check.faults.add(Fault::new(&at, "the spin of this wheel already has a motion"));
         }
         spins.push(spin);
     }
@@ -40,8 +38,11 @@ pub(super) fn read_all(raw: &[RawMotion], scene: &Scene, check: &mut Check<'_>) 
         let acts = (kind.driven && matches!(body.motion, BodyMotion::Driven(_)))
             || (kind.braked && body.brake.is_some());
         if acts && spins.iter().any(|spin| spin.truck == truck) {
-            let fault = Fault::new(&list, format!("truck {} has a drive or a brake, and a spin", owner.name));
-            check.faults.add(fault.hint("one or the other acts on a wheel"));
+            let fault = Fault::new(
+                &list,
+                format!("truck {} cannot have both a prescribed spin and a drive or brake", owner.name),
+            );
+            check.faults.add(fault.hint("remove either the motion of the spin or the drive and the brake"));
         }
     }
     spins
@@ -58,35 +59,14 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
         ("brake", motion.brake.is_some()),
     ] {
         if given {
-            let fault = Fault::new(&at.key(key), format!("`{key}` does not belong to the motion of a spin"));
-            check.faults.add(fault.at_key().hint("it has `truck`, `wheel`, `kind` and one table"));
+            let fault = Fault::new(&at.key(key), format!("`{key}` is not a key of the motion of a spin"));
+            check
+                .faults
+                .add(fault.at_key().hint("its keys are `truck`, `wheel`, `dof`, `kind` and one table"));
         }
     }
     let rate = |power| Dimension::of(0, 0, power);
-    let tables = [
-        ("position", MotionKind::Position, &motion.position, rate(0)),
-        ("speed", MotionKind::Speed, &motion.speed, rate(-1)),
-        ("acceleration", MotionKind::Acceleration, &motion.acceleration, rate(-2)),
-    ];
-    let given: Vec<_> = tables
-        .into_iter()
-        .filter_map(|(key, what, table, unit)| Some((key, what, table.as_ref()?, unit)))
-        .collect();
-    let profile = match given[..] {
-        [(key, what, table, unit)] => {
-            let place = at.key(key);
-            let rows = read_rows(table, &place, unit, check);
-            rows.and_then(|rows| {
-                let profile = Profile::new(what, &rows, 0.0, 0.0);
-                profile.map_err(|error| check.faults.add(Fault::new(&place, error.to_string()))).ok()
-            })
-        }
-        _ => {
-            let expected = "must have one table: `position`, `speed` or `acceleration`";
-            check.faults.add(Fault::new(at, expected).got(if given.is_empty() { "none" } else { "several" }));
-            None
-        }
-    };
+    let profile = read_profile(&motion_tables(motion, [0, -1, -2].map(rate)), [0.0; 2], at, check);
     let known = names(&scene.trucks, |truck| &truck.name);
     let truck = match (&motion.truck, known.len()) {
         (Some(name), _) => resolve(name, &known, "truck", &at.key("truck"), check.faults)?,
@@ -98,7 +78,7 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
     let number = motion.wheel.unwrap_or(1);
     if number == 0 || number > count {
         let fault = Fault::new(&at.key("wheel"), format!("must be a wheel of truck {}", owner.name));
-        check.faults.add(fault.got(number).hint(format!("it has {count}, counted from 1")));
+        check.faults.add(fault.got(number).hint(format!("the truck has {count} wheels, counted from 1")));
         return None;
     }
     let kind = &scene.wheels[owner.wheel];
@@ -106,7 +86,7 @@ fn read(motion: &RawMotion, scene: &Scene, at: &Place<'_>, check: &mut Check<'_>
         let place = Place::root();
         let place = place.key("wheels");
         let fault = Fault::new(&place.key(&kind.name), "a wheel whose spin is prescribed needs `friction`");
-        check.faults.add(fault.at_key().hint("friction takes its body along"));
+        check.faults.add(fault.at_key().hint("friction transmits the force between wheel and rail"));
     }
     Some(Spin { truck, wheel: number - 1, motion: profile? })
 }

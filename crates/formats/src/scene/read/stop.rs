@@ -23,8 +23,10 @@ pub(super) fn read_all(raw: &[RawStop], scene: &Scene, check: &mut Check<'_>) ->
         let others = stops.iter().map(|other| &other.name);
         let others = others.chain(scene.bodies.iter().map(|body| &body.name));
         if others.chain(scene.ropes.iter().map(|rope| &rope.name)).any(|other| *other == stop.name) {
-            let expected = format!("the name \"{}\" is taken", stop.name);
-            check.faults.add(Fault::new(&at, expected).hint("stops, ropes and bodies name columns"));
+            let expected = format!("the name \"{}\" is already used", stop.name);
+            check.faults.add(
+                Fault::new(&at, expected).hint("names of stops, ropes and bodies are also names of columns"),
+            );
         }
         stops.push(stop);
     }
@@ -43,55 +45,52 @@ fn read(raw: &RawStop, count: usize, scene: &Scene, at: &Place<'_>, check: &mut 
     });
     let point = raw.at.map(|point| check.vector(point, &at.key("at"), Dimension::LENGTH));
     if point.is_some() && body.is_none() {
-        check
-            .faults
-            .add(Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("a point of that body"));
+        check.faults.add(
+            Fault::new(&at.key("at"), "`at` needs `body`").at_key().hint("`at` is a point of that body"),
+        );
     }
     if raw.gap.is_some() && raw.against.is_none() {
-        check.faults.add(Fault::new(&at.key("gap"), "`gap` needs `against`").at_key().hint("a body"));
+        check.faults.add(
+            Fault::new(&at.key("gap"), "`gap` needs `against`")
+                .at_key()
+                .hint("`against` names the other body"),
+        );
     }
-    if let (Some(other), None, None, None) = (&raw.against, &raw.rail, raw.x, raw.height) {
-        check.faults.require(&raw.body, at, "body")?;
-        let met = (body??, point.unwrap_or_default());
-        let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
-        let meetings = vec![StopPoint { body: met.0, at: met.1, side }];
-        let against = Some(against);
-        return Some(Stop {
-            name,
-            axis: 0,
-            against,
-            place,
-            rail: None,
-            stiffness,
-            damping,
-            points: meetings,
-        });
-    }
-    let (axis, place, rail, meetings) = match (&raw.rail, raw.x, raw.height) {
-        (Some(rail), Some(x), None) => {
-            let rail = rail_named(rail, &scene.rails, &at.key("rail"), check.faults)?;
-            let x = check.number(x, &at.key("x"), Dimension::LENGTH);
-            (0, x, Some(rail), on_rail(raw, [body, Some(Some(rail))], point, x, scene, at, check)?)
+    let stop =
+        Stop { name, axis: 0, against: None, place: 0.0, rail: None, stiffness, damping, points: Vec::new() };
+    match (&raw.rail, raw.x, raw.height, &raw.against) {
+        (None, None, None, Some(other)) => {
+            check.faults.require(&raw.body, at, "body")?;
+            let met = (body??, point.unwrap_or_default());
+            let (against, place, side) = buffer(raw, met, other, scene, at, check)?;
+            let points = vec![StopPoint { body: met.0, at: met.1, side }];
+            Some(Stop { against: Some(against), place, points, ..stop })
         }
-        (None, None, Some(height)) => {
-            let height = check.number(height, &at.key("Y"), Dimension::LENGTH);
+        (Some(rail), Some(x), None, _) => {
+            let rail = rail_named(rail, &scene.rails, &at.key("rail"), check.faults)?;
+            let place = check.number(x, &at.key("x"), Dimension::LENGTH);
+            let points = on_rail(raw, [body, Some(Some(rail))], point, place, scene, at, check)?;
+            Some(Stop { place, rail: Some(rail), points, ..stop })
+        }
+        (None, None, Some(height), _) => {
+            let place = check.number(height, &at.key("Y"), Dimension::LENGTH);
             let words = [("above", -1.0), ("below", 1.0)];
             let side = raw
                 .side
                 .as_ref()
                 .map_or(Some(-1.0), |word| check.faults.one_of(word, &at.key("side"), &words));
             check.faults.require(&raw.body, at, "body")?;
-            (1, height, None, vec![StopPoint { body: body??, at: point.unwrap_or_default(), side: side? }])
+            let points = vec![StopPoint { body: body??, at: point.unwrap_or_default(), side: side? }];
+            Some(Stop { axis: 1, place, points, ..stop })
         }
         _ => {
             let fault = Fault::new(at, "must have `rail` and `x`, `body` and `Y`, or `body` and `against`");
             check
                 .faults
                 .add(fault.hint("an end stop of a rail, a floor below a body, or a buffer between bodies"));
-            return None;
+            None
         }
-    };
-    Some(Stop { name, axis, against: None, place, rail, stiffness, damping, points: meetings })
+    }
 }
 
 /// Reads a buffer between a point of one body and the body `other`, with an initial distance `gap`. Returns the body
@@ -107,16 +106,25 @@ fn buffer(
     let known = names(&scene.bodies, |body| &body.name);
     let against = resolve(other, &known, "body", &at.key("against"), check.faults)?;
     let gap = raw.gap.unwrap_or_default();
-    let gap = check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "the way until they meet");
+    let gap = check.not_negative(
+        gap,
+        &at.key("gap"),
+        Dimension::LENGTH,
+        "distance of the bodies before they touch",
+    );
     if let Some(side) = &raw.side {
         let fault = Fault::new(&at.key("side"), "a buffer between bodies has no `side`").at_key();
-        check.faults.add(fault.got(format!("\"{side}\"")).hint("where they stand at the start says it"));
+        check.faults.add(
+            fault
+                .got(format!("\"{side}\""))
+                .hint("the side follows from the positions of the bodies at the start"),
+        );
     }
     let place = |b: usize| root_of(&scene.bodies, b).map(|(root, ahead)| scene.bodies[root].x0 + ahead);
     let roots = [body, against].map(|b| root_of(&scene.bodies, b).map(|(root, _)| &scene.bodies[root]));
     let [Some(one), Some(two)] = roots else { return None };
-    let shares = one.track.iter().any(|rail| two.track.contains(rail));
-    if one.name == two.name || !shares {
+    let same_rail = one.track.iter().any(|rail| two.track.contains(rail));
+    if one.name == two.name || !same_rail {
         let fault = Fault::new(&at.key("against"), "must be another body on the same rail");
         check.faults.add(fault.got(format!("\"{other}\"")));
         return None;
@@ -162,24 +170,15 @@ fn on_rail(
         let (Some(first), Some(last)) = (first, last) else {
             if body.is_some() {
                 let expected = format!("no wheel of body {} is on that rail", scene.bodies[b].name);
-                check
-                    .faults
-                    .add(Fault::new(&at.key("body"), expected).hint("`at` is the point that meets the stop"));
+                check.faults.add(
+                    Fault::new(&at.key("body"), expected)
+                        .hint("with `at` a point of the body meets the stop"),
+                );
             }
             continue;
         };
-        let side = match side {
-            Some(side) => side,
-            None if last.2 <= x => 1.0,
-            None if first.2 >= x => -1.0,
-            None => {
-                let expected = format!("body {} stands astride the stop", scene.bodies[b].name);
-                let found = format!("wheels from x = {} to {}", number(first.2), number(last.2));
-                let hint = "\"side\": \"before\" or \"beyond\" says where the body belongs";
-                check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
-                1.0
-            }
-        };
+        let side =
+            side.unwrap_or_else(|| side_at_start([first.2, last.2], x, &scene.bodies[b].name, at, check));
         let (body, at, _) = if side > 0.0 { *last } else { *first };
         meetings.push(StopPoint { body, at, side });
     }
@@ -187,6 +186,22 @@ fn on_rail(
         check.faults.add(Fault::new(&at.key("rail"), "no body moves on that rail"));
     }
     Some(meetings)
+}
+
+/// Side of the stop at `x` on which a body with wheels from `first` to `last` is at the start: 1 before the stop, -1
+/// beyond it. Wheels on both sides are a fault.
+fn side_at_start([first, last]: [f64; 2], x: f64, body: &str, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    if last <= x {
+        return 1.0;
+    }
+    if first >= x {
+        return -1.0;
+    }
+    let expected = format!("body {body} has wheels on both sides of the stop");
+    let found = format!("wheels from x = {} to {}", number(first), number(last));
+    let hint = "state the side of the body with \"side\": \"before\" or \"beyond\"";
+    check.faults.add(Fault::new(&at.key("x"), expected).got(found).hint(hint));
+    1.0
 }
 
 /// Wheels on a rail that belong to the tree of body `b`: their bodies, the positions of their treads relative to the

@@ -11,6 +11,7 @@ use crate::scene::raw::{RawStructure, RawTables};
 use crate::scene::values::structure::{
     DEFAULT_PARTS, ELEMENTS, Foundation, Handover, MODES, Origin, Structure, TOLERANCE, TableInterpolation,
 };
+use crate::spec::ties::Ties;
 use crate::spec::{RailOutline, Spec};
 use crate::text::fault::{Fault, nearest};
 use crate::text::place::Place;
@@ -41,49 +42,14 @@ pub(super) fn read(
     check: &mut Check<'_>,
 ) -> Option<Structure> {
     let word = foundation_word(raw, at, check);
-    let count = raw.count.unwrap_or(DEFAULT_PARTS);
-    if count < 2 {
-        check
-            .faults
-            .add(Fault::new(&at.key("count"), "must be at least 2").got(count).hint("parts of the chain"));
-    }
+    let count = read_count(raw, at, check);
     let handover = read_handover(raw, at, check);
     let damping = read_damping(raw, at, check);
-    let reading = match &raw.reading {
-        Some(word) => check
-            .faults
-            .one_of(word, &at.key("reading"), &TableInterpolation::WORDS)
-            .unwrap_or(TableInterpolation::Exact),
-        None => TableInterpolation::Exact,
-    };
+    let interpolation = read_interpolation(raw, at, check);
     let couplings = read_couplings(raw, word, at, check);
     let tolerance = read_tolerance(raw, at, check);
     let ties = ties::read(raw, matches!(word, FoundationWord::Ties), at, check);
-    let origin = match (&raw.spec, &raw.tables) {
-        (None, None) if ties.is_some() || matches!(word, FoundationWord::Ties) => {
-            ties::on_ground(name, raw, ties.as_ref(), at, check)
-        }
-        (Some(file), None) if matches!(word, FoundationWord::Ties) => {
-            let origin = read_spec(file, &at.key("spec"), files, check);
-            origin.and_then(|origin| ties::on_structure(origin, raw, ties.as_ref(), at, check))
-        }
-        (Some(file), None) => read_spec(file, &at.key("spec"), files, check),
-        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, files, check),
-        (Some(_), Some(_)) => {
-            let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
-            check
-                .faults
-                .add(fault.hint("`spec` is a beam spec to solve, `tables` are SPLINEs that exist already"));
-            None
-        }
-        (None, None) => {
-            let fault = Fault::new(at, "must have either `spec` or `tables`").got("neither");
-            let meant = nearest(name, others).map(|near| format!("did you mean \"{near}\"? "));
-            let hint = "`spec` is a beam spec to solve, `tables` are SPLINEs that exist already";
-            check.faults.add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
-            None
-        }
-    };
+    let origin = read_origin((name, others), raw, (word, ties.as_ref()), at, files, check);
     let foundation = match word {
         FoundationWord::Rigid => Foundation::Rigid,
         FoundationWord::Parts => Foundation::Parts { count, handover, damping },
@@ -100,8 +66,8 @@ pub(super) fn read(
         check.faults.add(fault.hint("the short form of a spec, with `girder`"));
     }
     let rails = origin.rails();
-    if reading != TableInterpolation::Exact {
-        enough_stations(&rails, reading, at, check);
+    if interpolation != TableInterpolation::Exact {
+        enough_stations(&rails, interpolation, at, check);
     }
     let auto = matches!(word, FoundationWord::Auto);
     let gauges = gauge::read(&raw.gauges, &rails, &at.key("gauges"), check);
@@ -115,7 +81,7 @@ pub(super) fn read(
         foundation,
         auto,
         damping,
-        interpolation: reading,
+        interpolation,
         couplings,
         tolerance,
         gauges,
@@ -123,6 +89,58 @@ pub(super) fn read(
         irregularities,
         carrier: None,
     })
+}
+
+/// Reads the source of the influence coefficients: a spec, tables, or a rail on ties. `others` are the names of the
+/// other structures of the scene.
+fn read_origin(
+    (name, others): (&str, &[&str]),
+    raw: &RawStructure,
+    (word, ties): (FoundationWord, Option<&Ties>),
+    at: &Place<'_>,
+    files: &mut Files<'_>,
+    check: &mut Check<'_>,
+) -> Option<Origin> {
+    let hint = "`spec` is a beam spec to be solved, `tables` are existing SPLINE tables";
+    match (&raw.spec, &raw.tables) {
+        (None, None) if ties.is_some() || matches!(word, FoundationWord::Ties) => {
+            ties::on_ground(name, raw, ties, at, check)
+        }
+        (Some(file), None) if matches!(word, FoundationWord::Ties) => {
+            let origin = read_spec(file, &at.key("spec"), files, check);
+            origin.and_then(|origin| ties::on_structure(origin, raw, ties, at, check))
+        }
+        (Some(file), None) => read_spec(file, &at.key("spec"), files, check),
+        (None, Some(tables)) => read_tables(tables, &at.key("tables"), word, files, check),
+        (Some(_), Some(_)) => {
+            let fault = Fault::new(at, "must have either `spec` or `tables`").got("both");
+            check.faults.add(fault.hint(hint));
+            None
+        }
+        (None, None) => {
+            let fault = Fault::new(at, "must have either `spec` or `tables`").got("neither");
+            let meant = nearest(name, others).map(|near| format!("did you mean \"{near}\"? "));
+            check.faults.add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
+            None
+        }
+    }
+}
+
+/// Reads the number of rigid parts of the foundation "parts".
+fn read_count(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> usize {
+    let count = raw.count.unwrap_or(DEFAULT_PARTS);
+    if count < 2 {
+        let fault = Fault::new(&at.key("count"), "must be at least 2").got(count);
+        check.faults.add(fault.hint("number of rigid parts of the chain"));
+    }
+    count
+}
+
+fn read_interpolation(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> TableInterpolation {
+    let word = raw.reading.as_ref();
+    let known = &TableInterpolation::WORDS;
+    let word = word.and_then(|word| check.faults.one_of(word, &at.key("reading"), known));
+    word.unwrap_or(TableInterpolation::Exact)
 }
 
 fn foundation_word(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> FoundationWord {
@@ -158,10 +176,11 @@ fn read_couplings(
     let place = at.key("couplings");
     let couplings = check.faults.one_of(given, &place, &COUPLINGS).unwrap_or_default();
     if couplings != Couplings::All && !matches!(word, FoundationWord::Influence | FoundationWord::Rigid) {
-        let fault = Fault::new(&place, "can be left out of the foundation \"influence\" alone").at_key();
+        let fault =
+            Fault::new(&place, "couplings can be left out only with the foundation \"influence\"").at_key();
         check
             .faults
-            .add(fault.hint("modes and parts move all that they join; \"rigid\" has nothing to leave out"));
+            .add(fault.hint("modes and parts couple all rails of the structure; \"rigid\" has no couplings"));
     }
     couplings
 }
@@ -177,13 +196,13 @@ fn read_longitudinal(
     let place = at.key("longitudinal");
     if longitudinal && raw.tables.is_some() {
         let fault = Fault::new(&place, "needs a `spec`").at_key();
-        check.faults.add(fault.hint("tables of a scene know the vertical and the lateral give alone"));
+        check.faults.add(fault.hint("tables contain only the vertical and the lateral compliance"));
     }
     if longitudinal && raw.on.is_some() {
-        check.faults.unavailable(&place, "give along the rails of a structure on a body");
+        check.faults.unavailable(&place, "compliance along the rails of a structure on a body");
     }
     if longitudinal && matches!(word, FoundationWord::Parts) {
-        let fault = Fault::new(&place, "\"parts\" do not give along the rail").at_key();
+        let fault = Fault::new(&place, "\"parts\" have no compliance along the rail").at_key();
         check.faults.add(fault.hint("use \"influence\" or \"modal\""));
     }
     longitudinal
@@ -208,10 +227,11 @@ fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f6
         }
     }
     let (place, given) = (at.key("damping"), raw.damping.unwrap_or(0.0));
-    let damping = check.not_negative(given, &place, Dimension::NUMBER, "a share of critical, such as 0.01");
+    let damping =
+        check.not_negative(given, &place, Dimension::NUMBER, "a fraction of critical damping, such as 0.01");
     if damping >= 1.0 {
         let fault = Fault::new(&place, "must be below 1").got(damping);
-        check.faults.add(fault.hint("a share of critical, such as 0.01"));
+        check.faults.add(fault.hint("a fraction of critical damping, such as 0.01"));
     }
     damping
 }
@@ -222,7 +242,7 @@ fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> H
         Some(word) => check.faults.one_of(word, &at.key("handover"), &words).unwrap_or(false),
         None => false,
     };
-    let hint = "the length over which the datum is blended";
+    let hint = "length over which a wheel passes from one part to the next";
     let length = check.optional_positive(raw.blend, &at.key("blend"), Dimension::LENGTH, hint);
     if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
 }
@@ -247,7 +267,7 @@ fn read_tables(
         FoundationWord::Parts | FoundationWord::Modal | FoundationWord::Full | FoundationWord::Ties
     ) {
         let fault = Fault::new(at, "this foundation needs a `spec`")
-            .hint("tables know neither masses nor what lies between");
+            .hint("tables contain neither masses nor members");
         check.faults.add(fault);
     }
     if raw.vertical.is_none() && raw.lateral.is_none() {

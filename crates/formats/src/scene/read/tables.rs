@@ -42,8 +42,8 @@ fn pair(set: &TableSet, raw: &RawTables, at: &Place<'_>, check: &mut Check<'_>) 
     if let Some((own, other)) = vertical.zip(lateral)
         && own.x() != other.x()
     {
-        let fault = Fault::new(&at.key("lateral"), "must have the stations of `vertical`");
-        check.faults.add(fault.hint("one rail has one list of stations"));
+        let fault = Fault::new(&at.key("lateral"), "must have the same stations as `vertical`");
+        check.faults.add(fault.hint("both tables of a rail have the same stations"));
         return None;
     }
     let length = scale.factor(Dimension::LENGTH);
@@ -101,7 +101,7 @@ fn by_name<'s>(set: &'s TableSet, name: &str, at: &Place<'_>, check: &mut Check<
     let names: Vec<&str> = set.tables.iter().map(|table| table.name.as_str()).collect();
     let several = !called.is_empty() || !own.is_empty();
     let expected = if several {
-        "must be the name of one table alone"
+        "must be the name of exactly one table"
     } else {
         "must be the name of a table in the file"
     };

@@ -23,17 +23,24 @@ pub(super) fn read(raw: &RawStructure, needed: bool, at: &Place<'_>, check: &mut
     let given = raw.ties.as_ref()?;
     let at = at.key("ties");
     let spacing =
-        check.required_positive(given.spacing, &at, "spacing", Dimension::LENGTH, "from tie to tie");
-    let k = check.required_positive(given.k, &at, "k", Dimension::STIFFNESS, "of one tie, force per length");
-    let hint = "of one tie, force per length; leave it out where nothing moves sideways";
+        check.required_positive(given.spacing, &at, "spacing", Dimension::LENGTH, "distance from tie to tie");
+    let k = check.required_positive(
+        given.k,
+        &at,
+        "k",
+        Dimension::STIFFNESS,
+        "stiffness of one tie, force per length",
+    );
+    let hint = "lateral stiffness of one tie, force per length; leave it out if nothing moves laterally";
     let lateral_k =
         check.optional_positive(given.lateral_k, &at.key("lateral_k"), Dimension::STIFFNESS, hint);
     let first = given.first.map(|first| check.number(first, &at.key("first"), Dimension::LENGTH));
     let mut or_zero = |value: Option<f64>, place: &Place<'_>, dimension, hint| {
         value.map_or(0.0, |value| check.not_negative(value, place, dimension, hint))
     };
-    let c = or_zero(given.c, &at.key("c"), Dimension::DAMPING, "of one tie, force per speed");
-    let mass = or_zero(given.mass, &at.key("mass"), Dimension::MASS, "of one tie");
+    let c =
+        or_zero(given.c, &at.key("c"), Dimension::DAMPING, "damping coefficient of one tie, force per speed");
+    let mass = or_zero(given.mass, &at.key("mass"), Dimension::MASS, "mass of one tie");
     let rail = match check.faults.require(&given.rail, &at, "rail") {
         Some(rail) => read_rail(rail, lateral_k.is_some(), &at.key("rail"), check),
         None => CrossSection { e: 1.0, iz: 1.0, ..CrossSection::default() },
@@ -58,7 +65,7 @@ fn read_rail(raw: &RawTieRail, lateral: bool, at: &Place<'_>, check: &mut Check<
     if raw.i_lateral.is_some() != lateral {
         let key = if lateral { "I_lateral" } else { "lateral_k" };
         let fault = Fault::new(at, format!("missing key `{key}`"));
-        check.faults.add(fault.hint("`I_lateral` of the rail and `lateral_k` of the ties go together"));
+        check.faults.add(fault.hint("`I_lateral` of the rail and `lateral_k` of the ties need each other"));
     }
     let mass = raw.mass_per_length;
     let mass =
@@ -97,8 +104,8 @@ pub(super) fn on_structure(
     check: &mut Check<'_>,
 ) -> Option<Origin> {
     if raw.range.is_some() {
-        let fault = Fault::new(&at.key("range"), "`range` cannot stand beside `spec`").at_key();
-        check.faults.add(fault.hint("ties over a structure run along its rails"));
+        let fault = Fault::new(&at.key("range"), "`range` cannot be combined with `spec`").at_key();
+        check.faults.add(fault.hint("the rails on ties above a structure have the ranges of its own rails"));
     }
     is_right(check)?;
     let Origin::Spec { file, spec } = origin else { return None };
@@ -116,9 +123,11 @@ fn is_right(check: &Check<'_>) -> Option<()> {
 fn refuse(refusal: TiesError, at: &Place<'_>, check: &mut Check<'_>) -> Option<Origin> {
     let ties = at.key("ties");
     let (place, hint) = match refusal {
-        TiesError::Few { .. } => (ties.key("spacing"), "from the `first`, ties stand `spacing` apart"),
-        TiesError::Many { .. } => (ties.key("spacing"), "a shorter rail, or fewer `elements`"),
-        TiesError::Hinge { .. } => (ties, "move the `first`"),
+        TiesError::Few { .. } => {
+            (ties.key("spacing"), "the first tie is at `first`, the others follow at distances of `spacing`")
+        }
+        TiesError::Many { .. } => (ties.key("spacing"), "shorten the rail or reduce `elements`"),
+        TiesError::Hinge { .. } => (ties, "change `first`, the coordinate of the first tie"),
         TiesError::Oblique { .. } | TiesError::Model => (ties, "use \"influence\""),
     };
     check.faults.add(Fault::new(&place, refusal.to_string()).hint(hint));

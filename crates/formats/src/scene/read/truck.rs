@@ -24,7 +24,7 @@ pub(super) fn read(
     let named = names(bodies, |body| &body.name);
     let body = named_or_only(&raw.body, &named, "body", ("body", at), check.faults);
     let kinds = names(wheels, |wheel| &wheel.name);
-    let wheel = named_or_only(&raw.wheel, &kinds, "kind of wheel", ("wheel", at), check.faults);
+    let wheel = named_or_only(&raw.wheel, &kinds, "wheel type", ("wheel", at), check.faults);
     let rail = read_rail(raw, at, body.map(|body| &bodies[body]), rails, check);
     let place = at.key("at");
     let position = check.vector(raw.at.unwrap_or_default(), &place, Dimension::LENGTH);
@@ -86,9 +86,10 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
         let at = place.index(index);
         let node = read_node(node, &at, check);
         let below = node.wheels();
-        if below.iter().any(|(_, share)| (share - below[0].1).abs() > 1e-12) {
-            let fault = Fault::new(&at, "wheels under one equaliser must carry equal shares");
-            let hint = "both its ends need the same number of wheels; what carries more must be a body that is `pinned`";
+        if below.iter().any(|(_, fraction)| (fraction - below[0].1).abs() > 1e-12) {
+            let fault = Fault::new(&at, "all wheels under one equaliser must carry equal loads");
+            let hint =
+                "both ends need the same number of wheels; for unequal loads use a body that is `pinned`";
             check.faults.add(fault.got(fractions(&below)).hint(hint));
         }
         node
@@ -98,7 +99,7 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
 
 /// Fractions of the load of an equaliser that its wheels carry.
 fn fractions(below: &[(f64, f64)]) -> String {
-    below.iter().map(|(_, share)| format!("1/{}", number(1.0 / share))).collect::<Vec<_>>().join(", ")
+    below.iter().map(|(_, fraction)| format!("1/{}", number(1.0 / fraction))).collect::<Vec<_>>().join(", ")
 }
 
 fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
@@ -112,8 +113,9 @@ fn read_node(raw: &RawNode, at: &Place<'_>, check: &mut Check<'_>) -> Node {
             match <[Node; 2]>::try_from(nodes) {
                 Ok(ends) => {
                     if ends[0].offset() == ends[1].offset() {
-                        let fault = Fault::new(at, "an equaliser's two ends must be apart")
-                            .got(number(ends[0].offset()));
+                        let fault =
+                            Fault::new(at, "the two ends of an equaliser must have different offsets")
+                                .got(number(ends[0].offset()));
                         check.faults.add(fault);
                     }
                     Node::Equaliser(Box::new(ends))

@@ -45,12 +45,12 @@ pub(super) fn check(scene: &Scene, faults: &mut Faults) -> bool {
         let [here, there] = [truck.rail, reference.rail].map(|rail| &scene.rails[rail].name);
         let side = if rails > 0.0 { "right" } else { "left" };
         let expected = format!(
-            "must stand on its rail: {here} lies {} to the {side} of {there}, looking along them",
+            "must be above its rail: {here} is {} to the {side} of {there}, seen along the rails",
             number(rails.abs())
         );
         let found = format!("{} to the right of truck \"{}\"", number(wheels), reference.name);
         let hint = format!(
-            "z of `at` is to the right; of a body in the middle {} here and {} there",
+            "z of `at` points to the right; for a body midway between the rails it is {} here and {} there",
             number(0.5 * rails),
             number(-0.5 * rails)
         );

@@ -72,7 +72,7 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Tr
                 at,
                 "depth",
                 Dimension::LENGTH,
-                "penetration at which the damping is full",
+                "penetration at which the damping coefficient is c",
             ),
         };
         NormalForceLaw::Impact { exponent, depth }
@@ -80,8 +80,9 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Tr
         for (key, given) in [("exponent", raw.exponent.is_some()), ("depth", raw.depth.is_some())] {
             if given {
                 let fault =
-                    Fault::new(&at.key(key), format!("`{key}` belongs to the law \"impact\"")).at_key();
-                check.faults.add(fault.hint("give \"law\": \"impact\" or leave it out"));
+                    Fault::new(&at.key(key), format!("`{key}` is only available with the law \"impact\""))
+                        .at_key();
+                check.faults.add(fault.hint("set \"law\": \"impact\" or leave it out"));
             }
         }
         NormalForceLaw::Linear
@@ -101,7 +102,7 @@ fn read_lateral(raw: &RawLateral, at: &Place<'_>, check: &mut Check<'_>) -> Flan
     let place = at.key("release");
     let release = raw.release.map(|heights| {
         check.faults.increasing(&heights, &place);
-        let hint = "heights of the wheel's centre over the rail";
+        let hint = "heights of the wheel's centre above the rail";
         let mut converted = [0.0; 2];
         for (index, height) in heights.into_iter().enumerate() {
             converted[index] = check.positive(height, &place.index(index), Dimension::LENGTH, hint);
@@ -124,8 +125,8 @@ fn read_friction(raw: &RawFriction, at: &Place<'_>, check: &mut Check<'_>) -> Fr
             "slip",
             Dimension::SPEED,
             match law {
-                FrictionLaw::Step => "slip speed at which the friction is full",
-                FrictionLaw::Coulomb => "slip speed at which the friction is 76 % of mu N",
+                FrictionLaw::Step => "sliding speed at which the friction is full",
+                FrictionLaw::Coulomb => "sliding speed at which the friction is 76 % of mu N",
             },
         ),
     }

@@ -43,7 +43,7 @@ impl Node {
             Node::Wheel(offset) => vec![(*offset, 1.0)],
             Node::Equaliser(ends) => {
                 let below = ends.iter().flat_map(Node::wheels);
-                below.map(|(offset, share)| (offset, share / 2.0)).collect()
+                below.map(|(offset, fraction)| (offset, fraction / 2.0)).collect()
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Shapes against other ways to the same numbers.
+//! Properties of shapes, compared with independent formulas for the same numbers.
 
 use super::*;
 

@@ -97,7 +97,7 @@ mod tests {
         let faults = rows("x,y\n0,1\n0,two\n-1,2\n4\n", [0, 1]).expect_err("three faults");
         assert_eq!(
             faults,
-            "t.csv:3:3: must be a finite number, got \"two\"\nt.csv:4:1: x must not fall: the row before is at 0\nt.csv:5:1: the row must have 2 cells at least, got 1"
+            "t.csv:3:3: must be a finite number, got \"two\"\nt.csv:4:1: x must not decrease: the row before is at 0\nt.csv:5:1: the row must have 2 cells at least, got 1"
         );
         assert_eq!(rows("x,y\n", [0, 1]), Err("t.csv: the file has no rows below its header".to_owned()));
         assert!(rows("0 0\n0 1\n0 2\n", [0, 1]).is_err());

@@ -156,7 +156,9 @@ fn draft(sheet: &Sheet<'_>, header: &Header, mut group: Group<'_>) -> Result<Dra
     for row in &rows {
         if let Some(pair) = row.windows(2).find(|pair| pair[0].x == pair[1].x) {
             let later = pair.iter().max_by_key(|entry| entry.row[0].line).unwrap_or(&pair[0]);
-            return Err(sheet.fault(&cell(later, header.x), "the value of this z and x stands twice").into());
+            return Err(sheet
+                .fault(&cell(later, header.x), "the value at this z and x is given twice")
+                .into());
         }
         let differs = row.iter().zip(&x).position(|(entry, x)| entry.x != *x);
         let short = || if row.len() == x.len() { None } else { Some(row.len().min(x.len())) };

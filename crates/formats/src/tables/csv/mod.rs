@@ -60,7 +60,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
     Ok(Parsed {
         name: stem(&source.name),
         units: given.or_else(|| units_in(&sheet.comments)),
-        missing_units: ["says no units", "such as a comment line: # units: ft, lbf, s"],
+        missing_units: ["states no units", "such as a comment line: # units: ft, lbf, s"],
         drafts,
         comments: sheet.comments,
         products: Vec::new(),

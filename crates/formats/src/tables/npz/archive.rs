@@ -55,7 +55,7 @@ pub(super) fn read(file: &str, bytes: &[u8]) -> Result<Vec<(String, Array)>, Box
             }
         })?;
         if out.iter().any(|(known, _)| *known == name) {
-            return Err(at("stands twice".to_owned()).into());
+            return Err(at("occurs twice".to_owned()).into());
         }
         out.push((name, array));
     }

@@ -46,7 +46,7 @@ pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Di
     Ok(Parsed {
         name: name.unwrap_or_else(|| stem(file)),
         units: given,
-        missing_units: ["says no units", "such as an array units=[\"ft\", \"lbf\", \"s\"]"],
+        missing_units: ["states no units", "such as an array units=[\"ft\", \"lbf\", \"s\"]"],
         products: pack.products(&drafts).map_err(one)?,
         drafts,
         comments: String::new(),
