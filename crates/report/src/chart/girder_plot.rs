@@ -32,7 +32,7 @@ pub struct SupportMark {
     /// (x, y) of the supported point.
     pub at: [f64; 2],
     /// The support restrains the longitudinal direction too; otherwise it is drawn as a roller.
-    pub holds_length: bool,
+    pub is_fixed_lengthwise: bool,
 }
 
 /// A deflected shape.
@@ -58,8 +58,8 @@ pub struct Deflected {
 ///     length_unit: "m".into(),
 ///     members: vec![vec![[0.0, 0.0], [12.0, 0.0]]],
 ///     supports: vec![
-///         SupportMark { at: [0.0, 0.0], holds_length: true },
-///         SupportMark { at: [12.0, 0.0], holds_length: false },
+///         SupportMark { at: [0.0, 0.0], is_fixed_lengthwise: true },
+///         SupportMark { at: [12.0, 0.0], is_fixed_lengthwise: false },
 ///     ],
 ///     ..GirderPlot::default()
 /// };
@@ -125,7 +125,7 @@ impl GirderPlot {
                     view.draw_series(LineSeries::new(pairs(&self.rail), stroke(colour(index), 2.4)))?;
                 }
                 view.draw_series(
-                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.holds_length)),
+                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.is_fixed_lengthwise)),
                 )?;
                 Ok(())
             })?;

@@ -134,8 +134,8 @@ fn girder_is_drawn() {
         members: vec![vec![[-15.0, 0.0], [75.0, 0.0]]],
         rail: vec![[-15.0, 3.66], [75.0, 3.66]],
         supports: vec![
-            SupportMark { at: [0.0, 0.0], holds_length: true },
-            SupportMark { at: [60.0, 0.0], holds_length: false },
+            SupportMark { at: [0.0, 0.0], is_fixed_lengthwise: true },
+            SupportMark { at: [60.0, 0.0], is_fixed_lengthwise: false },
         ],
         stations: stations(7).iter().map(|x| [*x, 3.66]).collect(),
         loads: vec![[23.7, 3.66], [26.3, 3.66]],

@@ -10,7 +10,7 @@ mod view;
 
 use crate::document::animated::Animation;
 
-use crate::figures::pictures::{LabelledRun, RunFigure};
+use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::{Picture, number};
 use draw::{PlanDrawing, WIDTH};
 use formats::scene::motion::SimulationInput;
@@ -29,7 +29,7 @@ const FRAMES: usize = 400;
 ///
 /// # Errors
 /// A structure of which no model can be built.
-pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Option<RunFigure>, Error> {
+pub fn animation_figure(run: &LabelledRun, input: &SimulationInput) -> Result<Option<RunFigure>, Error> {
     let scene = run.scene;
     let rides = scene.structures.iter().any(|structure| structure.carrier.is_some());
     let hangs = scene.bodies.iter().any(|body| body.in_space);
@@ -41,7 +41,7 @@ pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Opt
     let rows: Vec<usize> = (0..time.len()).step_by(every).collect();
     let layout = ScenePositions::new(scene)?;
     let largest = |row: &usize| {
-        let grounded = cast.wheels.iter().filter(|wheel| layout.axle(wheel.rail).is_none());
+        let grounded = input.wheels.iter().filter(|wheel| layout.axle(wheel.rail).is_none());
         let forces = grounded.map(|wheel| run.record.part(&wheel.name, "vertical")[*row]);
         forces.fold(0.0, f64::max)
     };
@@ -52,7 +52,7 @@ pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Opt
         }
     }
     let force = if most > 0.0 { BAR / most } else { 0.0 };
-    let view = AnimationView { scene, cast, layout, run, rows, still, force };
+    let view = AnimationView { scene, input, layout, run, rows, still, force };
     let mut drawing = PlanDrawing::new();
     let top = plan::draw(&view, &mut drawing, 46.0);
     let bottom = section::draw(&view, &mut drawing, top + 34.0);
@@ -67,6 +67,10 @@ pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Opt
     );
     let times: Vec<f64> = view.rows.iter().map(|row| time[*row]).collect();
     let (svg, tracks) = drawing.finish(WIDTH, bottom);
-    let film = Animation { svg, still_time: times[view.still], times, tracks };
-    Ok(Some(RunFigure { name: "crane".to_owned(), caption, picture: Picture::Animation(Box::new(film)) }))
+    let animation = Animation { svg, still_time: times[view.still], times, tracks };
+    Ok(Some(RunFigure {
+        name: "crane".to_owned(),
+        caption,
+        picture: Picture::Animation(Box::new(animation)),
+    }))
 }

@@ -1,5 +1,5 @@
 // Pictures that move: a button, a slider, and the frames between the recorded times. Without scripts they stand still.
-for (const source of document.querySelectorAll(".film > script")) {
+for (const source of document.querySelectorAll(".animation > script")) {
   const box = source.parentElement;
   const svg = box.querySelector("svg");
   const data = JSON.parse(source.textContent);
