@@ -99,7 +99,7 @@ fn text_goes_to_standard_output_and_names_every_reading() {
         "akispl",
         "natural",
         "never",
-        "digits leave",
+        "uncertainty of the digits",
         "rigid supports inside the table",
     ] {
         assert!(told.contains(words), "{words}");

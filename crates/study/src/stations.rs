@@ -1,4 +1,4 @@
-//! Tables of a grid at the fewest stations that keep a tolerance.
+//! Tables of a grid at the fewest stations whose errors are within a tolerance.
 //!
 //! Stations of each rail are searched by [`splines::fewest_stations()`], which considers the direct blocks of this rail.
 //! Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them exceeds
@@ -28,7 +28,7 @@ pub struct StationGoal {
     pub method: TableReadingMethod,
     /// Tolerance, relative to the largest coefficient.
     pub tolerance: f64,
-    /// Directions that must keep the tolerance.
+    /// Directions whose errors must be within the tolerance.
     pub axes: Vec<Axis>,
 }
 
@@ -66,7 +66,8 @@ pub struct StationChoice {
 /// The grid at the fewest stations for the goal, with values from its exact surface.
 ///
 /// # Errors
-/// As [`splines::fewest_stations()`]; [`splines::Error::TooFewStations`] where blocks between rails do not keep the tolerance.
+/// As [`splines::fewest_stations()`]; [`splines::Error::TooFewStations`] where
+/// blocks between rails exceed the tolerance.
 pub fn choose(
     grid: &StationGrid,
     surface: &ExactSurface,
@@ -75,7 +76,7 @@ pub fn choose(
     let mut tolerance = goal.tolerance;
     for round in 0.. {
         let choice = attempt(grid, surface, &StationGoal { tolerance, ..goal.clone() })?;
-        let wanted = |block: &&BlockError| block.paths.iter().all(|way| goal.axes.contains(&way.1));
+        let wanted = |block: &&BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
         let worst = choice.others.iter().filter(wanted).map(|block| block.error).fold(0.0, f64::max);
         if worst <= goal.tolerance {
             return Ok(choice);
@@ -218,11 +219,12 @@ impl StationChoice {
     /// The stations and their errors as JSON.
     #[must_use]
     pub fn json(&self, goal: &StationGoal) -> Value {
-        let name = |way: RailDirection| json!({ "rail": self.grid.rails[way.0].name, "axis": word(way.1) });
-        let error = |ways: [RailDirection; 2], relative: f64, worst: BlockExtreme| {
+        let name =
+            |path: RailDirection| json!({ "rail": self.grid.rails[path.0].name, "axis": word(path.1) });
+        let error = |paths: [RailDirection; 2], relative: f64, worst: BlockExtreme| {
             json!({
                 "relative": relative, "value": worst.value, "x": worst.x, "z": worst.z,
-                "deflection": name(ways[0]), "load": name(ways[1]),
+                "deflection": name(paths[0]), "load": name(paths[1]),
             })
         };
         let rails = self.rails.iter().map(|rail| {
@@ -263,7 +265,7 @@ impl StationChoice {
                 )
             })
             .collect();
-        let wanted = |block: &BlockError| block.paths.iter().all(|way| goal.axes.contains(&way.1));
+        let wanted = |block: &BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
         let worst = |within: bool| {
             let blocks = self.others.iter().filter(|block| wanted(block) == within);
             blocks.max_by(|a, b| a.error.total_cmp(&b.error))

@@ -130,7 +130,7 @@ impl<'c> CodeCase<'c> {
                 AIST,
                 "3.7.2, Table 3.2 (2021)",
                 "impact on the largest wheel loads",
-                Some(1.0 + self.practice.kind.shares().impact),
+                Some(1.0 + self.practice.kind.fractions().impact),
             )
     }
 
@@ -162,7 +162,7 @@ impl<'c> CodeCase<'c> {
         let crane = &self.measures.crane;
         let moving = crane.lifted + crane.trolley;
         let thrust = aist::side_thrust(self.practice.kind, crane).ok();
-        let shares = self.practice.kind.shares();
+        let shares = self.practice.kind.fractions();
         let inertia = self.found.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
         CodeValues::default()
             .add(
@@ -266,7 +266,10 @@ impl<'c> CodeCase<'c> {
             .add(
                 AIST,
                 "3.7.2, Table 3.2 (2021)",
-                format!("{} of the largest loads of the driven wheels", self.practice.kind.shares().traction),
+                format!(
+                    "{} of the largest loads of the driven wheels",
+                    self.practice.kind.fractions().traction
+                ),
                 loads.and_then(|loads| aist::tractive_force(self.practice.kind, &loads).ok()),
             )
     }

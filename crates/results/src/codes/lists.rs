@@ -79,7 +79,7 @@ pub(super) fn factors(case: &CodeCase) -> Vec<CodeFactor> {
             AIST,
             "3.7.2, Table 3.2 (2021)",
             "of the largest wheel loads",
-            Some(practice.kind.shares().impact),
+            Some(practice.kind.fractions().impact),
         ),
         (
             "wheel_near",

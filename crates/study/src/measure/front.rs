@@ -1,6 +1,6 @@
 //! Pareto fronts of points (cost, error).
 //!
-//! A point a dominates b if a costs no more and errs no more than b, and a differs from b. The front is the set of
+//! A point a dominates b if neither its cost nor its error is larger than that of b, and a differs from b. The front is the set of
 //! points that no other dominates. All pairs are compared: a study has a hundred points.
 
 /// Whether each point (cost, error) lies on the Pareto front, which no other point dominates.

@@ -45,7 +45,7 @@ impl ErrorGroup {
         }
     }
 
-    /// The name of the group in pictures.
+    /// The name of the group in charts.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

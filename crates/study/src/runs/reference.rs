@@ -3,8 +3,8 @@
 //! A reference is a pair of runs that differ in everything that can err: the number of modes (or of elements) and the
 //! method of integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the
 //! study must resolve, until a run exceeds its time limit, or until the list of the budget ends; the closest pair is
-//! kept. The difference d of the pair bounds what the reference can say: errors of settings are resolved from
-//! [`RESOLUTION_FACTOR`] d on.
+//! kept. The difference d of the pair limits the resolution of the reference: errors of settings are resolved if they
+//! exceed [`RESOLUTION_FACTOR`] d.
 
 use sim::{Method, Stepping};
 
@@ -23,7 +23,7 @@ use results::run_error;
 pub const RESOLUTION_FACTOR: f64 = 10.0;
 /// Ratio of the time limit of a reference to that of other runs.
 const LIMIT_FACTOR: f64 = 10.0;
-/// Resolution above which a reference says nothing about a group of columns.
+/// Resolution above which a reference is not used for a group of columns.
 const COARSEST: f64 = 0.1;
 /// Difference of a pair below which no finer pair is run.
 const SMALLEST_DIFFERENCE: f64 = 1e-9;
@@ -70,7 +70,7 @@ impl ConvergedReference {
         difference.map_or(f64::INFINITY, |difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))
     }
 
-    /// The same; `None` where that is coarser than 0.1, which says nothing of use.
+    /// The same; `None` where it is coarser than 0.1, which is of no use.
     #[must_use]
     pub fn resolution_of(&self, group: ErrorGroup) -> Option<f64> {
         Some(self.resolves(group)).filter(|least| *least <= COARSEST)
@@ -144,7 +144,7 @@ pub fn reference(
 struct Search {
     best: Option<ConvergedReference>,
     approach: Vec<(f64, f64)>,
-    /// Reason of the end, where a run did not reach its own.
+    /// Why the search ended, if a run was not completed.
     why: String,
 }
 
@@ -199,7 +199,7 @@ fn pair(
     accuracy: f64,
     limit: f64,
 ) -> Result<Result<[DescribedRun; 2], String>, Error> {
-    let none = || Err("no method integrates it".to_owned());
+    let none = || Err("no method can integrate the scene".to_owned());
     let (first, method, words) = match one(cache, &scenes[0], accuracy, Method::Auto, limit)? {
         Ok(Some(run)) => run,
         Ok(None) => return Ok(none()),
@@ -269,7 +269,7 @@ pub fn foundation(structure: &formats::scene::Structure) -> String {
     match structure.foundation {
         Foundation::Parts { count, .. } => format!("{word}, {count} parts"),
         Foundation::Modal { modes, .. } => format!("{word}, {modes} modes"),
-        Foundation::Full { elements, .. } => format!("{word}, {elements} elements a member"),
+        Foundation::Full { elements, .. } => format!("{word}, {elements} elements per member"),
         Foundation::Influence => format!("{word}, {}", structure.interpolation.word()),
         Foundation::Rigid | Foundation::Ties { .. } => word.to_owned(),
     }

@@ -1,4 +1,4 @@
-//! A study as JSON and CSV. Times stand in files of their own: they differ between runs.
+//! A study as JSON and CSV. Times are in separate files, because they differ between runs.
 
 use serde_json::{Map, Value, json};
 
@@ -32,7 +32,7 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
             }
             Err(why) => json!({ "why": why }),
         },
-        "dearer_by_stages": excess_costs(study, &stages),
+        "cost_ratio_by_stages": cost_ratios_json(study, &stages),
         "settings": points.map(|(k, own)| setting(own, &on(&fronts, k))).collect::<Vec<_>>(),
     })
 }
@@ -48,7 +48,7 @@ fn reference(own: &ConvergedReference) -> Value {
         "run": own.words[0],
         "beside": own.words[1],
         "difference": each(&|k| own.difference[k]),
-        "tells_from": each(&|k| own.difference[k].map(|difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))),
+        "resolution": each(&|k| own.difference[k].map(|difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))),
         "approach": own.approach.iter()
             .map(|(accuracy, difference)| json!({ "accuracy": accuracy, "difference": difference }))
             .collect::<Vec<_>>(),
@@ -97,7 +97,7 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
 /// Ratio of the cost of the first point of `family` to that of the cheapest setting with no larger error, for each
 /// group of columns: 1 on the Pareto front. Errors below the resolution of the reference count as equal to it.
 #[must_use]
-pub fn excesses(
+pub fn cost_ratios(
     study: &Study,
     family: SettingFamily,
     cost: &dyn Fn(&StudyPoint) -> Option<f64>,
@@ -116,10 +116,10 @@ pub fn excesses(
     ErrorGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// The same as JSON, for the scene as written (among foundations and among methods) and for the choice of "auto".
-fn excess_costs(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
+/// The cost ratios as JSON, of the scene as written (among foundations and among methods) and of the choice of "auto".
+fn cost_ratios_json(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
     let of = |family: SettingFamily| {
-        let all = excesses(study, family, cost).into_iter();
+        let all = cost_ratios(study, family, cost).into_iter();
         Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
     };
     json!({ "as written": of(SettingFamily::Written), "auto": of(SettingFamily::Auto), "stepping": of(SettingFamily::Stepping) })
@@ -177,7 +177,7 @@ pub fn timing_json(study: &Study) -> Value {
     let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
     json!({
         "clock": if cfg!(unix) { "time that the thread worked, s" } else { "time, s" },
-        "dearer": excess_costs(study, &StudyPoint::seconds),
+        "cost_ratio": cost_ratios_json(study, &StudyPoint::seconds),
         "settings": points.collect::<Vec<_>>(),
         "auto_with_its_trials": trials.map(|own| json!({
             "median": own.median, "least": own.min, "most": own.max, "repetitions": own.count,

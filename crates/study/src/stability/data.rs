@@ -38,8 +38,8 @@ fn map(own: &StabilityMap) -> Value {
 fn layer(own: &MapLayer) -> Value {
     let counts = MapVerdict::WORDS.iter().zip(own.counts());
     let mut messages: Vec<(&str, usize)> = Vec::new();
-    for cell in &own.points {
-        let MapVerdict::Refused(why) = &cell.verdict else { continue };
+    for point in &own.points {
+        let MapVerdict::Refused(why) = &point.verdict else { continue };
         match messages.iter_mut().find(|(known, _)| known == why) {
             Some((_, count)) => *count += 1,
             None => messages.push((why, 1)),
@@ -63,10 +63,10 @@ pub fn csv(maps: &[StabilityMap]) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(["map", "method", "x", "y", "verdict", "value"])?;
     for map in maps {
         for layer in &map.layers {
-            for cell in &layer.points {
-                let [x, y] = cell.at.map(|own| format!("{own:e}"));
-                let value = format!("{:e}", cell.value);
-                writer.write_record([map.name, &layer.method, &x, &y, cell.verdict.word(), &value])?;
+            for point in &layer.points {
+                let [x, y] = point.at.map(|own| format!("{own:e}"));
+                let value = format!("{:e}", point.value);
+                writer.write_record([map.name, &layer.method, &x, &y, point.verdict.word(), &value])?;
             }
         }
     }

@@ -130,18 +130,18 @@ impl TableQuality {
         lifted: Option<&BeamFit>,
     ) -> Result<Vec<ReadingFindings>, Error> {
         let mut out = Vec::new();
-        let Some(ways) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
-        let Some(frame) = self.frame(subject, settings, ways) else { return Ok(out) };
-        for manner in TableReadingMethod::ALL {
-            if manner == TableReadingMethod::Exact {
-                // the beam behind the table is a reading where another surface is the exact one
+        let Some(paths) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
+        let Some(frame) = self.frame(subject, settings, paths) else { return Ok(out) };
+        for method in TableReadingMethod::ALL {
+            if method == TableReadingMethod::Exact {
+                // the beam of the table counts as a reading where the exact surface is another one
                 if let (Some(lift), Truth::Surface) = (lifted, &self.truth) {
-                    out.push(ReadingFindings::of(manner, &strip(&lift.surface, UP), &frame)?);
+                    out.push(ReadingFindings::of(method, &strip(&lift.surface, UP), &frame)?);
                 }
                 continue;
             }
-            let Some(reading) = reading(subject, &self.item, manner) else { continue };
-            out.push(ReadingFindings::of(manner, &strip(reading.as_ref(), ways), &frame)?);
+            let Some(reading) = reading(subject, &self.item, method) else { continue };
+            out.push(ReadingFindings::of(method, &strip(reading.as_ref(), paths), &frame)?);
         }
         Ok(out)
     }
@@ -167,7 +167,7 @@ impl TableQuality {
         &'a self,
         subject: &'a TableSource,
         settings: &TableQualitySettings,
-        ways: [RailDirection; 2],
+        paths: [RailDirection; 2],
     ) -> Option<ReadingPlanes<'a>> {
         let table = &self.item.table;
         let own = |points: &[f64]| [points[0], points[points.len() - 1]];
@@ -177,7 +177,7 @@ impl TableQuality {
             range = [common(range[0], range[1]); 2];
         }
         let exact = match &self.truth {
-            Truth::Surface => subject.surface.as_ref().map(|surface| strip(surface, ways)),
+            Truth::Surface => subject.surface.as_ref().map(|surface| strip(surface, paths)),
             Truth::Lifted(lift) => Some(strip(&lift.surface, UP)),
             Truth::None => None,
         };
@@ -202,21 +202,22 @@ impl TableQuality {
         if let Some(spectrum) = self.spectrum.filter(|s| s.smallest < -slack - ROUNDING * s.largest) {
             self.verdicts.push(TableVerdict::Indefinite(spectrum));
         }
-        let Some((manner, tolerance)) = settings.judged else { return };
+        let Some((method, tolerance)) = settings.judged else { return };
         if self.item.paths.is_none() || self.is_empty() {
             return;
         }
         let error =
-            self.readings.iter().find(|reading| reading.method == manner).and_then(|found| found.error);
+            self.readings.iter().find(|reading| reading.method == method).and_then(|found| found.error);
         match error.map(|error| self.relative(&error)) {
             Some(error) if error <= tolerance => {}
-            Some(error) => self.verdicts.push(TableVerdict::Error(manner, error, tolerance)),
-            None => self.verdicts.push(TableVerdict::Unknown(manner)),
+            Some(error) => self.verdicts.push(TableVerdict::Error(method, error, tolerance)),
+            None => self.verdicts.push(TableVerdict::Unknown(method)),
         }
     }
 }
 
-/// The beam behind a table has one rail and gives its vertical deflections, whatever the direction of the table.
+/// Path of the beam whose coefficients a table holds: it has one rail and vertical deflections, whatever the direction of
+/// the table.
 pub(super) const UP: [RailDirection; 2] = [(0, Axis::Vertical); 2];
 /// Fraction of the largest eigenvalue below which a negative one is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -226,8 +227,8 @@ const UNCOUPLED: f64 = 1e-9;
 
 /// Geometric mean of the largest entries of the two direct tables of a coupling.
 fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
-    let largest = |way: RailDirection| {
-        let own = subject.items.iter().filter(|item| item.paths == Some([way; 2]));
+    let largest = |path: RailDirection| {
+        let own = subject.items.iter().filter(|item| item.paths == Some([path; 2]));
         own.map(|item| item.table.values().amax()).next()
     };
     let [deflection, load] = item.paths?;
@@ -238,13 +239,13 @@ fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
 pub(super) fn reading(
     subject: &TableSource,
     item: &TableItem,
-    manner: TableReadingMethod,
+    method: TableReadingMethod,
 ) -> Option<Box<dyn Compliance>> {
     let [deflection, load] = item.paths?;
     let own = InfluenceBlock { deflection, load, table: item.table.clone() };
     let all = subject.sheets();
-    let together = if all.contains(&own) { manner.read(&all).ok() } else { None };
-    together.or_else(|| manner.read(&[own]).ok())
+    let together = if all.contains(&own) { method.read(&all).ok() } else { None };
+    together.or_else(|| method.read(&[own]).ok())
 }
 
 /// Ends of the elements of the loaded rail; empty where they are unknown.

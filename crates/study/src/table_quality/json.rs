@@ -10,19 +10,18 @@ use super::subject::TableSource;
 /// Name of the format with its version.
 pub const FORMAT: &str = "girderway-check/1";
 
-/// All findings as one JSON text.
+/// All findings as JSON.
 #[must_use]
-pub fn json(subject: &TableSource, all: &[TableQuality]) -> String {
+pub fn json(subject: &TableSource, all: &[TableQuality]) -> Value {
     let tables: Vec<Value> = all.iter().map(table).collect();
-    let object = json!({
+    json!({
         "format": FORMAT,
         "file": subject.file,
         "units": subject.units.map(formats::units::Units::json),
         "passed": all.iter().all(|found| found.verdicts.is_empty()),
         "notes": subject.notes,
         "tables": tables,
-    });
-    format!("{object:#}\n")
+    })
 }
 
 fn table(found: &TableQuality) -> Value {
@@ -33,8 +32,8 @@ fn table(found: &TableQuality) -> Value {
         Truth::None => Value::Null,
     };
     let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
-    let hazards: Vec<Value> =
-        found.risks.iter().map(|h| json!({ "kind": h.word(), "text": h.to_string() })).collect();
+    let risks: Vec<Value> =
+        found.risks.iter().map(|risk| json!({ "kind": risk.word(), "text": risk.to_string() })).collect();
     let beyond: Vec<Value> = found
         .beyond
         .iter()
@@ -59,7 +58,7 @@ fn table(found: &TableQuality) -> Value {
         "exact": truth,
         "readings": found.readings.iter().map(|r| reading(found, r)).collect::<Vec<_>>(),
         "beyond": beyond,
-        "hazards": hazards,
+        "hazards": risks,
         "failed": failed,
     })
 }
@@ -85,10 +84,10 @@ fn reading(found: &TableQuality, reading: &ReadingFindings) -> Value {
 fn direct(object: &mut Value, own: &DirectFindings, load: Option<f64>) {
     object["asymmetry"] = extreme(&own.asymmetry);
     object["eigenvalues"] = json!([own.spectrum.smallest, own.spectrum.largest]);
-    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.indefinite_fractions).map(|((wheels, layout), share)| {
+    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.indefinite_fractions).map(|((wheels, layout), fraction)| {
         json!({
             "wheels": wheels, "at": layout.places, "eigenvalue": layout.smallest, "stiffness": layout.stiffness,
-            "indefinite_share": share,
+            "indefinite_share": fraction,
         })
     });
     object["layouts"] = layouts.collect();
@@ -121,9 +120,9 @@ fn verdict(verdict: &TableVerdict) -> Value {
         TableVerdict::Indefinite(s) => {
             json!({ "check": "positive-semidefinite", "eigenvalues": [s.smallest, s.largest] })
         }
-        TableVerdict::Error(manner, error, tolerance) => {
-            json!({ "check": "error", "reading": manner.word(), "error": error, "tolerance": tolerance })
+        TableVerdict::Error(method, error, tolerance) => {
+            json!({ "check": "error", "reading": method.word(), "error": error, "tolerance": tolerance })
         }
-        TableVerdict::Unknown(manner) => json!({ "check": "error", "reading": manner.word(), "error": null }),
+        TableVerdict::Unknown(method) => json!({ "check": "error", "reading": method.word(), "error": null }),
     }
 }

@@ -5,9 +5,9 @@ use splines::{
     TableReading, fit_beam,
 };
 
-/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam stands for
-/// the table.
-const MISFIT: f64 = 0.01;
+/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam is taken as the
+/// exact structure of the table.
+const BEAM_TOLERANCE: f64 = 0.01;
 
 /// A method of reading tables of influence coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -89,5 +89,5 @@ impl TableReadingMethod {
 /// A table that deviates from every such beam by more than 1 percent of its largest entry.
 pub fn beam_of(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
     let beam = fit_beam(rail, table)?;
-    if beam.error <= MISFIT { Ok(beam) } else { Err(Error::NoBeamFit) }
+    if beam.error <= BEAM_TOLERANCE { Ok(beam) } else { Err(Error::NoBeamFit) }
 }

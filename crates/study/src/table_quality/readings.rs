@@ -76,7 +76,7 @@ impl ReadingFindings {
     /// # Errors
     /// A place at which the reading or the exact surface cannot be evaluated.
     pub fn of(
-        manner: TableReadingMethod,
+        method: TableReadingMethod,
         strip: &CouplingBlock<'_>,
         frame: &ReadingPlanes<'_>,
     ) -> Result<ReadingFindings, Error> {
@@ -93,7 +93,7 @@ impl ReadingFindings {
         };
         let direct = strip.is_direct().then(|| direct(strip, &x, frame)).transpose()?;
         let span = frame.span.filter(|_| strip.is_direct()).map_or(Ok(None), |span| against([span; 2]))?;
-        Ok(ReadingFindings { method: manner, error: against(frame.range)?, span, direct })
+        Ok(ReadingFindings { method, error: against(frame.range)?, span, direct })
     }
 }
 
@@ -111,9 +111,9 @@ fn direct(
     let range = frame.range[0];
     let at = dense(breaks, range);
     let few = sample_places(breaks, range, SPECTRUM);
-    let mut shares = [0.0; 3];
-    for (share, wheels) in shares.iter_mut().zip(WHEELS) {
-        *share = indefinite_fraction(strip, wheels, LAYOUTS, range)?;
+    let mut fractions = [0.0; 3];
+    for (fraction, wheels) in fractions.iter_mut().zip(WHEELS) {
+        *fraction = indefinite_fraction(strip, wheels, LAYOUTS, range)?;
     }
     let largest =
         |kinks: Vec<SlopeJump>| kinks.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()));
@@ -128,7 +128,7 @@ fn direct(
         asymmetry: asymmetry(strip, &at)?,
         scale: strip.matrix(&few, &few)?.amax(),
         spectrum: spectrum(strip, &few)?,
-        indefinite_fractions: shares,
+        indefinite_fractions: fractions,
         layouts: weakest_layouts(strip, &WHEELS, &few)?,
         kink: largest(diagonal_slope_jumps(strip, range)?),
         pair,

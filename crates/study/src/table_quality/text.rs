@@ -63,10 +63,13 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
         short(x[x.len() - 1])
     );
     if found.item.paths.is_none() {
-        let _ = writeln!(out, "  a coupling by its name: it need not be symmetric, and is not read alone");
+        let _ = writeln!(
+            out,
+            "  a coupling, according to its name: it need not be symmetric and is not evaluated alone"
+        );
     }
     if found.is_empty() {
-        let _ = writeln!(out, "  no coupling: nothing but rounding beside the directions' own tables");
+        let _ = writeln!(out, "  no coupling: all values are rounding errors relative to the direct tables");
         return;
     }
     stations(out, found, units);
@@ -75,8 +78,8 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
         readings(out, found, units);
     }
     beyond(out, found, units);
-    for hazard in &found.risks {
-        let _ = writeln!(out, "  note: {hazard}");
+    for risk in &found.risks {
+        let _ = writeln!(out, "  note: {risk}");
     }
     for verdict in &found.verdicts {
         let _ = writeln!(out, "  FAILED: {}", sentence(verdict, units));
@@ -103,7 +106,7 @@ fn stations(out: &mut String, found: &TableQuality, units: Words) {
     if let Some(spectrum) = found.spectrum {
         let _ = writeln!(
             out,
-            "    eigenvalues from {} to {} {flexibility}; digits leave {} open",
+            "    eigenvalues from {} to {} {flexibility}; uncertainty of the digits {}",
             if spectrum.smallest.abs() < 1e-13 * spectrum.largest {
                 "0".to_owned()
             } else {
@@ -118,17 +121,17 @@ fn stations(out: &mut String, found: &TableQuality, units: Words) {
 /// The exact values that errors are measured against, in words.
 fn truth(found: &TableQuality, units: Words) -> String {
     match &found.truth {
-        Truth::Surface => "readings, errors against the exact surface of the grid file".to_owned(),
+        Truth::Surface => "readings, with errors relative to the exact surface of the grid file".to_owned(),
         Truth::Lifted(lift) => {
             let stiffness = units.of(Dimension::of(2, 1, 0));
             format!(
-                "readings, errors against the beam behind the table: EI = {} {stiffness}, {} % from its values",
+                "readings, with errors relative to the beam of the table: EI = {} {stiffness}, {} % from its values",
                 short(1.0 / lift.bending),
                 short(100.0 * lift.error)
             )
         }
         Truth::None => {
-            "readings; no beam in bending gives this table, so errors are not known: check its grid file"
+            "readings; no beam in bending has this table, so errors are unknown: check the grid file"
                 .to_owned()
         }
     }
@@ -188,11 +191,11 @@ fn loop_work(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let length = units.bracket(Dimension::LENGTH);
     let (factor, work) = match found.load {
         Some(load) => (load * load, format!("work of a loop of forces{}", units.bracket(Dimension::MOMENT))),
-        None => (1.0, format!("work of a loop by P^2{}", units.bracket(Dimension::FLEXIBILITY))),
+        None => (1.0, format!("work of a loop / P^2{}", units.bracket(Dimension::FLEXIBILITY))),
     };
     rows.add(&work, &|r| r.direct.as_ref().map(|d| short(factor * d.asymmetry.value)));
     rows.add(&format!("{work}, pair"), &|r| pair(r).map(|p| short(factor * p.work.work)));
-    rows.add("  of what the pair stores there (%)", &|r| {
+    rows.add("  relative to its stored energy (%)", &|r| {
         pair(r).map(|p| percent(p.work.work, p.work.stored))
     });
     rows.add(&format!("  first wheel at{length}"), &|r| {
@@ -202,7 +205,7 @@ fn loop_work(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
 
 /// Eigenvalues and indefinite layouts of wheels.
 fn definiteness(rows: &mut Rows<'_>, units: Words) {
-    rows.add("smallest eigenvalue, of the largest", &|r| {
+    rows.add("smallest eigenvalue / largest", &|r| {
         r.direct.as_ref().map(|d| rounded(d.spectrum.smallest / d.spectrum.largest.max(f64::MIN_POSITIVE)))
     });
     for (k, wheels) in WHEELS.into_iter().enumerate() {
@@ -249,7 +252,7 @@ fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     for row in found.beyond.iter().filter(|row| row.spread() > 1e-9 * scale) {
         let _ = writeln!(
             out,
-            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} {flexibility}: {} % of the largest entry apart",
+            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} {flexibility}; they differ by {} % of the largest entry",
             short(row.x),
             short(row.z),
             sharp(row.parabola),
@@ -266,24 +269,25 @@ fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
     let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
     match verdict {
         TableVerdict::Asymmetric(worst) => format!(
-            "not symmetric: T(x = {}, z = {}) and its opposite differ by {} {unit}; take their mean, or find out which is wrong",
+            "not symmetric: T(x = {}, z = {}) and the value with x and z exchanged differ by {} {unit}; use their mean, or determine \
+             which one is wrong",
             short(worst.x),
             short(worst.z),
             short(worst.value)
         ),
         TableVerdict::Indefinite(spectrum) => format!(
-            "not positive semi-definite: smallest eigenvalue {} {unit}, largest {}; no structure gives such a table",
+            "not positive semi-definite: smallest eigenvalue {} {unit}, largest {}; no structure has such a table",
             short(spectrum.smallest),
             short(spectrum.largest)
         ),
-        TableVerdict::Error(manner, error, tolerance) => format!(
-            "{} errs by {} %, {} % are allowed: more stations, or another reading",
-            manner.word(),
+        TableVerdict::Error(method, error, tolerance) => format!(
+            "{} errs by {} %, the tolerance is {} %: use more stations or another reading",
+            method.word(),
             short(100.0 * error),
             short(100.0 * tolerance)
         ),
-        TableVerdict::Unknown(manner) => {
-            format!("the error of {} is not known: nothing says what is exact", manner.word())
+        TableVerdict::Unknown(method) => {
+            format!("the error of {} is unknown, because no exact values are available", method.word())
         }
     }
 }
