@@ -1,9 +1,9 @@
 //! Values that crane engineers compare with a simulation: code values, fatigue damage, characteristics of
 //! signals.
 //!
-//! The crate works on plain numbers. It reads no files and does not depend on scenes or other crates of this workspace.
-//! Formulas without dimensional constants take any consistent units; the others require the units that they state, SI
-//! unless stated otherwise.
+//! The crate works on plain numbers. It reads no files and does not depend on scenes or other crates of this
+//! workspace. Formulas without dimensional constants take any consistent units; the others require the units that
+//! they state, SI unless stated otherwise.
 //!
 //! Where a comment says *not confirmed*, the value is from memory: it could not be compared with the text of
 //! its standard, or with a source that quotes or uses it. `docs/theory/practice.md` has the list.

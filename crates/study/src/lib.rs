@@ -1,8 +1,8 @@
 //! Accuracy against cost: a scene is run in many settings, and the errors of all are measured against converged
 //! references.
 //!
-//! In addition to studies ([`study()`]), the crate evaluates the quality of influence tables ([`table_quality`]), chooses
-//! the fewest stations of a table ([`stations`]), and maps where methods fail ([`stability`]).
+//! In addition to studies ([`study()`]), the crate evaluates the quality of influence tables ([`table_quality`]),
+//! chooses the fewest stations of a table ([`stations`]), and maps where methods fail ([`stability`]).
 //!
 //! # Example
 //! A Pareto front of measured points (cost, error):

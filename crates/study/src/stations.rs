@@ -1,8 +1,8 @@
 //! Tables of a grid at the fewest stations whose errors are within a tolerance.
 //!
-//! Stations of each rail are searched by [`splines::fewest_stations()`], which considers the direct blocks of this rail.
-//! Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them exceeds
-//! the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
+//! Stations of each rail are searched by [`splines::fewest_stations()`], which considers the direct blocks of this
+//! rail. Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them
+//! exceeds the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
 
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ use formats::grid::block::GridBlock;
 use formats::grid::{GridRail, StationGrid, axes};
 
 /// Largest number of stations of a rail.
-pub const MOST: usize = 400;
+pub const MAX_STATIONS: usize = 400;
 /// Smallest number of places along a rail at which blocks between two rails are evaluated.
 const PLACES: usize = 200;
 /// Largest number of searches with a smaller tolerance, and the factor between them.
@@ -103,7 +103,7 @@ fn attempt(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Re
             read: &|sheets: &[InfluenceBlock]| goal.method.read(sheets),
             order: goal.method.order(),
             tolerance: goal.tolerance,
-            max_stations: MOST,
+            max_stations: MAX_STATIONS,
         };
         rails.push(ChosenStations { rail: given.name.clone(), stations: splines::fewest_stations(&search)? });
     }

@@ -65,7 +65,8 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         let [time, work] = [ratios(&StudyPoint::seconds), ratios(&study::stages)];
         if !work.is_empty() {
             progress.say(&format!(
-                "{who}: cost relative to the cheapest setting with no larger error: time {time}; contact solutions {work}"
+                "{who}: cost relative to the cheapest setting with no larger error: time {time}; contact solutions \
+                 {work}"
             ));
         }
     }
@@ -153,8 +154,9 @@ fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
     match worst.filter(|worst| worst.worst_resolution() > budget.resolution) {
         None => Ok(Exit::Done),
         Some(worst) => Err(Failure::Untrusted(format!(
-            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
-             wheel forces below {:.1e} are not resolved; requested: {:.1e}  hint: raise --limit or --resolution",
+            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of \
+             deflections and wheel forces below {:.1e} are not resolved; requested: {:.1e}  hint: raise --limit or \
+             --resolution",
             worst.against.word(),
             worst.worst_resolution() / study::RESOLUTION_FACTOR,
             worst.worst_resolution(),

@@ -1,8 +1,8 @@
 //! The drawing backend of the pictures for plotters, which writes SVG elements in tenths of a pixel.
 //!
-//! The SVG backend of plotters repeats fonts, opacities and empty strokes in every element, has no groups, and writes a
-//! header with every picture. This one writes only attributes that differ from those of the root element, joins adjacent
-//! polygons in one path, and opens and closes groups, by which a page switches series on and off.
+//! The SVG backend of plotters repeats fonts, opacities and empty strokes in every element, has no groups, and writes
+//! a header with every picture. This one writes only attributes that differ from those of the root element, joins
+//! adjacent polygons in one path, and opens and closes groups, by which a page switches series on and off.
 
 use std::convert::Infallible;
 

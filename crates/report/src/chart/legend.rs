@@ -1,7 +1,7 @@
 //! The legend, which distinguishes the series without colour as well.
 //!
-//! The legend of plotters is a box over the data with one entry below the other, in a single element. Here the entries
-//! are in rows above the frame, each in groups of its own, so that a page can switch its series on and off.
+//! The legend of plotters is a box over the data with one entry below the other, in a single element. Here the
+//! entries are in rows above the frame, each in groups of its own, so that a page can switch its series on and off.
 
 use plotters::style::text_anchor::{HPos, VPos};
 

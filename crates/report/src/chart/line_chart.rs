@@ -40,7 +40,9 @@ const MARKER_ROW: f64 = 16.0;
 /// use report::chart::{ChartAxis, Chart, Series, Style};
 ///
 /// let deflection = (0..=60).map(|x| [f64::from(x), 0.5 * (f64::from(x) / 60.0 * 3.14).sin()]).collect();
-/// let chart = Chart::new("Path of the trunnion", ChartAxis::new("place", "ft"), ChartAxis::new("deflection", "ft").downwards())
+/// let axes = [ChartAxis::new("position", "ft"), ChartAxis::new("deflection", "ft").downwards()];
+/// let [x, y] = axes;
+/// let chart = Chart::new("Path of the trunnion", x, y)
 ///     .with(Series::new("influence", Style::Line, deflection))
 ///     .with(Series::new("rigid rail", Style::Dashed, vec![[0.0, 0.0], [60.0, 0.0]]))
 ///     .mark(30.0, "midspan");
@@ -105,12 +107,12 @@ impl Chart {
 
     /// Draws the chart.
     ///
-    /// Series without points appear only in the legend. Long series are thinned to at most four points in each half pixel,
-    /// which preserves their extremes.
+    /// Series without points appear only in the legend. Long series are thinned to at most four points in each half
+    /// pixel, which preserves their extremes.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::NotPositive`] and [`Error::Marker`] for points and markers that cannot be placed,
-    /// [`Error::NoData`] where no series has a point, [`Error::Range`] for an axis that cannot be drawn.
+    /// [`Error::NotFinite`], [`Error::NotPositive`] and [`Error::Marker`] for points and markers that cannot be
+    /// placed, [`Error::NoData`] where no series has a point, [`Error::Range`] for an axis that cannot be drawn.
     pub fn draw(&self) -> Result<Drawing, Error> {
         self.check()?;
         let layout = self.layout()?;

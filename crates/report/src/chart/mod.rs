@@ -2,8 +2,8 @@
 //!
 //! A [`Chart`] has curves over two axes, for SVG files and for the report; a [`SurfacePlot`] is an influence grid, a
 //! [`GirderPlot`] the side view of a girder. plotters draws them: its chart builder places the frame, its coordinates
-//! place the data, its mesh draws grid, ticks and labels, its series and elements the rest. This module adds a drawing
-//! backend that writes small SVG with groups, a coordinate with ticks of its own, and a few elements.
+//! place the data, its mesh draws grid, ticks and labels, its series and elements the rest. This module adds a
+//! drawing backend that writes small SVG with groups, a coordinate with ticks of its own, and a few elements.
 //!
 //! Files in their order, each of which imports from earlier ones only: `error`, `label`, `text`, `svg`; `backend`,
 //! `series`, `palette`, `elements`, `sheet`; `axis`, `scale`, `ticks`, `coordinate`, `frame`, `legend`; `thinning`,

@@ -83,8 +83,8 @@ impl SurfacePlot {
     /// Between the stations the map is linear along the edges of the grid's cells.
     ///
     /// # Errors
-    /// [`Error::NoData`], [`Error::Shape`], [`Error::Stations`] or [`Error::NotFinite`] for an invalid grid; the indices of
-    /// the last error are row and column.
+    /// [`Error::NoData`], [`Error::Shape`], [`Error::Stations`] or [`Error::NotFinite`] for an invalid grid; the
+    /// indices of the last error are row and column.
     pub fn svg(&self) -> Result<Svg, Error> {
         self.check()?;
         if self.at.len() <= TABLE && self.loads.len() <= TABLE { self.table() } else { self.map() }

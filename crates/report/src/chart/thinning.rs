@@ -2,10 +2,10 @@
 
 /// Indices of the points that remain of a polyline with far more points than the picture has columns.
 ///
-/// The points are divided into runs of consecutive points within one column of the width `column`. Of each run the first,
-/// lowest, highest and last point remain, in their order: at most four. The envelope of the curve is therefore that of
-/// all points to the last bit, also for curves whose x is not monotonic. Polylines of at most `limit` points are
-/// unchanged.
+/// The points are divided into runs of consecutive points within one column of the width `column`. Of each run the
+/// first, lowest, highest and last point remain, in their order: at most four. The envelope of the curve is therefore
+/// that of all points to the last bit, also for curves whose x is not monotonic. Polylines of at most `limit` points
+/// are unchanged.
 pub(super) fn thin(points: &[[f64; 2]], column: f64, limit: usize) -> Vec<usize> {
     if points.len() <= limit {
         return (0..points.len()).collect();

@@ -87,7 +87,8 @@ impl Ticks {
     }
 }
 
-/// Common power of ten, a multiple of 3, of labels whose largest absolute value is `largest`; 0 from 0.01 up to 10,000.
+/// Common power of ten, a multiple of 3, of labels whose largest absolute value is `largest`; 0 from 0.01 up to
+/// 10,000.
 pub(super) fn exponent(largest: f64) -> i32 {
     if largest == 0.0 || (0.01..1e4).contains(&largest) {
         return 0;

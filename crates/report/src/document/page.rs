@@ -207,7 +207,15 @@ fn shown(cell: &TableCell) -> Option<String> {
 /// The data of a chart for the display of values under the pointer, as JSON that is safe inside a script element.
 fn data(chart: &Chart, drawing: &Drawing) -> String {
     let frame = &drawing.frame;
-    let axis = |axis: &crate::chart::ChartAxis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
+    let axis = |axis: &crate::chart::ChartAxis, range: [f64; 2]| {
+        json!({
+            "label": axis.label,
+            "unit": axis.unit,
+            "range": range,
+            "log": axis.log,
+            "flip": axis.downwards,
+        })
+    };
     let [x, y] = frame.ranges();
     let list = |values: &[f64], axis: &crate::chart::ChartAxis, range| {
         if axis.log { plain(values) } else { coded(values, exponent(range)) }

@@ -1,7 +1,7 @@
 //! Figures of a run: charts, girder plots, the animation of the crane.
 //!
-//! `run_figure` is a figure with its name; `motion`, `rails`, `responses`, `structures` and `animation` make figures, and
-//! `run` collects those of a run in the order of the report.
+//! `run_figure` is a figure with its name; `motion`, `rails`, `responses`, `structures` and `animation` make figures,
+//! and `run` collects those of a run in the order of the report.
 
 pub mod animation;
 pub mod error;

@@ -93,7 +93,8 @@ pub fn wheels(run: &LabelledRun, input: &SimulationInput) -> Vec<RunFigure> {
     figures
 }
 
-/// Chart of one horizontal force, the `part` of a wheel, for the wheels with the largest ones; `None` if all are zero.
+/// Chart of one horizontal force, the `part` of a wheel, for the wheels with the largest ones; `None` if all are
+/// zero.
 fn horizontal(
     run: &LabelledRun,
     input: &SimulationInput,

@@ -51,8 +51,8 @@ fn chart(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
     }
     chart.note = notes.join(" ");
     let caption = format!(
-        "Sum of the {word} forces of all wheels on {rail} in every run. Means and frequencies are those of the last quarter; \
-         an excursion leaves the band of 5 % about the mean."
+        "Sum of the {word} forces of all wheels on {rail} in every run. Means and frequencies are those of the last \
+         quarter; an excursion leaves the band of 5 % about the mean."
     );
     Some(RunFigure::chart(format!("rail-{rail}-{word}"), caption, chart))
 }

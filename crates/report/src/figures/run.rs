@@ -9,8 +9,8 @@ use super::error::FigureError;
 use super::run_figure::{LabelledRun, RunFigure};
 use super::{animation, motion, rails, responses, structures};
 
-/// The figures of a scene and its comparisons: first those of the runs with their `outcomes`, with the comparisons in the
-/// same charts, then those of the structures, whose solutions are in `known`.
+/// The figures of a scene and its comparisons: first those of the runs with their `outcomes`, with the comparisons in
+/// the same charts, then those of the structures, whose solutions are in `known`.
 ///
 /// # Errors
 /// A figure that cannot be drawn or evaluated.

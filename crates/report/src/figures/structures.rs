@@ -14,8 +14,8 @@ use results::record::peak;
 /// Number of points along a rail at which smooth curves are sampled.
 const SAMPLES: usize = 61;
 
-/// Influence of one structure: the vertical and lateral grids at its stations and the exact surfaces between them. None for
-/// structures with several rails.
+/// Influence of one structure: the vertical and lateral grids at its stations and the exact surfaces between them.
+/// None for structures with several rails.
 ///
 /// # Errors
 /// A figure cannot be drawn, or its influence surface cannot be evaluated.
@@ -42,7 +42,8 @@ pub fn influence(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<R
             note: String::new(),
         };
         let caption = format!(
-            "The {word} grid at the stations: deflection at the station of the row per unit load at the station of the column."
+            "The {word} grid at the stations: deflection at the station of the row per unit load at the station of \
+             the column."
         );
         figures.push(RunFigure::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
         let Some(surface) = &solved.surface else { continue };
@@ -59,7 +60,8 @@ pub fn influence(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<R
         };
         figures.push(RunFigure::drawing(
             format!("influence-{name}-{word}"),
-            format!("The exact {word} influence surface, also between the stations; the simulation evaluates this surface."),
+            format!("The exact {word} influence surface, also between the stations; the simulation evaluates this \
+                     surface."),
             smooth.svg()?,
         ));
     }
@@ -74,8 +76,8 @@ fn dense(surface: &ExactSurface, axis: Direction, places: &[f64]) -> Result<Vec<
     Ok((0..probes.len()).map(|i| influence.value.row(i).iter().copied().collect()).collect())
 }
 
-/// The girder with its rail, deflected under the wheels at the time of the largest rail deflection under a wheel. `None`
-/// for structures that are not a straight girder, or without wheels.
+/// The girder with its rail, deflected under the wheels at the time of the largest rail deflection under a wheel.
+/// `None` for structures that are not a straight girder, or without wheels.
 ///
 /// # Errors
 /// A figure cannot be drawn, or its influence surface cannot be evaluated.

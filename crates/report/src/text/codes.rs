@@ -8,16 +8,17 @@ use results::codes::{CodeCheck, CodeComparison};
 /// Significant digits of values of codes; the codes themselves state no more.
 const DIGITS: usize = 5;
 
-/// The section on values of codes, with those of all runs that have any; `None` where the scene does not ask for them.
+/// The section on values of codes, with those of all runs that have any; `None` where the scene does not ask for
+/// them.
 #[must_use]
 pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<ReportSection> {
     let all: Vec<(&str, &CodeCheck)> =
         runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
     let (_, first) = *all.first()?;
     let mut section = ReportSection::new("Comparison with design codes").paragraph(
-        "Quantities of the runs compared with values of design codes for the same crane. Dynamic effects are included in \
-         the forces of the runs. The codes state values for design, to which their own partial factors apply: a run below \
-         a value is no proof of safety, and a run above it needs an explanation.",
+        "Quantities of the runs compared with values of design codes for the same crane. Dynamic effects are \
+         included in the forces of the runs. The codes state values for design, to which their own partial factors \
+         apply: a run below a value is no proof of safety, and a run above it needs an explanation.",
     );
     for (name, value, dimension) in first.measures.list() {
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));

@@ -21,8 +21,8 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
         section = section
             .paragraph(format!(
                 "Reactions of the ground on the structures, positive along the global axes, and internal forces at \
-                 named sections: influence lines times wheel forces, minus the inertia forces of the structure, {weight} \
-                 the dead load of the structures. The last column shows the dead load alone."
+                 named sections: influence lines times wheel forces, minus the inertia forces of the structure, \
+                 {weight} the dead load of the structures. The last column shows the dead load alone."
             ))
             .table(envelopes(scene, label, response));
     }
@@ -109,8 +109,8 @@ pub fn comparison(
         ("frequency", "Hz"),
     ];
     let caption = format!(
-        "Mean over the last quarter of each run, extremes, number of excursions from the band of 5 % about this mean, and \
-         the frequency of largest amplitude in that quarter.{rest}"
+        "Mean over the last quarter of each run, extremes, number of excursions from the band of 5 % about this \
+         mean, and the frequency of largest amplitude in that quarter.{rest}"
     );
     let columns = columns.map(|(name, unit)| TableColumn::new(name, unit)).into();
     Some(ReportSection::new("Comparison of the runs").table(ReportTable { caption, columns, rows }))
@@ -211,8 +211,8 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
     let mut table = ReportTable {
         caption: format!(
-            "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and span-to-deflection \
-             ratios."
+            "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and \
+             span-to-deflection ratios."
         ),
         columns: vec![
             TableColumn::new("rail", ""),

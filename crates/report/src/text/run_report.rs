@@ -14,8 +14,8 @@ use results::run_error;
 use results::warning;
 use sim::Method;
 
-/// Assembles the report of a document: `outcomes` has one result for each of its cases, `solved` the solved model of each
-/// structure, and `figures` those of the run.
+/// Assembles the report of a document: `outcomes` has one result for each of its cases, `solved` the solved model of
+/// each structure, and `figures` those of the run.
 #[must_use]
 pub fn report(
     document: &Document,
@@ -128,8 +128,8 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
     };
     let steps = if scene.stepping.step.is_some() { "equal steps" } else { "adaptive steps" };
     format!(
-        "from the equations of motion in contact-force form, integrated by {method} with {steps}; the times at which wheels \
-         leave or meet the rail are located"
+        "from the equations of motion in contact-force form, integrated by {method} with {steps}; the times at which \
+         wheels leave or meet the rail are located"
     )
 }
 
@@ -215,9 +215,10 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
 fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let energy = document.scene().units.label(Dimension::MOMENT);
     let mut table = ReportTable {
-        caption: "Energy audit: largest stored elastic energy, energy lost and supplied, and residual relative to the \
-                  largest stored energy."
-            .to_owned(),
+        caption:
+            "Energy audit: largest stored elastic energy, energy lost and supplied, and residual relative to \
+                  the largest stored energy."
+                .to_owned(),
         columns: vec![
             TableColumn::new("run", ""),
             TableColumn::new("largest stored", &energy),

@@ -21,7 +21,8 @@ pub struct Auto {
     pub trials: Option<TimeSpread>,
 }
 
-/// Lets "auto" choose every foundation that may vary, and returns its reasons and the scene on the chosen foundations.
+/// Lets "auto" choose every foundation that may vary, and returns its reasons and the scene on the chosen
+/// foundations.
 pub fn choose_foundations(
     scene: &Scene,
     known: &[SolvedStructure],

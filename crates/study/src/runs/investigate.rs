@@ -1,9 +1,10 @@
 //! A study: settings of a scene, their errors against converged references, and their costs.
 //!
 //! 1. "auto" chooses the foundations that the scene leaves to it.
-//! 2. Converged references are run, up to three (see [`ReferenceKind`]). Where none of them resolves deflections and wheel
-//!    forces to the end of the scene, the study ends earlier.
-//! 3. Every setting runs once: its largest errors in each group of columns, its counts of steps and stages, its memory.
+//! 2. Converged references are run, up to three (see [`ReferenceKind`]). Where none of them resolves deflections and
+//!    wheel forces to the end of the scene, the study ends earlier.
+//! 3. Every setting runs once: its largest errors in each group of columns, its counts of steps and stages, its
+//!    memory.
 //! 4. All settings that ran to their ends are timed, in repetitions that run all of them in turn.
 
 use sim::Stepping;
@@ -33,7 +34,8 @@ const SHORTEST: f64 = 0.25;
 /// The results of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Time, s, at which the study ends because no reference resolves errors after it; `None`: it ends with the scene.
+    /// Time, s, at which the study ends because no reference resolves errors after it; `None`: it ends with the
+    /// scene.
     pub until: Option<f64>,
     /// The converged runs that errors are measured against.
     pub references: Vec<ConvergedReference>,

@@ -61,8 +61,8 @@ impl ConvergedReference {
         ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
     }
 
-    /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs; infinite where it
-    /// has no column of the group.
+    /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs;
+    /// infinite where it has no column of the group.
     #[must_use]
     pub fn resolves(&self, group: ErrorGroup) -> f64 {
         let at = ErrorGroup::ALL.iter().position(|own| *own == group);

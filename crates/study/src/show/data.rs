@@ -17,6 +17,7 @@ use results::record::bytes;
 pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
     let fronts = fronts(study, &stages);
     let points = study.points.iter().enumerate();
+    let failed = study.failed_references.iter().map(|(own, why)| (own.word().to_owned(), json!(why)));
     json!({
         "format": "girderway-study/1",
         "name": scene.name,
@@ -24,7 +25,7 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
         "limit": budget.limit,
         "until": study.until,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
-        "lost": study.failed_references.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
+        "lost": failed.collect::<Map<String, Value>>(),
         "auto": match &study.auto {
             Ok(auto) => {
                 let all = auto.reasons.iter().map(|(name, why)| (name.clone(), json!(why)));
@@ -116,13 +117,18 @@ pub fn cost_ratios(
     ErrorGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// The cost ratios as JSON, of the scene as written (among foundations and among methods) and of the choice of "auto".
+/// The cost ratios as JSON, of the scene as written (among foundations and among methods) and of the choice of
+/// "auto".
 fn cost_ratios_json(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
     let of = |family: SettingFamily| {
         let all = cost_ratios(study, family, cost).into_iter();
         Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
     };
-    json!({ "as written": of(SettingFamily::Written), "auto": of(SettingFamily::Auto), "stepping": of(SettingFamily::Stepping) })
+    json!({
+        "as written": of(SettingFamily::Written),
+        "auto": of(SettingFamily::Auto),
+        "stepping": of(SettingFamily::Stepping),
+    })
 }
 
 /// Cost of a point as its number of contact solutions, where it ran to its end.

@@ -138,8 +138,8 @@ fn chart(
     ));
     let unfinished = shown.iter().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
     chart.note = format!(
-        "Largest difference at an output time relative to the largest value of the reference. Errors of points on the dashed \
-         line are not resolved. Reference: {}; second run: {}; difference of the two: {:.1e}.",
+        "Largest difference at an output time relative to the largest value of the reference. Errors of points on \
+         the dashed line are not resolved. Reference: {}; second run: {}; difference of the two: {:.1e}.",
         reference.words[0],
         reference.words[1],
         least / crate::runs::reference::RESOLUTION_FACTOR

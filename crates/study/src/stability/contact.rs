@@ -160,8 +160,8 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         "contact",
         "Methods of solving for contact forces",
         axes,
-        "Forces at rest after 50 passes or steps, compared with the solution of (G + I/k) F = d. On the line, k times the \
-         largest eigenvalue of G is 1.",
+        "Forces at rest after 50 passes or steps, compared with the solution of (G + I/k) F = d. On the line, k \
+         times the largest eigenvalue of G is 1.",
     );
     let both: [(&str, Vec<f64>); 2] = [("one wheel", vec![0.0]), ("truck", subject.offsets.clone())];
     let stiffnesses = spread(1e-3 * subject.stiffness, 1e3 * subject.stiffness, points);

@@ -46,11 +46,12 @@ fn layer(own: &MapLayer) -> Value {
         }
     }
     let counts = counts.map(|(word, count)| ((*word).to_owned(), json!(count)));
+    let messages = messages.iter().map(|(why, count)| json!({ "message": why, "points": count }));
     json!({
         "method": own.method,
         "is_girderway": own.is_ours,
         "counts": counts.collect::<Object<String, Value>>(),
-        "messages": messages.iter().map(|(why, count)| json!({ "message": why, "points": count })).collect::<Vec<_>>(),
+        "messages": messages.collect::<Vec<_>>(),
     })
 }
 

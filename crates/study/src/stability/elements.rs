@@ -1,8 +1,8 @@
 //! Rounding error of beam elements in double precision, against the number and the length of elements.
 //!
 //! A simply supported Euler-Bernoulli beam of unit length carries a unit force. Its elements are exact at nodes, so
-//! every difference from the closed form x^2 (1 - x)^2 / 3 is a rounding error: the condition number of the stiffness matrix
-//! grows with the fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky
+//! every difference from the closed form x^2 (1 - x)^2 / 3 is a rounding error: the condition number of the stiffness
+//! matrix grows with the fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky
 //! factorisation in doubles is compared with the library, which certifies a bound of its own error.
 
 use fea::{FactoredFrame, Member, Model, Rail, RailSegment, Support};
@@ -137,8 +137,8 @@ pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
         "elements",
         &title,
         axes("equal elements of a simply supported span"),
-        "Euler-Bernoulli elements, exact except for rounding; wrong if the error exceeds 1e-6. The line is the bound that \
-         girderway certifies.",
+        "Euler-Bernoulli elements, exact except for rounding; wrong if the error exceeds 1e-6. The line is the bound \
+         that girderway certifies.",
     );
     let many: Vec<Vec<f64>> = (1..=most).map(|i| vec![1.0 / f64::from(1 << i); 1 << i]).collect();
     fill(&mut equal, many.iter().map(|own| (own.len() as f64, own.clone(), own.len() / 2)));
@@ -146,8 +146,8 @@ pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
         "short-element",
         "One short element between two long ones: error in double precision",
         axes("length of the short element / span"),
-        "Two halves of a span and one short element between them; wrong if the error exceeds 1e-6. The line is the bound that \
-         girderway certifies.",
+        "Two halves of a span and one short element between them; wrong if the error exceeds 1e-6. The line is the \
+         bound that girderway certifies.",
     );
     let ratios = super::steps::spread(1e-9, 1e-1, 65);
     let few = ratios.into_iter().map(|ratio| (ratio, vec![0.5 - 0.5 * ratio, ratio, 0.5 - 0.5 * ratio], 1));

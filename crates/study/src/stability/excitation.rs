@@ -6,9 +6,9 @@
 //!
 //! M q'' + c B^T B q' + B^T (G + I/k)^-1 B q = 0.
 //!
-//! A structure only stores energy: G is symmetric and positive, and no eigenvalue has a positive real part. If a table
-//! is read with G(x, z) different from G(z, x), wheel forces do work in closed loops, so the motion can grow without
-//! any excitation. The map first searches the bogie that grows fastest on AKISPL without dampers (its
+//! A structure only stores energy: G is symmetric and positive, and no eigenvalue has a positive real part. If a
+//! table is read with G(x, z) different from G(z, x), wheel forces do work in closed loops, so the motion can grow
+//! without any excitation. The map first searches the bogie that grows fastest on AKISPL without dampers (its
 //! place, the offset of its centre of mass and its radius of gyration), then bisects the damper that stops this
 //! growth, and then evaluates the growth over place and damper for every reading. A last layer runs the simulator
 //! itself on the AKISPL table.
@@ -117,8 +117,8 @@ impl BogieFamily<'_, '_> {
         bogie.growth(&matrix)
     }
 
-    /// A bogie without dampers from three parameters: its position (0 to 1 along the span), the offset of its centre of mass
-    /// (-1 to 1, in half wheel distances) and its radius of gyration (0 to 1: 0.3 to 9 half wheel distances,
+    /// A bogie without dampers from three parameters: its position (0 to 1 along the span), the offset of its centre
+    /// of mass (-1 to 1, in half wheel distances) and its radius of gyration (0 to 1: 0.3 to 9 half wheel distances,
     /// logarithmically).
     fn candidate(&self, [place, offset, gyration]: [f64; 3]) -> Bogie {
         Bogie {
@@ -305,13 +305,13 @@ fn empty_map(subject: &MapSubject<'_>) -> StabilityMap {
         "excitation",
         "Self-excitation of a bogie at rest on influence tables",
         axes,
-        "Two wheels under a body with the centre of mass of largest growth; wrong where the motion grows: a structure only \
-         stores energy, but a table that is not symmetric supplies energy.",
+        "Two wheels under a body with the centre of mass of largest growth; wrong where the motion grows: a \
+         structure only stores energy, but a table that is not symmetric supplies energy.",
     )
 }
 
-/// Notes the largest work of a closed loop of the forces of two wheels at the distance `spacing`, and its ratio to the
-/// energy stored: zero for a symmetric compliance.
+/// Notes the largest work of a closed loop of the forces of two wheels at the distance `spacing`, and its ratio to
+/// the energy stored: zero for a symmetric compliance.
 fn note_loop_work(
     map: &mut StabilityMap,
     subject: &MapSubject<'_>,
@@ -334,8 +334,8 @@ fn note_loop_work(
 }
 
 /// Runs the simulator with one bogie on the AKISPL table for [`EFOLDINGS`] times the time in which its motion grows
-/// by the factor e. A growth rate below a hundredth of the frequency of the wheels is replaced by this hundredth, which
-/// limits the duration of the run.
+/// by the factor e. A growth rate below a hundredth of the frequency of the wheels is replaced by this hundredth,
+/// which limits the duration of the run.
 ///
 /// Returns whether the speed in the last tenth of the run is more than twice that in the first, and the energy
 /// residual of the run.

@@ -3,8 +3,8 @@
 //! The beam deflects by y = g(s) F under the mass, at the fraction s = v t / L of the span. With y and F relative to
 //! the static midspan deflection S = P L^3 / 48 E I and to the weight P, the motion is y'' = 16 beta (1 - F), beta =
 //! g L^2 / (16 v^2 S). For small beta the force becomes negative before the end of the span: the mass leaves the
-//! rail. A simulator whose contact can pull continues without a message; with a one-sided contact, contact is lost at the
-//! same position.
+//! rail. A simulator whose contact can pull continues without a message; with a one-sided contact, contact is lost at
+//! the same position.
 
 use std::ops::ControlFlow;
 
@@ -126,10 +126,11 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         "lift-off",
         "Loss of contact of a rigid mass that crosses a beam without mass",
         axes,
-        "Compared with Stokes' equation, integrated by 40,000 steps of Runge-Kutta 4. A bilateral contact pulls the wheel down \
-         after contact should be lost: wrong. The one-sided contact is right if it never pulls, the deflection before the loss \
-         of contact is within 2e-3 of the static one, and the position of the loss is within 1e-2 of the span. The passage ends \
-         at 0.98 of the span; the wheel is 30,000 times as stiff as the span.",
+        "Compared with Stokes' equation, integrated by 40,000 steps of Runge-Kutta 4. A bilateral contact pulls the \
+         wheel down after contact should be lost: wrong. The one-sided contact is right if it never pulls, the \
+         deflection before the loss of contact is within 2e-3 of the static one, and the position of the loss is \
+         within 1e-2 of the span. The passage ends at 0.98 of the span; the wheel is 30,000 times as stiff as the \
+         span.",
     );
     for beta in [100.0, 25.0, 10.0, 5.0, 2.0] {
         let right = reference(beta);

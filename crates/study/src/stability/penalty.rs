@@ -2,8 +2,8 @@
 //!
 //! The rail of a girder runs at the height h above its axis. The closed form of the lateral compliance of the rail at
 //! midspan is L^3 / 48 E I + h^2 L / (4 G J). A post of s times the bending stiffness of the girder adds its own h^3
-//! / (3 s), which is large if the post is soft; if it is stiff, the factorisation loses digits. The smallest error lies
-//! between these limits and grows with the number of elements. An exact offset has neither error.
+//! / (3 s), which is large if the post is soft; if it is stiff, the factorisation loses digits. The smallest error
+//! lies between these limits and grows with the number of elements. An exact offset has neither error.
 
 use fea::{CrossSection, FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use nalgebra::{DMatrix, DVector};
@@ -147,8 +147,8 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         "penalty",
         "A rail with an offset from the axis of its girder: stiff members or exact kinematics",
         axes,
-        "A soft post deflects, a stiff one loses digits; wrong if the error exceeds 1e-6. In girderway the offset is part of the \
-         kinematics, without a stiffness to choose.",
+        "A soft post deflects, a stiff one loses digits; wrong if the error exceeds 1e-6. In girderway the offset is \
+         part of the kinematics, without a stiffness to choose.",
     );
     map.note("torsional stiffness / lateral bending stiffness", beam.twist);
     map.note("height of the rail / span", beam.offset);

@@ -4,8 +4,8 @@
 //! 2 d s(t) z' + omega^2 s(t) z = 0, whose coefficients have the period L/v of a span. By Floquet's theorem the
 //! motion decays where the spectral radius of the matrix that maps (z, z') over one period (the monodromy matrix) is
 //! less than 1. The same holds for the solution of a stepper and its matrix: the stepper is wrong where its spectral
-//! radius exceeds 1 and that of the exact motion, which is computed by a fine Dormand-Prince integration. One map varies
-//! the step length over speed, the other the accuracy of adaptive steps.
+//! radius exceeds 1 and that of the exact motion, which is computed by a fine Dormand-Prince integration. One map
+//! varies the step length over speed, the other the accuracy of adaptive steps.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -54,7 +54,8 @@ impl Crossing<'_, '_> {
         1.0 / (1.0 + softness)
     }
 
-    /// Spectral radius of the monodromy matrix of a stepper with `count` steps over a span, which takes the time `period`.
+    /// Spectral radius of the monodromy matrix of a stepper with `count` steps over a span, which takes the time
+    /// `period`.
     fn radius(&self, (size, step): (usize, StepMethod), period: f64, count: usize) -> f64 {
         let stiffness = |t: f64| self.omega * self.omega * self.softening(t / period);
         let damping = |t: f64| self.damping * self.softening(t / period);
@@ -90,8 +91,8 @@ impl Crossing<'_, '_> {
     }
 
     /// Spectral radius of one crossing by the simulator, and the larger energy residual of its two runs: each run
-    /// starts with a unit value of z or z' and yields a column of the monodromy matrix. The error is the message of the
-    /// simulator.
+    /// starts with a unit value of z or z' and yields a column of the monodromy matrix. The error is the message of
+    /// the simulator.
     fn simulated(&self, stepping: Stepping, speed: f64, accuracy: f64) -> Result<(f64, f64), String> {
         let subject = self.subject;
         let law = subject.linear(subject.stiffness, subject.damping);
@@ -161,8 +162,8 @@ impl Motions {
     }
 }
 
-/// Verdict on the spectral radius of a stepper where that of the exact motion is `physical`. If the exact motion grows, the
-/// stepper may exceed its spectral radius by 2 %; otherwise the motion of the stepper must not grow.
+/// Verdict on the spectral radius of a stepper where that of the exact motion is `physical`. If the exact motion
+/// grows, the stepper may exceed its spectral radius by 2 %; otherwise the motion of the stepper must not grow.
 fn judge(radius: f64, physical: f64) -> MapVerdict {
     let allowed = if physical > 1.0 { TOLERATED * physical } else { 1.0 + GROWTH };
     MapVerdict::of(radius, allowed, OBVIOUS * allowed)
@@ -179,8 +180,9 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
         "steps",
         "Stability of a wheel on equal spans over the step length",
         axes,
-        "A wheel on a spring and a damper, whose force acts on the rail, crosses the longest span repeatedly. Wrong where the \
-         spectral radius of the steps over a span exceeds 1 and that of the exact motion (by 2 % where that motion grows).",
+        "A wheel on a spring and a damper, whose force acts on the rail, crosses the longest span repeatedly. Wrong \
+         where the spectral radius of the steps over a span exceeds 1 and that of the exact motion (by 2 % where \
+         that motion grows).",
     );
     map.note("frequency of the wheel on its spring, radian/s", omega);
     map.note("fraction of critical damping", 0.5 * crossing.damping / omega);
@@ -271,8 +273,8 @@ fn by_accuracy(crossing: &Crossing<'_, '_>, motions: &Motions, points: usize) ->
         "accuracies",
         "Stability of a wheel on equal spans over the accuracy",
         axes,
-        "The same crossing with adaptive steps of the requested accuracy; wrong where the spectral radius over a span exceeds 1 and \
-         that of the exact motion by a relative difference larger than the accuracy.",
+        "The same crossing with adaptive steps of the requested accuracy; wrong where the spectral radius over a \
+         span exceeds 1 and that of the exact motion by a relative difference larger than the accuracy.",
     );
     let mut map_points = Vec::new();
     for (speed, physical) in motions.each() {

@@ -2,8 +2,8 @@
 //!
 //! A beam on a Winkler bed of the stiffness u per length has the critical speed v_cr = (4 u E I / m^2)^(1/4). A
 //! constant force at the speed v deflects it by 1 / sqrt(1 - (v / v_cr)^2) times the static deflection. A rail
-//! without mass has the static deflection at any speed, which is silently wrong; a rail on ties with mass agrees with the
-//! formula.
+//! without mass has the static deflection at any speed, which is silently wrong; a rail on ties with mass agrees with
+//! the formula.
 
 use std::ops::ControlFlow;
 
@@ -23,7 +23,8 @@ const ALLOWED: f64 = 1e-2;
 const OBVIOUS: f64 = 10.0;
 /// Length of the rail relative to its characteristic length (4 E I / u)^(1/4).
 const LENGTH: f64 = 100.0;
-/// Highest speed relative to the critical one. At higher speeds, the motion is not steady within a rail of this length.
+/// Highest speed relative to the critical one. At higher speeds, the motion is not steady within a rail of this
+/// length.
 const FASTEST: f64 = 0.7;
 /// Stiffness of the wheel relative to that of the rail: so low that the force of the wheel is practically constant.
 const SOFT: f64 = 1e-4;
@@ -107,8 +108,8 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
         "ties",
         "A constant force on a rail on ties",
         axes,
-        "Mean over a tenth of a rail of 184 ties, 136 lb/yd on 3,000 psi. The line is 1 / sqrt(1 - (v / v_cr)^2), the solution for \
-         a Winkler bed. Wrong if the error exceeds 1e-2.",
+        "Mean over a tenth of a rail of 184 ties, 136 lb/yd on 3,000 psi. The line is 1 / sqrt(1 - (v / v_cr)^2), \
+         the solution for a Winkler bed. Wrong if the error exceeds 1e-2.",
     );
     map.note("critical speed, in/s", track.critical_speed);
     let mut layers = [("rail without mass", false), ("girderway, ties with mass", true)]

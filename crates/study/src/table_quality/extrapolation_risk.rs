@@ -147,7 +147,8 @@ impl fmt::Display for ExtrapolationRisk {
             ),
             ExtrapolationRisk::Uneven { spacing: [low, high] } => write!(
                 f,
-                "stations at unequal distances, {} to {}: ADAMS guarantees derivatives of AKISPL for equal distances only",
+                "stations at unequal distances, {} to {}: ADAMS guarantees derivatives of AKISPL for equal distances \
+                 only",
                 short(*low),
                 short(*high)
             ),
@@ -158,7 +159,8 @@ impl fmt::Display for ExtrapolationRisk {
             ),
             ExtrapolationRisk::Rectangle { shape: [rows, columns] } => write!(
                 f,
-                "{rows} curves of {columns} values: deflections and loads have different stations, so that the table cannot be symmetric"
+                "{rows} curves of {columns} values: deflections and loads have different stations, so that the table \
+                 cannot be symmetric"
             ),
             ExtrapolationRisk::Short { rail: [from, to] } => {
                 let [from, to] = [from, to].map(|x| short(*x));
@@ -178,7 +180,8 @@ impl fmt::Display for ExtrapolationRisk {
             ),
             ExtrapolationRisk::Negative { at, value } => write!(
                 f,
-                "{value:e} on the diagonal, at {at}: the deflection under a load is opposite to the load (check the signs of z and of the load)"
+                "{value:e} on the diagonal, at {at}: the deflection under a load is opposite to the load (check the \
+                 signs of z and of the load)"
             ),
             ExtrapolationRisk::Zero => f.write_str("all values are zero"),
         }

@@ -164,7 +164,9 @@ fn diagonal(
         chart = chart.mark(*support, "support");
     }
     let caption =
-        "Error of G(x, x), the compliance under a wheel that moves along the rail: reading minus exact value.".to_owned();
+        "Error of G(x, x), the compliance under a wheel that moves along the rail: reading minus exact \
+         value."
+            .to_owned();
     Ok(Some(TableFigure { picture: chart.into(), caption }))
 }
 

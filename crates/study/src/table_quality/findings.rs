@@ -216,8 +216,8 @@ impl TableQuality {
     }
 }
 
-/// Path of the beam whose coefficients a table holds: it has one rail and vertical deflections, whatever the direction of
-/// the table.
+/// Path of the beam whose coefficients a table holds: it has one rail and vertical deflections, whatever the
+/// direction of the table.
 pub(super) const UP: [RailDirection; 2] = [(0, Axis::Vertical); 2];
 /// Fraction of the largest eigenvalue below which a negative one is rounding.
 const ROUNDING: f64 = 1e-13;

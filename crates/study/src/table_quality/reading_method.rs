@@ -5,8 +5,8 @@ use splines::{
     TableReading, fit_beam,
 };
 
-/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam is taken as the
-/// exact structure of the table.
+/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam is taken as
+/// the exact structure of the table.
 const BEAM_TOLERANCE: f64 = 0.01;
 
 /// A method of reading tables of influence coefficients.
@@ -59,7 +59,8 @@ impl TableReadingMethod {
         }
     }
 
-    /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without couplings.
+    /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without
+    /// couplings.
     ///
     /// # Errors
     /// As [`TableReading::new`], [`FactoredTable::new`] and [`beam_of()`].

@@ -252,7 +252,8 @@ fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     for row in found.beyond.iter().filter(|row| row.spread() > 1e-9 * scale) {
         let _ = writeln!(
             out,
-            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} {flexibility}; they differ by {} % of the largest entry",
+            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} \
+             {flexibility}; they differ by {} % of the largest entry",
             short(row.x),
             short(row.z),
             sharp(row.parabola),
@@ -269,8 +270,8 @@ fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
     let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
     match verdict {
         TableVerdict::Asymmetric(worst) => format!(
-            "not symmetric: T(x = {}, z = {}) and the value with x and z exchanged differ by {} {unit}; use their mean, or determine \
-             which one is wrong",
+            "not symmetric: T(x = {}, z = {}) and the value with x and z exchanged differ by {} {unit}; use their \
+             mean, or determine which one is wrong",
             short(worst.x),
             short(worst.z),
             short(worst.value)

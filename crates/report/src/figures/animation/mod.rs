@@ -31,10 +31,10 @@ const FRAMES: usize = 400;
 /// A structure of which no model can be built.
 pub fn animation_figure(run: &LabelledRun, input: &SimulationInput) -> Result<Option<RunFigure>, Error> {
     let scene = run.scene;
-    let rides = scene.structures.iter().any(|structure| structure.carrier.is_some());
-    let hangs = scene.bodies.iter().any(|body| body.in_space);
+    let is_carrying = scene.structures.iter().any(|structure| structure.carrier.is_some());
+    let has_suspended = scene.bodies.iter().any(|body| body.in_space);
     let time = run.record.values("time");
-    if !(rides || hangs) || time.len() < 2 {
+    if !(is_carrying || has_suspended) || time.len() < 2 {
         return Ok(None);
     }
     let every = time.len().div_ceil(FRAMES);
@@ -58,9 +58,10 @@ pub fn animation_figure(run: &LabelledRun, input: &SimulationInput) -> Result<Op
     let bottom = section::draw(&view, &mut drawing, top + 34.0);
     let unit = scene.units.label(Dimension::FORCE);
     let caption = format!(
-        "The crane from above and along its runway at t = {:.2} s, when a wheel of the runway presses hardest: \
-         {} {unit} ({}). Black bars: vertical forces of its wheels, orange: lateral ones; blue: those of wheels on the bridge, at half the \
-         scale; below: the sums of each rail. It moves where scripts run.",
+        "The crane from above and along its runway at t = {:.2} s, when the vertical force of a wheel on the runway \
+         is largest: {} {unit} ({}). Black bars: vertical forces of wheels on the runway; orange: their lateral \
+         forces; blue: vertical forces of wheels on the bridge, at half the scale; lower view: sums for each rail. \
+         The animation requires scripts.",
         time[view.rows[view.still]],
         number(most, 4).unwrap_or_default(),
         run.label,

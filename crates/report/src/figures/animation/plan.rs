@@ -131,8 +131,8 @@ impl<'p> Plan<'p> {
         }
     }
 
-    /// Bars for the forces of a wheel at `[x, y]`, away from the middle of the ranges of all wheels of its body. Wheels on
-    /// a bridge have one bar, at half the scale.
+    /// Bars for the forces of a wheel at `[x, y]`, away from the middle of the ranges of all wheels of its body.
+    /// Wheels on a bridge have one bar, at half the scale.
     fn draw_forces(
         &self,
         drawing: &mut PlanDrawing,

@@ -78,8 +78,8 @@ impl<'s> Section<'s> {
         (self.top + (self.high[1] - self.low[1]) * self.scale + 10.0).max(below)
     }
 
-    /// A rail at the lateral coordinate `z` with its name and the sums of the forces of its wheels; `inner` is the sign of
-    /// the direction to the middle of the runway.
+    /// A rail at the lateral coordinate `z` with its name and the sums of the forces of its wheels; `inner` is the
+    /// sign of the direction to the middle of the runway.
     fn draw_rail(&self, drawing: &mut PlanDrawing, rail: usize, z: f64, inner: f64) {
         let view = self.view;
         let at = self.place([z, 0.0]);
