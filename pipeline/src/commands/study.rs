@@ -146,9 +146,9 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 
 /// Checks that the reference solutions resolve the error that the budget requires.
 fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
-    if let Some((against, why)) = study.failed_references.first() {
+    if let Some((kind, why)) = study.failed_references.first() {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
-        return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
+        return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", kind.word())));
     }
     let worst = study.references.iter().max_by(|a, b| a.worst_resolution().total_cmp(&b.worst_resolution()));
     match worst.filter(|worst| worst.worst_resolution() > budget.resolution) {
@@ -157,7 +157,7 @@ fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
             "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of \
              deflections and wheel forces below {:.1e} are not resolved; requested: {:.1e}  hint: raise --limit or \
              --resolution",
-            worst.against.word(),
+            worst.kind.word(),
             worst.worst_resolution() / study::RESOLUTION_FACTOR,
             worst.worst_resolution(),
             budget.resolution

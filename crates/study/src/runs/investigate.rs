@@ -50,8 +50,8 @@ pub struct Study {
 impl Study {
     /// The reference of one kind, where it could be run.
     #[must_use]
-    pub fn reference(&self, against: ReferenceKind) -> Option<&ConvergedReference> {
-        self.references.iter().find(|own| own.against == against)
+    pub fn reference(&self, kind: ReferenceKind) -> Option<&ConvergedReference> {
+        self.references.iter().find(|own| own.kind == kind)
     }
 }
 
@@ -107,14 +107,14 @@ pub fn study(
 
 /// Reports the smallest error that a reference resolves in each group.
 fn report_resolution(reference: &ConvergedReference, observer: &dyn Observer) {
-    let resolved = ErrorGroup::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
+    let resolved = ErrorGroup::ALL.iter().filter(|own| reference.resolution(**own).is_finite());
     let resolved: Vec<String> =
-        resolved.map(|own| format!("{} from {:.1e}", own.name(), reference.resolves(*own))).collect();
+        resolved.map(|own| format!("{} from {:.1e}", own.name(), reference.resolution(*own))).collect();
     observer.message(&format!(
         "reference \"{}\" resolves errors of {}: {}",
-        reference.against.word(),
+        reference.kind.word(),
         resolved.join(", "),
-        reference.words[0]
+        reference.descriptions[0]
     ));
 }
 
@@ -140,7 +140,7 @@ fn settings(
     if !kinds.varies {
         // there is no other foundation to compare with: only the scene's own can be run
         settings.retain(|setting| {
-            setting.family.against() == ReferenceKind::Own || setting.family == SettingFamily::Written
+            setting.family.reference_kind() == ReferenceKind::Own || setting.family == SettingFamily::Written
         });
     }
     settings
@@ -160,12 +160,12 @@ fn measure_all(
     let mut cases = Vec::new();
     let mut points = Vec::new();
     for (index, setting) in settings.into_iter().enumerate() {
-        let against = if kinds.varies { setting.family.against() } else { ReferenceKind::Own };
-        let reference = references.iter().find(|own| own.against == against);
+        let kind = if kinds.varies { setting.family.reference_kind() } else { ReferenceKind::Own };
+        let reference = references.iter().find(|own| own.kind == kind);
         let (case, outcome) = match reference {
             Some(reference) => measure(cache, &setting, reference, budget),
             None => {
-                let why = failed.iter().find(|(own, _)| *own == against).map_or("", |(_, why)| why.as_str());
+                let why = failed.iter().find(|(own, _)| *own == kind).map_or("", |(_, why)| why.as_str());
                 (None, PointOutcome::Refused(why.to_owned()))
             }
         };
@@ -198,15 +198,15 @@ fn references(
     let mut references: Vec<ConvergedReference> = Vec::new();
     let mut failed = Vec::new();
     let mut seen: Vec<Scene> = Vec::new();
-    for (against, make, meshes) in all {
-        if against != ReferenceKind::Own && !kinds.varies {
+    for (kind, make, meshes) in all {
+        if kind != ReferenceKind::Own && !kinds.varies {
             continue;
         }
         let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(MeshDetail::Modes(2)) };
         let same = seen.iter().position(|own| *own == plain);
         let reference = match same {
-            Some(at) => Ok(ConvergedReference { against, ..ConvergedReference::clone(&references[at]) }),
-            None => reference(cache, against, make, meshes, budget),
+            Some(at) => Ok(ConvergedReference { kind, ..ConvergedReference::clone(&references[at]) }),
+            None => reference(cache, kind, make, meshes, budget),
         };
         match reference {
             Ok(reference) => {
@@ -215,8 +215,8 @@ fn references(
             }
             Err(error) => {
                 let why = error.to_string();
-                observer.message(&format!("reference \"{}\": {why}", against.word()));
-                failed.push((against, why));
+                observer.message(&format!("reference \"{}\": {why}", kind.word()));
+                failed.push((kind, why));
             }
         }
     }
@@ -281,7 +281,7 @@ mod tests {
     use crate::measure::deviation::ComparedColumns;
 
     /// Two runs of ten seconds whose wheel forces differ by a tenth from `time` on.
-    fn diverging(against: ReferenceKind, time: usize) -> ConvergedReference {
+    fn diverging(kind: ReferenceKind, time: usize) -> ConvergedReference {
         let trace = |shift: f64| {
             let force = |k: usize| if k < time { 1.0 } else { 1.0 + shift };
             let columns = vec![
@@ -290,7 +290,7 @@ mod tests {
             ];
             ComparedColumns { time: (0..11).map(|k| k as f64).collect(), columns }
         };
-        ConvergedReference::new(against, trace(0.0), trace(0.1), Default::default())
+        ConvergedReference::new(kind, trace(0.0), trace(0.1), Default::default())
     }
 
     #[test]

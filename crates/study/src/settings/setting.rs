@@ -96,7 +96,7 @@ impl SettingFamily {
 
     /// The kind of reference that its errors are measured against.
     #[must_use]
-    pub const fn against(self) -> ReferenceKind {
+    pub const fn reference_kind(self) -> ReferenceKind {
         match self {
             SettingFamily::Adaptive(_) | SettingFamily::Fixed(_) | SettingFamily::Stepping => {
                 ReferenceKind::Own

@@ -45,9 +45,9 @@ fn reference(own: &ConvergedReference) -> Value {
         all.filter_map(|(k, q)| Some((q.word().to_owned(), json!(value(k)?)))).collect::<Map<String, Value>>()
     };
     json!({
-        "against": own.against.word(),
-        "run": own.words[0],
-        "beside": own.words[1],
+        "against": own.kind.word(),
+        "run": own.descriptions[0],
+        "beside": own.descriptions[1],
         "difference": each(&|k| own.difference[k]),
         "resolution": each(&|k| own.difference[k].map(|difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))),
         "approach": own.approach.iter()
@@ -64,7 +64,7 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
         "family": setting.family.name(),
         setting.parameter: setting.value,
         "accuracy": setting.scene.accuracy,
-        "against": setting.family.against().word(),
+        "against": setting.family.reference_kind().word(),
         "foundation": structures.collect::<Map<String, Value>>(),
     });
     match outcome {
@@ -103,11 +103,11 @@ pub fn cost_ratios(
     family: SettingFamily,
     cost: &dyn Fn(&StudyPoint) -> Option<f64>,
 ) -> Vec<(ErrorGroup, f64)> {
-    let Some(reference) = study.reference(family.against()) else { return Vec::new() };
+    let Some(reference) = study.reference(family.reference_kind()) else { return Vec::new() };
     let of = |quantity: ErrorGroup| {
-        let least = reference.resolution_of(quantity)?;
+        let least = reference.usable_resolution(quantity)?;
         let place = |point: &StudyPoint| Some([cost(point)?, point.error(quantity)?.max(least)]);
-        let all = study.points.iter().filter(|point| point.setting.family.against() == reference.against);
+        let all = study.points.iter().filter(|point| point.setting.family.reference_kind() == reference.kind);
         let all: Vec<(SettingFamily, [f64; 2])> =
             all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
         let own = all.iter().find(|(known, _)| *known == family)?.1;
@@ -142,12 +142,12 @@ fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<u
     let of = |quantity: ErrorGroup| {
         let mut kept = Vec::new();
         for reference in &study.references {
-            let least = reference.resolves(quantity);
+            let least = reference.resolution(quantity);
             let (at, pairs): (Vec<usize>, Vec<[f64; 2]>) = study
                 .points
                 .iter()
                 .enumerate()
-                .filter(|(_, point)| point.setting.family.against() == reference.against)
+                .filter(|(_, point)| point.setting.family.reference_kind() == reference.kind)
                 .filter_map(|(k, point)| Some((k, [cost(point)?, point.error(quantity)?.max(least)])))
                 .unzip();
             kept.extend(at.into_iter().zip(on_front(&pairs)).filter(|(_, on)| *on).map(|(k, _)| k));
@@ -206,9 +206,9 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(&head)?;
     for point in &study.points {
         let StudyPoint { setting, outcome } = point;
-        let (family, against) = (setting.family, setting.family.against());
+        let (family, kind) = (setting.family, setting.family.reference_kind());
         let mut row = vec![family.name(), setting.parameter.to_owned(), format!("{:?}", setting.value)];
-        row.push(against.word().to_owned());
+        row.push(kind.word().to_owned());
         row.push(
             match outcome {
                 PointOutcome::Done(_) => "done",

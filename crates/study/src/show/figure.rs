@@ -36,13 +36,13 @@ type Filter = fn(SettingFamily) -> bool;
 
 /// Families that vary the foundation.
 fn is_foundation(family: SettingFamily) -> bool {
-    family.against() == ReferenceKind::Whole
+    family.reference_kind() == ReferenceKind::Whole
         && !matches!(family, SettingFamily::Written | SettingFamily::Auto)
 }
 
 /// Families that vary the method of integration.
 fn is_method(family: SettingFamily) -> bool {
-    family.against() == ReferenceKind::Own
+    family.reference_kind() == ReferenceKind::Own
 }
 
 /// Families that read tables.
@@ -112,9 +112,9 @@ fn chart(
     let shown: Vec<&StudyPoint> =
         study.points.iter().filter(|point| is_shown(point.setting.family)).collect();
     let first = &shown.first()?.setting;
-    let against = first.family.against();
-    let reference = study.reference(against)?;
-    let least = reference.resolution_of(quantity)?;
+    let kind = first.family.reference_kind();
+    let reference = study.reference(kind)?;
+    let least = reference.usable_resolution(quantity)?;
     // errors below the resolution of the reference are drawn at this resolution
     let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
     let title = title(study, name, what, cost, first.parameter, quantity);
@@ -125,7 +125,7 @@ fn chart(
         return None;
     }
     if cost != Cost::Parameter {
-        marks(study, &mut chart, &mut all, cost, against, &place);
+        marks(study, &mut chart, &mut all, cost, kind, &place);
         // first: below the points, and in the darkest colour
         chart.series.insert(0, Series::new("Pareto front", Style::Step, front(&all)));
     }
@@ -140,8 +140,8 @@ fn chart(
     chart.note = format!(
         "Largest difference at an output time relative to the largest value of the reference. Errors of points on \
          the dashed line are not resolved. Reference: {}; second run: {}; difference of the two: {:.1e}.",
-        reference.words[0],
-        reference.words[1],
+        reference.descriptions[0],
+        reference.descriptions[1],
         least / crate::runs::reference::RESOLUTION_FACTOR
     );
     if unfinished > 0 {
@@ -219,10 +219,10 @@ fn marks(
     chart: &mut Chart,
     all: &mut Vec<[f64; 2]>,
     cost: Cost,
-    against: ReferenceKind,
+    kind: ReferenceKind,
     place: &dyn Fn(&StudyPoint) -> Option<[f64; 2]>,
 ) {
-    if against != ReferenceKind::Whole {
+    if kind != ReferenceKind::Whole {
         return;
     }
     for (family, label) in [(SettingFamily::Written, "as written"), (SettingFamily::Auto, "choice of auto")] {
