@@ -100,7 +100,7 @@ fn attempt(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Re
             axes: &goal.axes,
             range,
             fixed: &surface.breaks(rail),
-            read: &|sheets: &[InfluenceBlock]| goal.method.read(sheets),
+            read: &|blocks: &[InfluenceBlock]| goal.method.read(blocks),
             order: goal.method.order(),
             tolerance: goal.tolerance,
             max_stations: MAX_STATIONS,
@@ -124,9 +124,9 @@ pub fn at(grid: &StationGrid, surface: &ExactSurface, rails: Vec<GridRail>) -> R
         let (deflection, load) = axes(*quantity);
         let parts = out.rails.iter().enumerate().map(|(r, row)| {
             let parts = out.rails.iter().enumerate().map(|(c, column)| {
-                let strip =
+                let block =
                     CouplingBlock { compliance: surface, deflection: (r, deflection), load: (c, load) };
-                strip.matrix(&row.stations, &column.stations)
+                block.matrix(&row.stations, &column.stations)
             });
             parts.collect::<Result<Vec<_>, _>>()
         });
@@ -158,8 +158,8 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
     if goal.method == TableReadingMethod::Exact {
         return Ok(Vec::new());
     }
-    let sheets = sheets(grid)?;
-    let reading = goal.method.read(&sheets)?;
+    let blocks = blocks(grid)?;
+    let reading = goal.method.read(&blocks)?;
     let at_rails: Vec<Vec<f64>> = grid
         .rails
         .iter()
@@ -173,18 +173,17 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
         Ok::<f64, Error>(CouplingBlock::direct(surface, (rail, axis)).matrix(at, at)?.amax())
     };
     let mut out = Vec::new();
-    for InfluenceBlock { deflection, load, .. } in &sheets {
+    for InfluenceBlock { deflection, load, .. } in &blocks {
         let own = deflection.0 == load.0;
         if own && goal.axes.contains(&deflection.1) && goal.axes.contains(&load.1) {
             continue;
         }
-        let strips = [reading.as_ref(), surface as &dyn Compliance].map(|compliance| CouplingBlock {
+        let pair = [reading.as_ref(), surface as &dyn Compliance].map(|compliance| CouplingBlock {
             compliance,
             deflection: *deflection,
             load: *load,
         });
-        let error_of_block =
-            reading_error(&strips[0], &strips[1], &at_rails[load.0], &at_rails[deflection.0])?;
+        let error_of_block = reading_error(&pair[0], &pair[1], &at_rails[load.0], &at_rails[deflection.0])?;
         let scale = (largest(*deflection)? * largest(*load)?).sqrt();
         let error = if scale > 0.0 { error_of_block.largest.value.abs() / scale } else { 0.0 };
         out.push(BlockError { paths: [*deflection, *load], error, worst: error_of_block.largest });
@@ -193,7 +192,7 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
 }
 
 /// All blocks as tables: a direct block between two rails once, couplings in both orders.
-fn sheets(grid: &StationGrid) -> Result<Vec<InfluenceBlock>, Error> {
+fn blocks(grid: &StationGrid) -> Result<Vec<InfluenceBlock>, Error> {
     let mut out = Vec::new();
     let mut top = 0;
     for (r, row) in grid.rails.iter().enumerate() {

@@ -16,9 +16,10 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
         runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
     let (_, first) = *all.first()?;
     let mut section = ReportSection::new("Comparison with design codes").paragraph(
-        "Quantities of the runs compared with values of design codes for the same crane. Dynamic effects are \
-         included in the forces of the runs. The codes state values for design, to which their own partial factors \
-         apply: a run below a value is no proof of safety, and a run above it needs an explanation.",
+        "Quantities of the runs compared with values of design codes for the same crane. The forces of the runs are \
+         those of the moving loads, without the dead load of the structures. The codes state values for design, to \
+         which their own partial factors apply: a run below a value is no proof of safety, and a run above it needs \
+         an explanation.",
     );
     for (name, value, dimension) in first.measures.list() {
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));

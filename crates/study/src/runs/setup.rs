@@ -62,7 +62,7 @@ impl<'k> SetupCache<'k> {
         let scene = setting.scene.clone();
         let input = simulation_input(&scene)?;
         let mut built = self.build(&scene, setting.stations)?;
-        if setting.family.is_pure() {
+        if setting.family.omits_residual() {
             for own in built.iter_mut().filter(|own| own.foundation.structure.is_some()) {
                 own.foundation.compliance = None;
             }

@@ -108,7 +108,7 @@ impl SettingFamily {
 
     /// Whether the natural modes are used without residual flexibility.
     #[must_use]
-    pub const fn is_pure(self) -> bool {
+    pub const fn omits_residual(self) -> bool {
         matches!(self, SettingFamily::ModalWithoutResidual)
     }
 }

@@ -319,10 +319,10 @@ fn note_loop_work(
     compliance: &dyn Compliance,
     spacing: f64,
 ) -> Result<(), String> {
-    let strip = CouplingBlock::direct(compliance, (0, Axis::Vertical));
+    let block = CouplingBlock::direct(compliance, (0, Axis::Vertical));
     let places: Vec<f64> =
         (0..=600).map(|i| subject.span[0] + subject.length() * f64::from(i) / 600.0).collect();
-    let largest = loop_work(&strip, spacing, &places).map_err(|error| error.to_string())?;
+    let largest = loop_work(&block, spacing, &places).map_err(|error| error.to_string())?;
     map.note(
         format!("{name}: work of a closed loop of two wheels' forces"),
         largest.work * subject.load * subject.load,

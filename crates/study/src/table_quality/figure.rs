@@ -4,9 +4,9 @@ use splines::Error;
 use splines::quality::{CouplingBlock, sample_places};
 
 use super::digits::short;
-use super::findings::{TableQuality, Truth, UP, reading};
+use super::findings::{ExactValues, TableQuality, UP, reading};
 use super::reading_method::TableReadingMethod;
-use super::readings::{map, strip};
+use super::readings::{coupling_block, map};
 use super::subject::TableSource;
 use formats::units::Dimension;
 use report::chart::{self, Chart, ChartAxis, Series, Style, SurfacePlot, Svg};
@@ -49,9 +49,9 @@ pub fn figures(
 ) -> Result<Vec<TableFigure>, Box<dyn std::error::Error>> {
     let mut out = Vec::new();
     let Some(paths) = found.item.paths else { return Ok(out) };
-    let exact = match (&found.truth, &subject.surface) {
-        (Truth::Surface, Some(surface)) => strip(surface, paths),
-        (Truth::Lifted(lift), _) => strip(&lift.surface, UP),
+    let exact = match (&found.exact_values, &subject.surface) {
+        (ExactValues::Surface, Some(surface)) => coupling_block(surface, paths),
+        (ExactValues::Beam(beam), _) => coupling_block(&beam.surface, UP),
         _ => return Ok(out),
     };
     let table = &found.item.table;
@@ -101,7 +101,7 @@ fn error_map(
     let Some(reading) = reading(subject, &found.item, method) else { return Ok(None) };
     let (x, z) = (sample_places(table.x(), x, MAP), sample_places(table.z(), z, MAP));
     let scale = scale(found);
-    let mut values = map(&strip(reading.as_ref(), paths), exact, &z, &x)?;
+    let mut values = map(&coupling_block(reading.as_ref(), paths), exact, &z, &x)?;
     values.iter_mut().flatten().for_each(|value| *value *= 100.0 / scale);
     let plot = SurfacePlot {
         title: format!("{title}: {} minus exact", method.word()),
@@ -149,7 +149,7 @@ fn diagonal(
         found.readings.iter().enumerate().filter(|(_, r)| r.method != TableReadingMethod::Exact)
     {
         let Some(reading) = reading(subject, &found.item, one.method) else { continue };
-        let own = strip(reading.as_ref(), paths);
+        let own = coupling_block(reading.as_ref(), paths);
         let mut points = Vec::with_capacity(x.len());
         for &x in &x {
             points.push([x, 100.0 * (own.at(x, x)? - exact.at(x, x)?) / scale]);
@@ -227,7 +227,7 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
             direct.and_then(|d| d.layouts.last()).map_or(report::TableCell::Empty, |layout| {
                 layout.stiffness.map_or_else(|| "never".into(), report::TableCell::Number)
             }),
-            number(direct.and_then(|d| d.kink).map(|k| k.jump())),
+            number(direct.and_then(|d| d.slope_jump).map(|k| k.jump())),
         ]);
     }
     table

@@ -8,7 +8,7 @@ use splines::{Axis, BeamFit, Compliance, Error, InfluenceBlock};
 
 use super::extrapolation_risk::ExtrapolationRisk;
 use super::reading_method::{TableReadingMethod, beam_of};
-use super::readings::{ReadingFindings, ReadingPlanes, strip};
+use super::readings::{ReadingFindings, ReadingPlanes, coupling_block};
 use super::subject::{TableItem, TableSource};
 
 /// Settings of an evaluation.
@@ -27,11 +27,11 @@ pub struct TableQualitySettings {
 
 /// The exact values with which readings are compared.
 #[derive(Clone, Debug)]
-pub enum Truth {
+pub enum ExactValues {
     /// The exact surface of the grid file.
     Surface,
     /// The beam whose influence coefficients the table holds.
-    Lifted(BeamFit),
+    Beam(BeamFit),
     /// Neither.
     None,
 }
@@ -49,7 +49,7 @@ pub struct TableQuality {
     /// Rigid supports.
     pub supports: Vec<f64>,
     /// The exact values that errors are measured against.
-    pub truth: Truth,
+    pub exact_values: ExactValues,
     /// Scale of the errors of a coupling: the geometric mean of the largest entries of its two direct tables; `None`
     /// for a direct table, or where these are missing.
     pub scale: Option<f64>,
@@ -91,11 +91,11 @@ impl TableQuality {
         let item = &subject.items[index];
         let table = &item.table;
         let direct = item.is_direct();
-        let lifted = if direct { beam_of(0, table).ok() } else { None };
-        let truth = match (&subject.surface, item.paths, &lifted) {
-            (Some(_), Some(_), _) => Truth::Surface,
-            (_, _, Some(lift)) => Truth::Lifted(lift.clone()),
-            _ => Truth::None,
+        let beam = if direct { beam_of(0, table).ok() } else { None };
+        let exact_values = match (&subject.surface, item.paths, &beam) {
+            (Some(_), Some(_), _) => ExactValues::Surface,
+            (_, _, Some(beam)) => ExactValues::Beam(beam.clone()),
+            _ => ExactValues::None,
         };
         let supports = if direct { support_stations(table) } else { Vec::new() };
         let mut quality = TableQuality {
@@ -110,14 +110,14 @@ impl TableQuality {
             verdicts: Vec::new(),
             load: settings.load,
             supports,
-            truth,
+            exact_values,
         };
         for end in ends(table.x(), settings.beyond) {
             let worst =
                 extrapolated_rows(table, end)?.into_iter().max_by(|a, b| a.spread().total_cmp(&b.spread()));
             quality.beyond.extend(worst);
         }
-        quality.readings = quality.read(subject, settings, lifted.as_ref())?;
+        quality.readings = quality.read(subject, settings, beam.as_ref())?;
         quality.judge(settings);
         Ok(quality)
     }
@@ -127,7 +127,7 @@ impl TableQuality {
         &self,
         subject: &TableSource,
         settings: &TableQualitySettings,
-        lifted: Option<&BeamFit>,
+        beam: Option<&BeamFit>,
     ) -> Result<Vec<ReadingFindings>, Error> {
         let mut out = Vec::new();
         let Some(paths) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
@@ -135,13 +135,13 @@ impl TableQuality {
         for method in TableReadingMethod::ALL {
             if method == TableReadingMethod::Exact {
                 // the beam of the table counts as a reading where the exact surface is another one
-                if let (Some(lift), Truth::Surface) = (lifted, &self.truth) {
-                    out.push(ReadingFindings::of(method, &strip(&lift.surface, UP), &frame)?);
+                if let (Some(beam), ExactValues::Surface) = (beam, &self.exact_values) {
+                    out.push(ReadingFindings::of(method, &coupling_block(&beam.surface, UP), &frame)?);
                 }
                 continue;
             }
             let Some(reading) = reading(subject, &self.item, method) else { continue };
-            out.push(ReadingFindings::of(method, &strip(reading.as_ref(), paths), &frame)?);
+            out.push(ReadingFindings::of(method, &coupling_block(reading.as_ref(), paths), &frame)?);
         }
         Ok(out)
     }
@@ -176,10 +176,10 @@ impl TableQuality {
         if self.item.is_direct() {
             range = [common(range[0], range[1]); 2];
         }
-        let exact = match &self.truth {
-            Truth::Surface => subject.surface.as_ref().map(|surface| strip(surface, paths)),
-            Truth::Lifted(lift) => Some(strip(&lift.surface, UP)),
-            Truth::None => None,
+        let exact = match &self.exact_values {
+            ExactValues::Surface => subject.surface.as_ref().map(|surface| coupling_block(surface, paths)),
+            ExactValues::Beam(beam) => Some(coupling_block(&beam.surface, UP)),
+            ExactValues::None => None,
         };
         if let Some([x, z]) = exact.as_ref().and_then(splines::quality::CouplingBlock::range) {
             range = [common(range[0], x), common(range[1], z)];
@@ -243,7 +243,7 @@ pub(super) fn reading(
 ) -> Option<Box<dyn Compliance>> {
     let [deflection, load] = item.paths?;
     let own = InfluenceBlock { deflection, load, table: item.table.clone() };
-    let all = subject.sheets();
+    let all = subject.blocks();
     let together = if all.contains(&own) { method.read(&all).ok() } else { None };
     together.or_else(|| method.read(&[own]).ok())
 }

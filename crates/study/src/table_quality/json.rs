@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 use splines::quality::{BlockExtreme, ReadingError, SlopeJump};
 
-use super::findings::{TableQuality, TableVerdict, Truth};
+use super::findings::{ExactValues, TableQuality, TableVerdict};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
 use super::subject::TableSource;
 
@@ -26,10 +26,10 @@ pub fn json(subject: &TableSource, all: &[TableQuality]) -> Value {
 
 fn table(found: &TableQuality) -> Value {
     let table = &found.item.table;
-    let truth = match &found.truth {
-        Truth::Surface => json!({ "from": "surface" }),
-        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "error": lift.error }),
-        Truth::None => Value::Null,
+    let exact_values = match &found.exact_values {
+        ExactValues::Surface => json!({ "from": "surface" }),
+        ExactValues::Beam(beam) => json!({ "from": "table", "EI": 1.0 / beam.bending, "error": beam.error }),
+        ExactValues::None => Value::Null,
     };
     let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
     let risks: Vec<Value> =
@@ -55,7 +55,7 @@ fn table(found: &TableQuality) -> Value {
         "asymmetry": found.asymmetry.as_ref().map(extreme),
         "eigenvalues": found.spectrum.map(|s| [s.smallest, s.largest]),
         "supports": found.supports,
-        "exact": truth,
+        "exact": exact_values,
         "readings": found.readings.iter().map(|r| reading(found, r)).collect::<Vec<_>>(),
         "beyond": beyond,
         "hazards": risks,
@@ -91,11 +91,11 @@ fn direct(object: &mut Value, own: &DirectFindings, load: Option<f64>) {
         })
     });
     object["layouts"] = layouts.collect();
-    object["slope_jump"] = own.kink.as_ref().map_or(Value::Null, kink);
+    object["slope_jump"] = own.slope_jump.as_ref().map_or(Value::Null, slope_jump);
     if let Some(pair) = &own.pair {
         object["pair"] = json!({
             "at": pair.work.at, "work_by_load_squared": pair.work.work, "stored_by_load_squared": pair.work.stored,
-            "slope_jump": pair.kink.as_ref().map(kink),
+            "slope_jump": pair.slope_jump.as_ref().map(slope_jump),
         });
     }
     if let Some(load) = load {
@@ -110,7 +110,7 @@ fn extreme(found: &BlockExtreme) -> Value {
     json!({ "value": found.value, "x": found.x, "z": found.z })
 }
 
-fn kink(found: &SlopeJump) -> Value {
+fn slope_jump(found: &SlopeJump) -> Value {
     json!({ "x": found.x, "before": found.before, "beyond": found.beyond })
 }
 

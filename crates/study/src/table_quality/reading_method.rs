@@ -64,15 +64,15 @@ impl TableReadingMethod {
     ///
     /// # Errors
     /// As [`TableReading::new`], [`FactoredTable::new`] and [`beam_of()`].
-    pub fn read(self, sheets: &[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> {
+    pub fn read(self, blocks: &[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> {
         let kind = match self {
             TableReadingMethod::Akispl => ReadingMethod::Akispl,
             TableReadingMethod::Cubspl => ReadingMethod::Cubspl,
             TableReadingMethod::Symmetrised => ReadingMethod::Symmetrised,
             TableReadingMethod::Natural => ReadingMethod::Natural,
-            TableReadingMethod::Factored => return Ok(Box::new(FactoredTable::new(sheets, Rank::Full)?)),
+            TableReadingMethod::Factored => return Ok(Box::new(FactoredTable::new(blocks, Rank::Full)?)),
             TableReadingMethod::Exact => {
-                return match sheets {
+                return match blocks {
                     [one] if one.load == one.deflection && one.load.1 == Axis::Vertical => {
                         Ok(Box::new(beam_of(one.load.0, &one.table)?.surface))
                     }
@@ -80,7 +80,7 @@ impl TableReadingMethod {
                 };
             }
         };
-        Ok(Box::new(TableReading::new(kind, sheets)?))
+        Ok(Box::new(TableReading::new(kind, blocks)?))
     }
 }
 

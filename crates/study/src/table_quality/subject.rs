@@ -129,7 +129,7 @@ impl TableSource {
 
     /// The tables that can be read together: those of known paths, whose direct tables are in the file.
     #[must_use]
-    pub fn sheets(&self) -> Vec<InfluenceBlock> {
+    pub fn blocks(&self) -> Vec<InfluenceBlock> {
         let own = |path: RailDirection| self.items.iter().any(|item| item.paths == Some([path; 2]));
         let known = self.items.iter().filter_map(|item| Some((item.paths?, &item.table)));
         known

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use splines::quality::{BlockExtreme, WheelLayout};
 
 use super::digits::{sharp, short};
-use super::findings::{TableQuality, TableVerdict, Truth};
+use super::findings::{ExactValues, TableQuality, TableVerdict};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
 use super::subject::TableSource;
 use formats::units::{Dimension, Units};
@@ -74,7 +74,7 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
     }
     stations(out, found, units);
     if !found.readings.is_empty() {
-        let _ = writeln!(out, "  {}", truth(found, units));
+        let _ = writeln!(out, "  {}", exact_values(found, units));
         readings(out, found, units);
     }
     beyond(out, found, units);
@@ -119,18 +119,20 @@ fn stations(out: &mut String, found: &TableQuality, units: Words) {
 }
 
 /// The exact values that errors are measured against, in words.
-fn truth(found: &TableQuality, units: Words) -> String {
-    match &found.truth {
-        Truth::Surface => "readings, with errors relative to the exact surface of the grid file".to_owned(),
-        Truth::Lifted(lift) => {
+fn exact_values(found: &TableQuality, units: Words) -> String {
+    match &found.exact_values {
+        ExactValues::Surface => {
+            "readings, with errors relative to the exact surface of the grid file".to_owned()
+        }
+        ExactValues::Beam(beam) => {
             let stiffness = units.of(Dimension::of(2, 1, 0));
             format!(
                 "readings, with errors relative to the beam of the table: EI = {} {stiffness}, {} % from its values",
-                short(1.0 / lift.bending),
-                short(100.0 * lift.error)
+                short(1.0 / beam.bending),
+                short(100.0 * beam.error)
             )
         }
-        Truth::None => {
+        ExactValues::None => {
             "readings; no beam in bending has this table, so errors are unknown: check the grid file"
                 .to_owned()
         }
@@ -231,17 +233,17 @@ fn slope_jumps(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let load = found.load.unwrap_or(1.0);
     let jump =
         |value: f64, d: &DirectFindings| if noise(value, d) { "0".to_owned() } else { short(load * value) };
-    rows.add(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.kink?.jump(), d))));
+    rows.add(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.slope_jump?.jump(), d))));
     rows.add(&format!("  at x{length}"), &|r| {
-        r.direct.as_ref().and_then(|d| d.kink.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
+        r.direct.as_ref().and_then(|d| d.slope_jump.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
     });
     rows.add(&format!("{slope}, pair"), &|r| {
         let d = r.direct.as_ref()?;
-        Some(jump(d.pair?.kink?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
+        Some(jump(d.pair?.slope_jump?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
     });
     rows.add(&format!("  first wheel at{length}"), &|r| {
         let d = r.direct.as_ref()?;
-        d.pair?.kink.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
+        d.pair?.slope_jump.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
     });
 }
 
