@@ -126,7 +126,7 @@ def read_study(folder):
         if setting["status"] == "done":
             setting |= next(times, {})
             setting["errors"] = {name: own["largest"] for name, own in setting["errors"].items()}
-    study["dearer_by_time"] = timing["dearer"]
+    study["cost_ratio_by_time"] = timing["cost_ratio"]
     until = study.get("until")
     study["title"] = study["name"] if until is None else f"{study['name']}, until {number(until, 3)} s"
     return study
@@ -136,7 +136,7 @@ def reference(study):
     """The reference that resolves deflections, and the error from which it does."""
     found = ("own", 0.0)
     for own in study["references"]:
-        found = (own["against"], own["tells_from"].get("deflection", 0.0))
+        found = (own["against"], own["resolution"].get("deflection", 0.0))
         if own["against"] != "massless" and found[1] < UNRESOLVED:
             return found
     return found
@@ -184,9 +184,9 @@ def studies(folders):
     rows = []
     for study in all_studies:
         for setting, word in (("as written", "as written"), ("auto", "auto"), ("stepping", "as written, among methods")):
-            if setting == "stepping" and study["dearer_by_stages"]["as written"].get("deflection") is not None:
+            if setting == "stepping" and study["cost_ratio_by_stages"]["as written"].get("deflection") is not None:
                 continue
-            for by, key in (("contact solutions", "dearer_by_stages"), ("time", "dearer_by_time")):
+            for by, key in (("contact solutions", "cost_ratio_by_stages"), ("time", "cost_ratio_by_time")):
                 cells = [number(study[key][setting].get(name), 3) for name in QUANTITIES]
                 if any(cells):
                     rows.append((study["title"], word, by, *cells))

@@ -429,7 +429,7 @@ pub struct FeaArgs {
     #[arg(long)]
     pub theory: Option<TheoryArg>,
     /// Relative error that rounding may cause; solved in double-doubles where doubles cannot promise it
-    #[arg(long, value_name = "BOUND", default_value_t = fea::DEFAULT_ACCURACY, value_parser = share)]
+    #[arg(long, value_name = "BOUND", default_value_t = fea::DEFAULT_ACCURACY, value_parser = fraction)]
     pub accuracy: f64,
     /// Add the N lowest natural modes
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=1000))]

@@ -99,7 +99,7 @@ fn text_goes_to_standard_output_and_names_every_reading() {
         "akispl",
         "natural",
         "never",
-        "digits leave",
+        "uncertainty of the digits",
         "rigid supports inside the table",
     ] {
         assert!(told.contains(words), "{words}");
@@ -256,7 +256,7 @@ fn what_cannot_be_checked_is_refused_with_its_place() {
         ("garbage.adm", "garbage.adm:3:"),
         ("curve.adm", "has no SPLINE with a curve for each z"),
         ("none.adm", "has no SPLINE with a curve for each z"),
-        ("large.adm", "SPLINE/6 holds 1e200"),
+        ("large.adm", "SPLINE/6 has the value 1e200"),
         ("near.adm", "SPLINE/6 has stations at 1 and 1.0000000000001"),
         ("text.json", "text.json:2:2: nane"),
         ("short.json", "must have a rail of at least four stations"),
@@ -289,7 +289,7 @@ fn pictures_and_pages_are_whole_and_hold_every_direct_table() {
     let tree = roxmltree::Document::parse(&svg).expect("XML");
     // A chart and a map of three directions, a map of one coupling.
     assert_eq!(tree.root_element().children().filter(|node| node.has_tag_name("svg")).count(), 7);
-    for words in ["akispl", "symmetrised", "error under one moving wheel", "less exact"] {
+    for words in ["akispl", "symmetrised", "error under one moving wheel", "minus exact"] {
         assert!(svg.contains(words) && read("check.html").contains(words), "{words}");
     }
     assert_eq!(parsed(read("check.json").as_bytes())["tables"].as_array().map(Vec::len), Some(6));

@@ -6,7 +6,7 @@ use super::{run_whole, scene};
 
 /// What moves in a report, frame by frame, and the time that it stands at.
 fn film(report: &str) -> (Value, f64) {
-    let (_, rest) = report.split_once("class=\"picture film\"").expect("a picture that moves");
+    let (_, rest) = report.split_once("class=\"picture animation\"").expect("a picture that moves");
     let (_, rest) = rest.split_once("data-still=\"").expect("a frame that stands");
     let (still, rest) = rest.split_once("\">").expect("an attribute");
     let (data, _) = rest.split_once("</script>").expect("an end");

@@ -100,13 +100,13 @@ fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
     // between supports, where the rail's give is smooth
     let study = conduct(&scene(20.0, 40.0, 0.5), &girder(None), &depth);
     let known = study.reference(ReferenceKind::Own).expect("the scene's own reference");
-    println!("the reference tells from {:.1e}", known.resolves(ErrorGroup::Deflection));
+    println!("the reference resolves errors from {:.1e}", known.resolution(ErrorGroup::Deflection));
     for (method, wanted) in
         [(Method::Sdirk4, 4.0), (Method::Radau, 5.0), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
     {
         let curve = curve(&study, SettingFamily::Fixed(method), ErrorGroup::Deflection);
         let told: Vec<[f64; 2]> =
-            curve.iter().filter(|own| own[1] > known.resolves(ErrorGroup::Deflection)).copied().collect();
+            curve.iter().filter(|own| own[1] > known.resolution(ErrorGroup::Deflection)).copied().collect();
         println!("{method:?}: {curve:?}");
         assert!(told.len() > 1, "{method:?}: {curve:?}");
         let found = order(&told);
@@ -144,7 +144,8 @@ fn residual_flexibility_spares_modes() {
     scene["bodies"]["car"]["weight"] = json!(2e4);
     scene["wheels"]["wheel"]["vertical"]["k"] = json!(1e5);
     let study = conduct(&scene, &girder(Some(15.2)), &depth);
-    let least = study.reference(ReferenceKind::Whole).expect("a reference").resolves(ErrorGroup::Deflection);
+    let least =
+        study.reference(ReferenceKind::Whole).expect("a reference").resolution(ErrorGroup::Deflection);
     let [with, without] = [SettingFamily::Modal, SettingFamily::ModalWithoutResidual]
         .map(|family| curve(&study, family, ErrorGroup::Deflection));
     println!("with {with:?}, without {without:?}, told from {least:.1e}");

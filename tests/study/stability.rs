@@ -73,13 +73,13 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
     assert!(found(excitation, "akispl: largest growth") > 0.325);
     close(excitation, "akispl: largest growth", 0.325, 0.08);
     // at 43.5 ft, or as far from the other support
-    let place = found(excitation, "akispl: where");
+    let place = found(excitation, "akispl: position");
     assert!((place.max(60.0 - place) - 43.5).abs() < 0.3, "{place}");
     close(excitation, "akispl: damper of each wheel", 1.8e5, 0.06);
     close(excitation, "akispl: work of a closed loop", 30_789.0, 1e-3);
     assert_eq!(found(excitation, "girderway, exact: work"), 0.0);
-    let told = "girderway told to read by akispl, worst place";
-    assert!(count(excitation, told, "wrong, with a warning") > 5, "the energy audit tells");
+    let worst = "girderway, akispl, worst position";
+    assert!(count(excitation, worst, "wrong, with a warning") > 5, "the energy audit tells");
 
     // doubles lose digits with the elements; the certificate is never below the error (a verdict of its own)
     let elements = map("elements");
@@ -111,8 +111,8 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
     // Floquet: 2.24 a span at 300 ft/s where the damper stands on the ground; methods as published for the same wheel
     let steps = map("steps");
     close(steps, "frequency", 36.6, 1e-3);
-    close(steps, "share of critical damping", 0.0183, 1e-3);
-    close(steps, "growth a span at the highest speed", 2.24, 2e-3);
+    close(steps, "fraction of critical damping", 0.0183, 1e-3);
+    close(steps, "growth over a span at the highest speed", 2.24, 2e-3);
     assert!((2.8..5.0).contains(&found(steps, "Runge-Kutta 4")), "explicit: bounded steps");
     assert!(
         steps.findings.iter().all(|own| !own.what.starts_with("BDF2")),

@@ -1,7 +1,7 @@
-//! Errors: where in the text or in which statement something is wrong, and what.
+//! Errors: what is wrong, and where in the text or in which statement.
 //!
-//! An [`Error`] gives the place: line and column of the text, or the statement by keyword and identifier. A
-//! [`AdamsFault`] says what is wrong there.
+//! An [`Error`] states the place: line and column of the text, or the statement by keyword and identifier. An
+//! [`AdamsFault`] states what is wrong there.
 
 use crate::keyword::StatementId;
 

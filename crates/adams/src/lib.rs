@@ -1,11 +1,11 @@
 //! The ADAMS data-set language: statements, SPLINE tables, function expressions and their execution.
 //!
-//! The crate reads and writes whole data sets (`.adm`), resolves every reference, and computes what a data
-//! set says: forces at a given state, static equilibrium, the quasi-static path. It does not integrate
+//! The crate reads and writes whole data sets (`.adm`), resolves every reference, and executes a data set: it
+//! computes forces at a given state, static equilibrium and the quasi-static path. It does not integrate
 //! motion. It depends on no other crate of this workspace, so that its results check the simulator
 //! independently, and it opens no file: callers pass text.
 //!
-//! A mass of 2 kg on a spring of 1000 N/m comes to rest where the spring carries its weight:
+//! A mass of 2 kg on a spring of 1000 N/m is in equilibrium where the spring carries its weight:
 //!
 //! ```
 //! use adams::{DataSet, AdamsModel};
@@ -33,7 +33,7 @@
 //!
 //! A file imports from its own wing and from those before it, never from a later one.
 //!
-//! 1. `keyword`, `error`, `number`: words, errors and numbers, which every wing uses.
+//! 1. `keyword`, `error`, `number`: words, errors and numbers, which all wings use.
 //! 2. `expression`: function expressions as trees, their functions, dual numbers.
 //! 3. `language`: lines, statements, data sets, units.
 //! 4. `tables`: SPLINE statements and how AKISPL and CUBSPL interpolate them.

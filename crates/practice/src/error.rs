@@ -22,7 +22,7 @@ pub enum Argument {
     /// A dynamic factor.
     Factor,
     /// A fraction of a whole.
-    Share,
+    Fraction,
     /// A number of wheels, rails, pairs or cycles.
     Count,
     /// A stress range or stress.
@@ -37,7 +37,7 @@ pub enum Argument {
     Time,
 }
 
-/// Errors of this crate. They give numbers and indices; the caller knows the names that belong to them.
+/// Errors of this crate. They contain numbers and indices; the caller adds the names of its data.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {
     /// A number is outside the range that the formula allows. No formula takes numbers beyond 1e30.

@@ -1,9 +1,9 @@
 //! Values that crane engineers compare with a simulation: code values, fatigue damage, characteristics of
 //! signals.
 //!
-//! The crate works on plain numbers. It knows no file, no scene and no other crate of this workspace.
-//! Formulas without dimensional constants take any consistent units; the others say which units they take, SI
-//! unless stated otherwise.
+//! The crate works on plain numbers. It reads no files and does not depend on scenes or other crates of this
+//! workspace. Formulas without dimensional constants take any consistent units; the others require the units that
+//! they state, SI unless stated otherwise.
 //!
 //! Where a comment says *not confirmed*, the value is from memory: it could not be compared with the text of
 //! its standard, or with a source that quotes or uses it. `docs/theory/practice.md` has the list.
@@ -35,7 +35,7 @@
 //!
 //! A file imports from its own wing and from those before it. The last three wings do not import each other.
 //!
-//! 1. `error`: numbers that are refused.
+//! 1. `error`: numbers that a formula does not accept.
 //! 2. `codes`: values of EN 1991-3, CMAA 70, AIST TR-13, OSHA and FEM.
 //! 3. `fatigue`: stress at a point, rainflow cycles, strength curves and damage.
 //! 4. `signals`: means, filters, frequencies, damping, envelopes.

@@ -234,7 +234,7 @@ fn numbers_read_well() {
 fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
     use crate::document::animated::{Animation, AnimationTrack};
     let svg = crate::chart::Svg::new(8.0, 4.0, "<g data-m=\"0\" transform=\"translate(1 2)\"></g>");
-    let film = |x: f64| {
+    let animation = |x: f64| {
         let places = vec![[1.0, 2.0], [x, 2.0]];
         Animation {
             svg: svg.clone(),
@@ -243,14 +243,14 @@ fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
             tracks: vec![(0, AnimationTrack::Displacement(places))],
         }
     };
-    let with = |film: Animation| {
+    let with = |animation: Animation| {
         let mut report = report();
-        let picture = Picture::Animation(Box::new(film));
+        let picture = Picture::Animation(Box::new(animation));
         report.sections.push(ReportSection::new("x").figure(picture, "It moves."));
         report.html(None)
     };
     let scripts = |page: &str| parse(page).0.iter().filter(|(name, _)| name == "script").count();
-    let moving = with(film(3.125)).expect("numbers");
+    let moving = with(animation(3.125)).expect("numbers");
     // its data, and what moves it
     assert_eq!(scripts(&moving), scripts(&page()) + 2);
     assert!(moving.contains("translate(1 2)") && !moving.contains("http"));
@@ -262,5 +262,5 @@ fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
         "hundredths of pixels"
     );
     assert!(!tags.iter().any(|(name, _)| name == "button" || name == "input"), "the script makes them");
-    assert_eq!(with(film(f64::NAN)), Err(Error::Animation { section: 2, figure: 0 }));
+    assert_eq!(with(animation(f64::NAN)), Err(Error::Animation { section: 2, figure: 0 }));
 }

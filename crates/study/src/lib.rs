@@ -1,9 +1,8 @@
 //! Accuracy against cost: a scene is run in many settings, and the errors of all are measured against converged
 //! references.
 //!
-//! Beside the study proper ([`study()`]), the crate judges what readings of influence tables cost
-//! ([`table_quality`]), chooses the fewest stations of a table ([`stations`]), and maps where methods fail
-//! ([`stability`]).
+//! In addition to studies ([`study()`]), the crate evaluates the quality of influence tables ([`table_quality`]),
+//! chooses the fewest stations of a table ([`stations`]), and maps where methods fail ([`stability`]).
 //!
 //! # Example
 //! A Pareto front of measured points (cost, error):
@@ -46,5 +45,5 @@ pub use runs::point::{MeasuredPoint, PointOutcome, StudyPoint};
 pub use runs::reference::{ConvergedReference, RESOLUTION_FACTOR};
 pub use settings::budget::StudyBudget;
 pub use settings::setting::{ReferenceKind, Setting, SettingFamily};
-pub use show::data::{csv, excesses, json, stages, timing_csv, timing_json};
-pub use show::picture::{StudyPicture, pictures};
+pub use show::data::{cost_ratios, csv, json, stages, timing_csv, timing_json};
+pub use show::figure::{StudyFigure, figures};

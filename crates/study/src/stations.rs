@@ -1,8 +1,8 @@
-//! Tables of a grid at the fewest stations that keep a tolerance.
+//! Tables of a grid at the fewest stations whose errors are within a tolerance.
 //!
-//! Stations of each rail are searched by [`splines::fewest_stations()`], which considers the direct blocks of this rail.
-//! Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them exceeds
-//! the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
+//! Stations of each rail are searched by [`splines::fewest_stations()`], which considers the direct blocks of this
+//! rail. Blocks between two rails or two directions are evaluated afterwards at these stations. Where one of them
+//! exceeds the tolerance, all rails are searched again with a tolerance 0.7 times as large, up to six times.
 
 use nalgebra::DMatrix;
 use serde_json::{Value, json};
@@ -14,7 +14,7 @@ use formats::grid::block::GridBlock;
 use formats::grid::{GridRail, StationGrid, axes};
 
 /// Largest number of stations of a rail.
-pub const MOST: usize = 400;
+pub const MAX_STATIONS: usize = 400;
 /// Smallest number of places along a rail at which blocks between two rails are evaluated.
 const PLACES: usize = 200;
 /// Largest number of searches with a smaller tolerance, and the factor between them.
@@ -28,7 +28,7 @@ pub struct StationGoal {
     pub method: TableReadingMethod,
     /// Tolerance, relative to the largest coefficient.
     pub tolerance: f64,
-    /// Directions that must keep the tolerance.
+    /// Directions whose errors must be within the tolerance.
     pub axes: Vec<Axis>,
 }
 
@@ -66,7 +66,8 @@ pub struct StationChoice {
 /// The grid at the fewest stations for the goal, with values from its exact surface.
 ///
 /// # Errors
-/// As [`splines::fewest_stations()`]; [`splines::Error::TooFewStations`] where blocks between rails do not keep the tolerance.
+/// As [`splines::fewest_stations()`]; [`splines::Error::TooFewStations`] where
+/// blocks between rails exceed the tolerance.
 pub fn choose(
     grid: &StationGrid,
     surface: &ExactSurface,
@@ -75,7 +76,7 @@ pub fn choose(
     let mut tolerance = goal.tolerance;
     for round in 0.. {
         let choice = attempt(grid, surface, &StationGoal { tolerance, ..goal.clone() })?;
-        let wanted = |block: &&BlockError| block.paths.iter().all(|way| goal.axes.contains(&way.1));
+        let wanted = |block: &&BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
         let worst = choice.others.iter().filter(wanted).map(|block| block.error).fold(0.0, f64::max);
         if worst <= goal.tolerance {
             return Ok(choice);
@@ -99,10 +100,10 @@ fn attempt(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Re
             axes: &goal.axes,
             range,
             fixed: &surface.breaks(rail),
-            read: &|sheets: &[InfluenceBlock]| goal.method.read(sheets),
+            read: &|blocks: &[InfluenceBlock]| goal.method.read(blocks),
             order: goal.method.order(),
             tolerance: goal.tolerance,
-            max_stations: MOST,
+            max_stations: MAX_STATIONS,
         };
         rails.push(ChosenStations { rail: given.name.clone(), stations: splines::fewest_stations(&search)? });
     }
@@ -123,9 +124,9 @@ pub fn at(grid: &StationGrid, surface: &ExactSurface, rails: Vec<GridRail>) -> R
         let (deflection, load) = axes(*quantity);
         let parts = out.rails.iter().enumerate().map(|(r, row)| {
             let parts = out.rails.iter().enumerate().map(|(c, column)| {
-                let strip =
+                let block =
                     CouplingBlock { compliance: surface, deflection: (r, deflection), load: (c, load) };
-                strip.matrix(&row.stations, &column.stations)
+                block.matrix(&row.stations, &column.stations)
             });
             parts.collect::<Result<Vec<_>, _>>()
         });
@@ -157,8 +158,8 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
     if goal.method == TableReadingMethod::Exact {
         return Ok(Vec::new());
     }
-    let sheets = sheets(grid)?;
-    let reading = goal.method.read(&sheets)?;
+    let blocks = blocks(grid)?;
+    let reading = goal.method.read(&blocks)?;
     let at_rails: Vec<Vec<f64>> = grid
         .rails
         .iter()
@@ -172,18 +173,17 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
         Ok::<f64, Error>(CouplingBlock::direct(surface, (rail, axis)).matrix(at, at)?.amax())
     };
     let mut out = Vec::new();
-    for InfluenceBlock { deflection, load, .. } in &sheets {
+    for InfluenceBlock { deflection, load, .. } in &blocks {
         let own = deflection.0 == load.0;
         if own && goal.axes.contains(&deflection.1) && goal.axes.contains(&load.1) {
             continue;
         }
-        let strips = [reading.as_ref(), surface as &dyn Compliance].map(|compliance| CouplingBlock {
+        let pair = [reading.as_ref(), surface as &dyn Compliance].map(|compliance| CouplingBlock {
             compliance,
             deflection: *deflection,
             load: *load,
         });
-        let error_of_block =
-            reading_error(&strips[0], &strips[1], &at_rails[load.0], &at_rails[deflection.0])?;
+        let error_of_block = reading_error(&pair[0], &pair[1], &at_rails[load.0], &at_rails[deflection.0])?;
         let scale = (largest(*deflection)? * largest(*load)?).sqrt();
         let error = if scale > 0.0 { error_of_block.largest.value.abs() / scale } else { 0.0 };
         out.push(BlockError { paths: [*deflection, *load], error, worst: error_of_block.largest });
@@ -192,7 +192,7 @@ fn others(grid: &StationGrid, surface: &ExactSurface, goal: &StationGoal) -> Res
 }
 
 /// All blocks as tables: a direct block between two rails once, couplings in both orders.
-fn sheets(grid: &StationGrid) -> Result<Vec<InfluenceBlock>, Error> {
+fn blocks(grid: &StationGrid) -> Result<Vec<InfluenceBlock>, Error> {
     let mut out = Vec::new();
     let mut top = 0;
     for (r, row) in grid.rails.iter().enumerate() {
@@ -218,11 +218,12 @@ impl StationChoice {
     /// The stations and their errors as JSON.
     #[must_use]
     pub fn json(&self, goal: &StationGoal) -> Value {
-        let name = |way: RailDirection| json!({ "rail": self.grid.rails[way.0].name, "axis": word(way.1) });
-        let error = |ways: [RailDirection; 2], relative: f64, worst: BlockExtreme| {
+        let name =
+            |path: RailDirection| json!({ "rail": self.grid.rails[path.0].name, "axis": word(path.1) });
+        let error = |paths: [RailDirection; 2], relative: f64, worst: BlockExtreme| {
             json!({
                 "relative": relative, "value": worst.value, "x": worst.x, "z": worst.z,
-                "deflection": name(ways[0]), "load": name(ways[1]),
+                "deflection": name(paths[0]), "load": name(paths[1]),
             })
         };
         let rails = self.rails.iter().map(|rail| {
@@ -263,7 +264,7 @@ impl StationChoice {
                 )
             })
             .collect();
-        let wanted = |block: &BlockError| block.paths.iter().all(|way| goal.axes.contains(&way.1));
+        let wanted = |block: &BlockError| block.paths.iter().all(|path| goal.axes.contains(&path.1));
         let worst = |within: bool| {
             let blocks = self.others.iter().filter(|block| wanted(block) == within);
             blocks.max_by(|a, b| a.error.total_cmp(&b.error))

@@ -9,7 +9,7 @@ use crate::progress::Progress;
 use formats::text::diagnostic::Diagnostic;
 use report::chart::stack;
 use study::table_quality::{
-    TableQuality, TableQualitySettings, TableReadingMethod, TableSource, json, picture, text,
+    TableQuality, TableQualitySettings, TableReadingMethod, TableSource, figure, json, text,
 };
 
 /// Reads the grid or the tables, prints their errors to standard output, and writes them to a file if one is named.
@@ -42,14 +42,16 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     drop(bar);
     if let (Some(path), Some(form)) = (args.output.as_deref(), form) {
         let body = match form {
-            Form::Json => json::json(&subject, &all),
-            Form::Page => picture::page(&subject, &all).map_err(Failure::untrusted)?,
+            Form::Json => output::json(&json::json(&subject, &all)),
+            Form::Page => figure::page(&subject, &all).map_err(Failure::untrusted)?,
             Form::Picture => drawing(&subject, &all)?,
         };
         output::write(path, body.as_bytes())?;
         progress.say(&format!("wrote {}", path.display()));
     }
-    output::print(&if global.json { json::json(&subject, &all) } else { text::text(&subject, &all) })?;
+    let text =
+        if global.json { output::json(&json::json(&subject, &all)) } else { text::text(&subject, &all) };
+    output::print(&text)?;
     let failed = all.iter().any(|found| !found.verdicts.is_empty());
     Ok(if failed { Exit::Differs } else { Exit::Done })
 }
@@ -68,8 +70,10 @@ fn form(path: &Path) -> Result<Form, Failure> {
         "html" => Ok(Form::Page),
         "json" => Ok(Form::Json),
         _ => {
-            let wrong =
-                Diagnostic::of_file(path.display().to_string(), "the file extension is not that of a format for checks");
+            let wrong = Diagnostic::of_file(
+                path.display().to_string(),
+                "the file extension is not that of a format for checks",
+            );
             Err(wrong.hint("use .svg, .html or .json").into())
         }
     }
@@ -78,7 +82,7 @@ fn form(path: &Path) -> Result<Form, Failure> {
 fn drawing(subject: &TableSource, all: &[TableQuality]) -> Result<String, Failure> {
     let mut pictures = Vec::new();
     for found in all {
-        for figure in picture::figures(subject, found).map_err(Failure::untrusted)? {
+        for figure in figure::figures(subject, found).map_err(Failure::untrusted)? {
             pictures.push(figure.svg().map_err(Failure::untrusted)?);
         }
     }

@@ -50,7 +50,7 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
             Err(why) => result.absent.push((peer, why)),
         }
     }
-    let text = if global.json { format!("{:#}\n", result.json()) } else { result.table() };
+    let text = if global.json { output::json(&result.json()) } else { result.table() };
     output::print(&text)?;
     if let Some(mut folder) = folder {
         fill(&mut folder, &result, &check.spec)?;
@@ -129,7 +129,9 @@ impl<'a> Check<'a> {
         outcome.theory = Some(theory_word(theory));
         if theory != self.spec.theory {
             let word = theory_word(self.spec.theory);
-            outcome.notes.push(format!("both with {}; the theory of the spec is {word}", theory_word(theory)));
+            outcome
+                .notes
+                .push(format!("both with {}; the theory of the spec is {word}", theory_word(theory)));
         }
         if peer == Peer::Solid {
             let plain = self.solve(&self.spec.clone().with_theory(BeamTheory::EulerBernoulli))?;
@@ -165,7 +167,7 @@ fn broken(error: &Error) -> Failure {
 
 /// Adds the files of the output folder: the result as JSON and as text, and charts of the differences.
 fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Result<(), Failure> {
-    folder.add("crosscheck.json", format!("{:#}\n", result.json()));
+    folder.add("crosscheck.json", output::json(&result.json()));
     folder.add("crosscheck.txt", result.table());
     let unit = spec.units.label(Dimension::LENGTH);
     for outcome in &result.outcomes {

@@ -24,7 +24,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         && !path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("adm"))
     {
         let fault = Diagnostic::of_file(path.display().to_string(), "a data set must end in .adm");
-        return Err(fault.hint("its command file, with the ending .acf, is written to the same folder").into());
+        return Err(fault
+            .hint("its command file, with the ending .acf, is written to the same folder")
+            .into());
     }
     let document = Document::open(&args.scene)?;
     let scene = document.scene();

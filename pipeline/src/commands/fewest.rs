@@ -30,7 +30,8 @@ pub(super) fn chosen(
     let root = Place::root();
     let refuse = |fault: Fault| Failure::Input(source.diagnose(&Faults(vec![fault])));
     let Some(surface) = surface else {
-        let fault = Fault::new(&root, "has no `surface`: the exact values between its stations are not known");
+        let fault =
+            Fault::new(&root, "has no `surface`: the exact values between its stations are not known");
         return Err(refuse(fault.hint("`girderway fea SPEC -o GRID.json` writes one")));
     };
     let mut axes: Vec<Axis> = args.directions.iter().map(|direction| Axis::from(*direction)).collect();

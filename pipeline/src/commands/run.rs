@@ -18,7 +18,7 @@ use formats::tables;
 use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, solve_specs};
 use report::figures::error::FigureError;
 use report::figures::run::figures;
-use report::text::story;
+use report::text::run_report;
 use results::case_result::CaseResult;
 use results::cases::simulate;
 use results::columns::peak;
@@ -82,18 +82,18 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
-    let plates = figures(&document, &outcomes, &known, &comparison).map_err(|error| match error {
+    let figures = figures(&document, &outcomes, &known, &comparison).map_err(|error| match error {
         FigureError::Positions(error) => Failure::untrusted(error),
         other => unexpected(other),
     })?;
-    let drawn = parallel_map(&plates, global.threads, |_, plate| plate.svg());
-    for (plate, svg) in plates.iter().zip(drawn) {
-        folder.add(&format!("plots/{}.svg", plate.name), svg.map_err(unexpected)?.file());
+    let drawn = parallel_map(&figures, global.threads, |_, figure| figure.svg());
+    for (figure, svg) in figures.iter().zip(drawn) {
+        folder.add(&format!("plots/{}.svg", figure.name), svg.map_err(unexpected)?.file());
     }
     clock.lap("plots");
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(&known, &structure.origin)).collect();
-    let report = story::report(&document, &outcomes, &solved, &comparison, plates);
+    let report = run_report::report(&document, &outcomes, &solved, &comparison, figures);
     folder.add("report.html", report.html(global.threads).map_err(unexpected)?);
     clock.lap("report");
     folder.add_varying("timing.json", output::json(&clock.json()));

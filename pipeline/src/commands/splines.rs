@@ -102,8 +102,10 @@ fn given(
     let units = units.map(|(length, force)| Units { length: length.into(), force: force.into() });
     if tables::is_tables(&input.display_name, &input.bytes) {
         if args.reading.is_some() {
-            let fault =
-                Diagnostic::of_file(&input.display_name, "does not contain the exact values between its stations");
+            let fault = Diagnostic::of_file(
+                &input.display_name,
+                "does not contain the exact values between its stations",
+            );
             return Err(fault.hint("--reading and --tolerance need a grid file").into());
         }
         return Ok((tables::read(&input.display_name, &input.bytes, units)?, None));
@@ -111,7 +113,7 @@ fn given(
     let source = input.source()?;
     let (mut grid, surface) = grid_file::read(&source)?;
     if units.is_some_and(|units| units != grid.units) {
-        let fault = Diagnostic::of_file(&input.display_name, "a grid contains its own units");
+        let fault = Diagnostic::of_file(&input.display_name, "a grid already states its units");
         return Err(fault.hint("leave out --length and --force").into());
     }
     if let Some(wanted) = args.reading.map(TableReadingMethod::from).zip(args.tolerance) {

@@ -44,9 +44,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     folder.add("study.csv", study::csv(&study).map_err(Failure::untrusted)?);
     folder.add_varying("timing.json", output::json(&study::timing_json(&study)));
     folder.add_varying("timing.csv", study::timing_csv(&study).map_err(Failure::untrusted)?);
-    for picture in study::pictures(&study, &name).map_err(Failure::untrusted)? {
-        let file = format!("plots/{}.svg", picture.name);
-        if picture.varies { folder.add_varying(&file, picture.svg) } else { folder.add(&file, picture.svg) }
+    for figure in study::figures(&study, &name).map_err(Failure::untrusted)? {
+        let file = format!("plots/{}.svg", figure.name);
+        if figure.varies { folder.add_varying(&file, figure.svg) } else { folder.add(&file, figure.svg) }
     }
     let settings = json!({
         "case": args.case, "quick": args.quick, "limit": budget.limit, "resolution": budget.resolution,
@@ -54,18 +54,19 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let written = folder.commit(Manifest::new("study", &document.inputs, settings))?;
     for (family, who) in [
         (SettingFamily::Written, "as written"),
-        (SettingFamily::Auto, "auto's choice"),
+        (SettingFamily::Auto, "choice of auto"),
         (SettingFamily::Stepping, "as written, compared with other methods on its foundations"),
     ] {
-        let excess = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
-            let all = study::excesses(&study, family, cost).into_iter();
+        let ratios = |cost: &dyn Fn(&StudyPoint) -> Option<f64>| {
+            let all = study::cost_ratios(&study, family, cost).into_iter();
             let ratios: Vec<String> = all.map(|(own, by)| format!("{by:.2} {}", own.name())).collect();
             ratios.join(", ")
         };
-        let [time, work] = [excess(&StudyPoint::seconds), excess(&study::stages)];
+        let [time, work] = [ratios(&StudyPoint::seconds), ratios(&study::stages)];
         if !work.is_empty() {
             progress.say(&format!(
-                "{who}, by the cheapest setting that errs no more: time {time}; contact solutions {work}"
+                "{who}: cost relative to the cheapest setting with no larger error: time {time}; contact solutions \
+                 {work}"
             ));
         }
     }
@@ -92,9 +93,9 @@ fn stability(
     folder.add("stability.json", output::json(&result));
     folder.add("stability.csv", stability::csv(&maps).map_err(Failure::untrusted)?);
     for map in &maps {
-        let pictures = stability::pictures(map).map_err(Failure::untrusted)?;
-        let is_one = pictures.len() == 1;
-        for (index, svg) in pictures.into_iter().enumerate() {
+        let figures = stability::figures(map).map_err(Failure::untrusted)?;
+        let is_one = figures.len() == 1;
+        for (index, svg) in figures.into_iter().enumerate() {
             let number = if is_one { String::new() } else { format!("-{}", index + 1) };
             folder.add(&format!("plots/stability-{}{number}.svg", map.name), svg);
         }
@@ -145,17 +146,18 @@ fn case(document: &Document, args: &Arguments) -> Result<Case, Failure> {
 
 /// Checks that the reference solutions resolve the error that the budget requires.
 fn judge(study: &Study, budget: &StudyBudget) -> Result<Exit, Failure> {
-    if let Some((against, why)) = study.failed_references.first() {
+    if let Some((kind, why)) = study.failed_references.first() {
         let hint = if why.contains("was stopped") { "  hint: raise --limit" } else { "" };
-        return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", against.word())));
+        return Err(Failure::Untrusted(format!("no reference \"{}\": {why}{hint}", kind.word())));
     }
     let worst = study.references.iter().max_by(|a, b| a.worst_resolution().total_cmp(&b.worst_resolution()));
     match worst.filter(|worst| worst.worst_resolution() > budget.resolution) {
         None => Ok(Exit::Done),
         Some(worst) => Err(Failure::Untrusted(format!(
-            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of deflections and \
-             wheel forces below {:.1e} cannot be told; asked for: {:.1e}  hint: raise --limit or --resolution",
-            worst.against.word(),
+            "the reference \"{}\" is not converged: its two finest runs differ by {:.1e}, so that errors of \
+             deflections and wheel forces below {:.1e} are not resolved; requested: {:.1e}  hint: raise --limit or \
+             --resolution",
+            worst.kind.word(),
             worst.worst_resolution() / study::RESOLUTION_FACTOR,
             worst.worst_resolution(),
             budget.resolution

@@ -128,8 +128,8 @@ impl Function {
     /// The value may be infinite or NaN: callers check.
     ///
     /// # Errors
-    /// [`AdamsFault::Arguments`] for a wrong number of arguments; [`AdamsFault::Parameter`] for a ramp without length,
-    /// or a stiffness, exponent, damping or penetration outside the range of a contact law.
+    /// [`AdamsFault::Arguments`] for a wrong number of arguments; [`AdamsFault::Parameter`] for a ramp without
+    /// length, or a stiffness, exponent, damping or penetration outside the range of a contact law.
     pub fn value<T: Scalar>(self, arguments: &[T]) -> Result<T, AdamsFault> {
         match (self, arguments) {
             (Function::Unary(unary), [a]) => Ok(unary.value(a)),

@@ -1,6 +1,6 @@
 //! Function expressions: their text as a tree, the functions they call, and numbers with derivatives.
 //!
-//! [`parse`] turns text into an [`Expression`]. A name means nothing here: the wing `model` finds out which
+//! [`parse`] turns text into an [`Expression`]. Names are not resolved here: the wing `model` determines which
 //! marker or table an identifier refers to. Functions are written once for every [`Scalar`], so that the same
 //! code gives values (`f64`) and values with derivatives ([`Dual`]).
 

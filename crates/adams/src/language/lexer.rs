@@ -2,7 +2,7 @@
 
 use crate::{AdamsFault, Error};
 
-/// The text of one statement, and what the comments before it say.
+/// The text of one statement, and the content of the comments before it.
 #[derive(Debug, Default)]
 pub(crate) struct RawStatement<'a> {
     /// The text, one piece for each line.
@@ -37,12 +37,18 @@ pub(crate) struct Piece<'a> {
     pub text: &'a str,
 }
 
+/// A token of the kind `K` with its position. Data sets and Adams View commands have tokens of different kinds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Token<'a> {
+pub(crate) struct Positioned<K> {
+    /// Line, from 1.
     pub line: usize,
+    /// Column of the first character, from 1.
     pub column: usize,
-    pub kind: TokenKind<'a>,
+    pub kind: K,
 }
+
+/// A token of a data set.
+pub(crate) type Token<'a> = Positioned<TokenKind<'a>>;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum TokenKind<'a> {
@@ -53,7 +59,8 @@ pub(crate) enum TokenKind<'a> {
     Slash,
 }
 
-impl Token<'_> {
+impl<K> Positioned<K> {
+    /// An error at this token.
     pub fn fault(&self, fault: AdamsFault) -> Error {
         Error::At { line: self.line, column: self.column, fault }
     }
@@ -85,7 +92,7 @@ pub(crate) fn statements(text: &str) -> Result<(Option<&str>, Vec<RawStatement<'
         _ => None,
     };
     let mut all: Vec<RawStatement<'_>> = Vec::new();
-    // What the comments since the last statement say about the next one.
+    // The name, units and remarks in the comments since the last statement; they belong to the next one.
     let mut next = RawStatement::default();
     // Whether the last statement may be continued, and whether it ended with a comma.
     let (mut open, mut comma) = (false, false);

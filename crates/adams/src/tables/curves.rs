@@ -34,8 +34,8 @@ impl SplineValues {
     /// Shapes: `y` has `max(1, z.len())` lists of `x.len()` values each.
     ///
     /// # Errors
-    /// [`AdamsFault::Points`] for fewer than four x values; [`AdamsFault::Order`] for x or z values that are not finite
-    /// or do not increase; [`AdamsFault::Curves`] and [`AdamsFault::Values`] for a wrong shape of `y`;
+    /// [`AdamsFault::Points`] for fewer than four x values; [`AdamsFault::Order`] for x or z values that are not
+    /// finite or do not increase; [`AdamsFault::Curves`] and [`AdamsFault::Values`] for a wrong shape of `y`;
     /// [`AdamsFault::NotFinite`] for a y value that is not finite.
     pub fn new(x: Vec<f64>, z: Vec<f64>, y: Vec<Vec<f64>>) -> Result<SplineValues, AdamsFault> {
         if x.len() < SplineValues::MIN_POINTS {

@@ -1,7 +1,7 @@
 //! Reader of SPLINE and UNITS statements that passes over everything else.
 //!
 //! It reads tokens instead of using the reader of whole data sets, so that a file with statements that this
-//! crate cannot read still gives its tables.
+//! crate cannot read is no obstacle to reading its tables.
 
 use super::curves::SplineValues;
 use super::spline::{Spline, Tables};

@@ -1,17 +1,13 @@
 //! Lines to commands, and commands to tokens.
 
-use crate::language::lexer::Piece;
+use crate::language::lexer::{Piece, Positioned};
 use crate::{AdamsFault, Error};
 
 /// A command: one piece of text for each line, without the `&` that continues it.
 pub(super) struct Command<'a>(Vec<Piece<'a>>);
 
-#[derive(Clone, Copy, Debug)]
-pub(super) struct CommandToken<'a> {
-    pub line: usize,
-    pub column: usize,
-    pub kind: CommandTokenKind<'a>,
-}
+/// A token of a command.
+pub(super) type CommandToken<'a> = Positioned<CommandTokenKind<'a>>;
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum CommandTokenKind<'a> {
@@ -20,12 +16,6 @@ pub(super) enum CommandTokenKind<'a> {
     Quoted(&'a str),
     Equals,
     Comma,
-}
-
-impl CommandToken<'_> {
-    pub fn fault(&self, fault: AdamsFault) -> Error {
-        Error::At { line: self.line, column: self.column, fault }
-    }
 }
 
 /// The commands of a file. `!` at the start of a line begins a comment; a line that ends with `&` is

@@ -46,7 +46,7 @@ impl CraneKind {
     /// # Source
     /// AIST TR-13 (2021), 3.7.2 with Table 3.2 (3.6.2 in the draft of 2020).
     #[must_use]
-    pub fn shares(self) -> LoadFractions {
+    pub fn fractions(self) -> LoadFractions {
         let usual = LoadFractions { impact: 0.25, lifted: 0.4, trolley: 0.2, crane: 0.1, traction: 0.2 };
         match self {
             CraneKind::Mill | CraneKind::Ladle => usual,
@@ -86,14 +86,14 @@ impl Thrusts {
 /// # Source
 /// AIST TR-13 (2021), 3.7.2.
 pub fn side_thrust(kind: CraneKind, crane: &Crane) -> Result<Thrusts, Error> {
-    let shares = kind.shares();
+    let fractions = kind.fractions();
     let lifted = non_negative(Argument::Force, crane.lifted)?;
     let moving = lifted + non_negative(Argument::Force, crane.trolley)?;
     let all = moving + non_negative(Argument::Force, crane.bridge)?;
     Ok(Thrusts {
-        lifted: shares.lifted * lifted,
-        trolley: shares.trolley * moving,
-        crane: shares.crane * all,
+        lifted: fractions.lifted * lifted,
+        trolley: fractions.trolley * moving,
+        crane: fractions.crane * all,
     })
 }
 
@@ -105,7 +105,7 @@ pub fn side_thrust(kind: CraneKind, crane: &Crane) -> Result<Thrusts, Error> {
 /// # Source
 /// AIST TR-13 (2021), 3.7.2.
 pub fn with_impact(kind: CraneKind, load: f64) -> Result<f64, Error> {
-    Ok((1.0 + kind.shares().impact) * non_negative(Argument::Force, load)?)
+    Ok((1.0 + kind.fractions().impact) * non_negative(Argument::Force, load)?)
 }
 
 /// The tractive force from the loads of the driven wheels without impact, in their unit.
@@ -116,8 +116,8 @@ pub fn with_impact(kind: CraneKind, load: f64) -> Result<f64, Error> {
 /// # Source
 /// AIST TR-13 (2021), 3.7.2.
 pub fn tractive_force(kind: CraneKind, driven: &[f64]) -> Result<f64, Error> {
-    let share = kind.shares().traction;
-    driven.iter().try_fold(0.0, |sum, load| Ok(sum + share * non_negative(Argument::Force, *load)?))
+    let fraction = kind.fractions().traction;
+    driven.iter().try_fold(0.0, |sum, load| Ok(sum + fraction * non_negative(Argument::Force, *load)?))
 }
 
 /// The class of a mill building, by the number of load cycles of its members.

@@ -20,7 +20,7 @@ pub const END_STOP_SPEED: f64 = 0.7;
 /// # Source
 /// EN 1991-3:2006, 2.11.1, Table 2.10.
 pub fn phi7(characteristic: f64) -> Result<f64, Error> {
-    let beyond = (within(Argument::Share, characteristic, 0.0, 1.0)? - 0.5).max(0.0);
+    let beyond = (within(Argument::Fraction, characteristic, 0.0, 1.0)? - 0.5).max(0.0);
     Ok(1.25 + 0.7 * beyond)
 }
 
@@ -72,6 +72,6 @@ pub fn stopping_force(mass: f64, speed: f64, stroke: f64, efficiency: f64) -> Re
     let mass = non_negative(Argument::Mass, mass)?;
     let speed = non_negative(Argument::Speed, speed)?;
     let stroke = positive(Argument::Length, stroke)?;
-    let efficiency = within(Argument::Share, efficiency, 1e-3, 1.0)?;
+    let efficiency = within(Argument::Fraction, efficiency, 1e-3, 1.0)?;
     Ok(mass * speed * speed / (2.0 * efficiency * stroke))
 }

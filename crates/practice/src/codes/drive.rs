@@ -75,14 +75,14 @@ pub fn traction(travel: &AcceleratingCrane) -> Result<DriveForces, Error> {
     let drive = non_negative(Argument::Force, travel.drive)?;
     let factor = non_negative(Argument::Factor, travel.factor)?;
     let rails = count(travel.rails)?;
-    let share = heavy / (heavy + light);
-    let moment = drive * (share - 0.5) * span;
+    let fraction = heavy / (heavy + light);
+    let moment = drive * (fraction - 0.5) * span;
     let couple = factor * moment / guides;
     Ok(DriveForces {
-        fraction: share,
+        fraction,
         along: factor * drive / rails,
         moment,
-        heavy: (1.0 - share) * couple,
-        light: share * couple,
+        heavy: (1.0 - fraction) * couple,
+        light: fraction * couple,
     })
 }

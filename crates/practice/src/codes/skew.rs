@@ -90,7 +90,7 @@ pub struct Skewing {
 /// lambda_S = (1 - sum e_j/(n h)) or xi2 times that; lambda_S,i,j,L = xi1 xi2 l/(n h) for coupled pairs;
 /// lambda_S,1,j,T = (xi2/n)(1 - e_j/h), lambda_S,2,j,T = (xi1/n)(1 - e_j/h), the latter zero where free.
 ///
-/// `span` is l; `share` is xi1, the fraction of the loads on the rail that carries more, and xi2 = 1 - xi1;
+/// `span` is l; `heavy` is xi1, the fraction of the loads on the rail that carries more, and xi2 = 1 - xi1;
 /// `pairs` are the distances e_j of the n wheel pairs from the front guide, of which all or none are coupled.
 ///
 /// Guarantee: the lateral forces and the moments about the guide are in equilibrium.
@@ -101,9 +101,9 @@ pub struct Skewing {
 ///
 /// # Source
 /// EN 1991-3:2006, 2.7.4, Tables 2.8 and 2.9.
-pub fn skewing(kind: WheelPairs, span: f64, share: f64, pairs: &[f64]) -> Result<Skewing, Error> {
+pub fn skewing(kind: WheelPairs, span: f64, heavy: f64, pairs: &[f64]) -> Result<Skewing, Error> {
     let span = positive(Argument::Length, span)?;
-    let heavy = within(Argument::Share, share, 0.0, 1.0)?;
+    let heavy = within(Argument::Fraction, heavy, 0.0, 1.0)?;
     let light = 1.0 - heavy;
     let (mut first, mut second) = (0.0, 0.0);
     for &pair in pairs {

@@ -45,7 +45,7 @@ pub struct Decay {
 /// ```
 pub fn decay(values: &[f64], step: f64, floor: f64) -> Result<Option<Decay>, Error> {
     let step = positive(Argument::Time, step)?;
-    let floor = within(Argument::Share, floor, 0.0, 1.0)?;
+    let floor = within(Argument::Fraction, floor, 0.0, 1.0)?;
     check_samples(0, values)?;
     let noise = NOISE * values.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
     let tops = extremes(values);

@@ -66,8 +66,15 @@ pub struct ResponseCharacteristics {
 /// let omega = 4.0 * std::f64::consts::PI;
 /// let step = |t: &f64| 50.0 - 50.0 * (-0.03 * omega * t).exp() * (omega * t).cos();
 /// let values: Vec<f64> = times.iter().map(step).collect();
-/// let view =
-///     ResponseSettings { from: 0.0, settled: 8.0, step: 0.01, cut_off: None, excursion_fraction: 0.1, band: [0.5, 5.0], floor: 0.1 };
+/// let view = ResponseSettings {
+///     from: 0.0,
+///     settled: 8.0,
+///     step: 0.01,
+///     cut_off: None,
+///     excursion_fraction: 0.1,
+///     band: [0.5, 5.0],
+///     floor: 0.1,
+/// };
 /// let found = response(&times, &values, &view)?;
 /// assert!((found.mean - 50.0).abs() < 0.5 && found.peak.value > 90.0);
 /// assert!((found.decay.expect("an oscillation").ratio - 0.03).abs() < 1e-3);

@@ -101,15 +101,15 @@ impl Excursions {
     }
 }
 
-/// The excursions of a history beyond `mean` plus or minus `share` |mean|. Successive samples on the same
+/// The excursions of a history beyond `mean` plus or minus `fraction` |mean|. Successive samples on the same
 /// side outside the band count as one excursion, also at the start.
 ///
 /// # Errors
-/// [`Error::Range`] for a mean that is not finite or a `share` that is negative; [`Error::Number`] for a
+/// [`Error::Range`] for a mean that is not finite or a `fraction` that is negative; [`Error::Number`] for a
 /// sample that is not finite.
-pub fn excursions(values: &[f64], mean: f64, share: f64) -> Result<Excursions, Error> {
+pub fn excursions(values: &[f64], mean: f64, fraction: f64) -> Result<Excursions, Error> {
     let mean = signed(Argument::Force, mean)?;
-    let width = non_negative(Argument::Share, share)? * mean.abs();
+    let width = non_negative(Argument::Fraction, fraction)? * mean.abs();
     let mut counts = Excursions { above: 0, below: 0 };
     let mut side = 0;
     check_samples(0, values)?;

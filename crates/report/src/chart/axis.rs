@@ -16,11 +16,11 @@ pub struct ChartAxis {
     pub label: String,
     /// Unit; empty for pure numbers.
     pub unit: String,
-    /// Ends, lower first; taken from the data where absent.
+    /// Ends of the axis, lower first; `None`: taken from the data.
     pub range: Option<[f64; 2]>,
     /// Logarithmic scale: every value must be positive.
     pub log: bool,
-    /// The positive direction points down (y axis) or left (x axis): deflections are drawn so.
+    /// Whether the positive direction points down (y axis) or left (x axis), as usual for deflections.
     pub downwards: bool,
 }
 
@@ -45,7 +45,7 @@ impl ChartAxis {
         ChartAxis { range: Some([low, high]), ..self }
     }
 
-    /// Label with unit and the power of ten taken out of the tick labels.
+    /// Label with unit and the common power of ten of the tick labels.
     pub(super) fn caption(&self, exponent: i32) -> String {
         with_unit(&self.label, exponent, &self.unit)
     }

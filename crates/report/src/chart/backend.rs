@@ -1,9 +1,8 @@
-//! plotters' drawing backend of the pictures: it writes SVG elements in tenths of a pixel.
+//! The drawing backend of the pictures for plotters, which writes SVG elements in tenths of a pixel.
 //!
-//! plotters' own SVG backend repeats fonts, opacities and empty strokes on every element, has no groups, and
-//! writes a header with every picture. This one writes what differs from the picture's root element, joins
-//! polygons that touch into one path, and opens and closes groups, by which a page switches series on and
-//! off.
+//! The SVG backend of plotters repeats fonts, opacities and empty strokes in every element, has no groups, and writes
+//! a header with every picture. This one writes only attributes that differ from those of the root element, joins
+//! adjacent polygons in one path, and opens and closes groups, by which a page switches series on and off.
 
 use std::convert::Infallible;
 
@@ -46,7 +45,7 @@ impl<'s> SvgBackend<'s> {
     /// Writes polylines as one stroked path.
     pub fn draw_paths<S: BackendStyle>(&mut self, paths: &[Vec<BackendCoord>], style: &S) {
         let data: String = paths.iter().map(|one| path_data(one.iter().copied())).collect();
-        // a straight line has nothing to fill
+        // a straight line has no area
         let fill = if matches!(paths, [line] if line.len() == 2) { "" } else { "fill=\"none\" " };
         self.tag(&format!("<path {fill}{} d=\"{data}\"/>", stroke(style)));
     }
@@ -212,7 +211,7 @@ fn path_data(corners: impl IntoIterator<Item = BackendCoord>) -> String {
             data.push(own);
         }
         for step in steps.into_iter().flatten() {
-            // numbers are parted by a letter, a minus or a blank
+            // numbers are separated by a letter, a minus sign or a blank
             if step >= 0 && data.ends_with(|last: char| last.is_ascii_digit()) {
                 data.push(' ');
             }

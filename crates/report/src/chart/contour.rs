@@ -1,13 +1,13 @@
 //! Filled contours of values on a rectangular grid.
 
-/// Region of a grid where the values reach a level, and the line around it inside the grid.
+/// Region of a grid where the values are at least a level, and the contour line of this level.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Region {
     /// Polygons that cover the region without overlap.
     pub polygons: Vec<Vec<[f64; 2]>>,
-    /// Pieces of the level's contour line, one a cell.
+    /// Pieces of the contour line, one for each cell.
     pub chords: Vec<[[f64; 2]; 2]>,
-    /// Every second piece along the line: the same line, dashed.
+    /// The pieces of every second cell, which draw the line dashed.
     pub dashes: Vec<[[f64; 2]; 2]>,
 }
 
@@ -15,7 +15,7 @@ pub(super) struct Region {
 ///
 /// `x` are the coordinates of the columns, `y` those of the rows, and `values[row][column]` the values there.
 /// Each cell is clipped to the part at or above the level (marching squares). Neighbouring cells of a row that
-/// lie wholly inside are joined. A cell that only touches the level from below is left out.
+/// are entirely inside are joined. A cell whose largest value equals the level is omitted.
 pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> Region {
     let mut found = Region::default();
     for row in 1..y.len() {

@@ -5,7 +5,7 @@ use std::ops::Range;
 use plotters::coord::ranged1d::{KeyPointHint, NoDefaultFormatting, Ranged, ValueFormatter};
 
 use super::scale::AxisScale;
-use super::sheet::HELD;
+use super::sheet::LARGEST;
 use super::ticks::Ticks;
 
 /// One coordinate of a chart of plotters, whose grid lines and labels are at the ticks.
@@ -25,7 +25,7 @@ impl Ranged for Coordinate {
         let along = self.scale.unit(*value);
         let along = if self.is_reversed { 1.0 - along } else { along };
         let place = f64::from(from) + along * f64::from(to - from);
-        place.clamp(-HELD, HELD).round() as i32
+        place.clamp(-LARGEST, LARGEST).round() as i32
     }
 
     fn key_points<Hint: KeyPointHint>(&self, hint: Hint) -> Vec<f64> {

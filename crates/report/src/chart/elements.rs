@@ -1,6 +1,6 @@
 //! Our own elements for plotters: tags around groups, symbols, and polygons or lines joined in one path.
 //!
-//! An element gives plotters its points in the coordinates of a chart, and draws itself once plotters has placed
+//! An element returns its points in the coordinates of a chart, and draws itself at the pixels to which plotters maps
 //! them.
 
 use std::iter::{Empty, Flatten, Once, empty, once};
@@ -39,11 +39,11 @@ impl<'s> Drawable<SvgBackend<'s>> for Tag {
     }
 }
 
-/// Polygons that touch, or lines of one kind, as one path: neighbours drawn apart show hairlines.
+/// Adjacent polygons, or lines of one style, as one path. Adjacent polygons drawn separately have visible gaps.
 pub(super) struct OnePath<C> {
     /// Corners of each polygon or line.
     pub pieces: Vec<Vec<C>>,
-    /// A filled style closes the pieces.
+    /// Style of the path; a filled style closes the pieces.
     pub style: ShapeStyle,
 }
 

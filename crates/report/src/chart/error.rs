@@ -1,4 +1,4 @@
-//! What a picture refuses.
+//! Errors of pictures.
 
 use plotters::drawing::DrawingAreaErrorKind;
 

@@ -1,4 +1,4 @@
-//! The frame of a chart: where its data lie on the picture, and plotters' chart with its grid and axes.
+//! The frame of a chart: placement of its data on the picture, and the chart of plotters with its grid and axes.
 
 use plotters::coord::cartesian::Cartesian2d;
 use plotters::prelude::*;
@@ -14,13 +14,13 @@ use super::sheet::{Area, LABEL, SMALL, WIDTH, font, stroke, units};
 use super::text::text_width;
 use super::ticks::Ticks;
 
-/// Room left of the frame beside its tick labels, for the caption.
+/// Space to the left of the frame for the caption, in addition to the tick labels.
 const CAPTION: f64 = 44.0;
-/// Room right of the frame.
+/// Space to the right of the frame.
 pub(super) const RIGHT: f64 = 30.0;
-/// Room below the frame for tick labels and caption.
+/// Space below the frame for tick labels and caption.
 pub(super) const BELOW: f64 = 52.0;
-/// Room left of the caption of the y axis.
+/// Space to the left of the caption of the y axis.
 const EDGE: f64 = 9.4;
 /// Height of tick labels and caption below the frame.
 const LABELS: f64 = 43.5;
@@ -58,7 +58,7 @@ pub struct PlotArea {
 }
 
 impl PlotArea {
-    /// A frame as wide as the picture allows beside the labels of the y axis, with the ticks of both axes.
+    /// The widest frame that leaves space for the labels of the y axis, with the ticks of both axes.
     pub(super) fn new(
         x: (&ChartAxis, AxisScale),
         y: (&ChartAxis, AxisScale),
@@ -128,7 +128,7 @@ pub(super) fn plot<'s>(
 ) -> Result<Plot<'s>, Error> {
     let (all_width, all_height) = area.dim_in_pixel();
     let [above, below, before, behind] = labels.map(units);
-    // plotters' last drawing unit of an area lies one before its end.
+    // in plotters, the last drawing unit of an area is one before its end
     let (right, bottom) = (units(left + width) + 1, units(top + height) + 1);
     let chart = ChartBuilder::on(area)
         .margin_left(units(left) - before)

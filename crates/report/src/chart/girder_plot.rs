@@ -17,11 +17,11 @@ use super::svg::{FINE, Svg};
 use super::text::{text_width, wrap};
 use super::ticks::Ticks;
 
-/// Room left and right of the girder, in pixels.
+/// Margin at both ends of the girder, in pixels.
 const MARGIN: f64 = 46.0;
-/// Size of the largest deflection on the picture as a fraction of the girder's length, where no factor is given.
-const SAG: f64 = 0.07;
-/// Tallest picture, in pixels.
+/// Size of the largest deflection in the picture as a fraction of the length of the girder, if no factor is given.
+const DRAWN_DEFLECTION: f64 = 0.07;
+/// Largest height of the frame, in pixels.
 const TALLEST: f64 = 4000.0;
 /// Radius of the symbols of stations, in pixels.
 const RADIUS: f64 = 3.4;
@@ -32,7 +32,7 @@ pub struct SupportMark {
     /// (x, y) of the supported point.
     pub at: [f64; 2],
     /// The support restrains the longitudinal direction too; otherwise it is drawn as a roller.
-    pub holds_length: bool,
+    pub is_fixed_lengthwise: bool,
 }
 
 /// A deflected shape.
@@ -40,11 +40,11 @@ pub struct SupportMark {
 pub struct Deflected {
     /// Name in the legend.
     pub label: String,
-    /// Points at rest, (x, y).
+    /// Points of the undeformed shape, (x, y).
     pub at: Vec<[f64; 2]>,
     /// Displacement of each point, in the same unit, y positive upwards.
     pub by: Vec<[f64; 2]>,
-    /// Factor by which displacements are exaggerated; chosen where absent.
+    /// Factor by which displacements are exaggerated; `None`: chosen from the length of the girder.
     pub factor: Option<f64>,
 }
 
@@ -58,8 +58,8 @@ pub struct Deflected {
 ///     length_unit: "m".into(),
 ///     members: vec![vec![[0.0, 0.0], [12.0, 0.0]]],
 ///     supports: vec![
-///         SupportMark { at: [0.0, 0.0], holds_length: true },
-///         SupportMark { at: [12.0, 0.0], holds_length: false },
+///         SupportMark { at: [0.0, 0.0], is_fixed_lengthwise: true },
+///         SupportMark { at: [12.0, 0.0], is_fixed_lengthwise: false },
 ///     ],
 ///     ..GirderPlot::default()
 /// };
@@ -84,12 +84,12 @@ pub struct GirderPlot {
     pub loads: Vec<[f64; 2]>,
     /// Deflected shape.
     pub deflected: Option<Deflected>,
-    /// Small print below the picture.
+    /// Note below the picture, in small letters.
     pub note: String,
 }
 
 impl GirderPlot {
-    /// The side view as a picture; the factor of the deflected shape stands in the legend.
+    /// The side view as a picture; the legend states the factor of the deflected shape.
     ///
     /// # Errors
     /// [`Error::NoData`] without members, [`Error::NotFinite`] (series counts members, then rail, supports,
@@ -125,7 +125,7 @@ impl GirderPlot {
                     view.draw_series(LineSeries::new(pairs(&self.rail), stroke(colour(index), 2.4)))?;
                 }
                 view.draw_series(
-                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.holds_length)),
+                    self.supports.iter().map(|s| Symbol::support((s.at[0], s.at[1]), s.is_fixed_lengthwise)),
                 )?;
                 Ok(())
             })?;
@@ -173,7 +173,7 @@ impl GirderPlot {
         let shape = self.deflected.as_ref().filter(|d| !d.at.is_empty())?;
         let largest = shape.by.iter().map(|b| b[0].hypot(b[1])).fold(0.0, f64::max);
         let (left, right) = self.ends();
-        let wanted = SAG * (right - left) / largest;
+        let wanted = DRAWN_DEFLECTION * (right - left) / largest;
         let chosen = if wanted.is_finite() && wanted > 0.0 { step(0.0, wanted, 1.0) } else { 1.0 };
         let factor = shape.factor.unwrap_or(chosen);
         let points = shape.at.iter().zip(&shape.by);
@@ -181,7 +181,7 @@ impl GirderPlot {
         Some((format!("{}, displacements x {factor}", shape.label), points))
     }
 
-    /// Frame with one scale for both directions, from below the legend to below all that is drawn to scale.
+    /// Frame with one scale for both directions; `top` is the ordinate of its upper edge.
     fn frame(&self, top: f64, shape: Option<&[[f64; 2]]>) -> Result<PlotArea, Error> {
         let (left, right) = self.ends();
         let scale = (WIDTH - 2.0 * MARGIN) / (right - left);
@@ -202,7 +202,7 @@ impl GirderPlot {
         Ok(PlotArea { left: MARGIN, top, width: WIDTH - 2.0 * MARGIN, height, x, y, is_reversed: [false; 2] })
     }
 
-    /// Symbols on the rail, and coordinates above it as far as there is room.
+    /// Draws symbols of the stations, and their coordinates above them where labels do not overlap.
     fn mark_stations(
         &self,
         area: &Area<'_>,
@@ -225,7 +225,7 @@ impl GirderPlot {
         Ok(())
     }
 
-    /// Chain of dimensions below the frame, from end to end over the supports.
+    /// Draws a chain of dimensions below the frame, between the ends of the girder and its supports.
     fn dimensions(&self, area: &Area<'_>, frame: &PlotArea) -> Result<(), Error> {
         let (left, right) = self.ends();
         let mut stops: Vec<f64> = self.supports.iter().map(|s| s.at[0]).chain([left, right]).collect();

@@ -1,7 +1,7 @@
-//! The legend: every series can be told from the others without colour.
+//! The legend, which distinguishes the series without colour as well.
 //!
-//! plotters' own series labels stand below each other in a box over the data, and all in one element. Here they
-//! flow in rows above the frame, each in groups of its own, by which a page switches its series on and off.
+//! The legend of plotters is a box over the data with one entry below the other, in a single element. Here the
+//! entries are in rows above the frame, each in groups of its own, so that a page can switch its series on and off.
 
 use plotters::style::text_anchor::{HPos, VPos};
 
@@ -18,7 +18,7 @@ const ROW: f64 = 20.0;
 /// Length of the line shown before a name.
 const SWATCH: f64 = 34.0;
 /// Space between a line and its name.
-const BESIDE: f64 = 6.0;
+const LABEL_SPACE: f64 = 6.0;
 /// Space between entries.
 const GAP: f64 = 22.0;
 /// Radius of symbols, in pixels.
@@ -28,14 +28,14 @@ pub(super) const RADIUS: f64 = 3.6;
 pub(super) struct Legend {
     /// Left end of the line of each entry.
     places: Vec<[f64; 2]>,
-    /// Symbols stand on the lines of all series.
+    /// Whether the lines of all series have symbols.
     with_symbols: bool,
     /// Height of all rows.
     pub height: f64,
 }
 
 impl Legend {
-    /// Entries from `left` on, no further than `right`, below `top`. A single series has none.
+    /// Entries between the abscissas `left` and `right` and below the ordinate `top`. A single series has none.
     pub fn new(series: &[Series], left: f64, right: f64, top: f64, with_symbols: bool) -> Self {
         if series.len() < 2 {
             return Legend { places: Vec::new(), with_symbols, height: 0.0 };
@@ -43,7 +43,7 @@ impl Legend {
         let (mut at, mut row) = (left, 0.0);
         let mut places = Vec::new();
         for one in series {
-            let width = SWATCH + BESIDE + text_width(&one.label, SMALL);
+            let width = SWATCH + LABEL_SPACE + text_width(&one.label, SMALL);
             if at > left && at + width > right {
                 at = left;
                 row += 1.0;
@@ -59,7 +59,7 @@ impl Legend {
         let style = font(SMALL, INK, HPos::Left, VPos::Center);
         for (index, ([x, y], one)) in self.places.iter().zip(series).enumerate() {
             let class = format!("class=\"key\" data-series=\"{index}\"");
-            group(area, &class, || text(area, &one.label, [x + SWATCH + BESIDE, *y], &style))?;
+            group(area, &class, || text(area, &one.label, [x + SWATCH + LABEL_SPACE, *y], &style))?;
             if one.style != Style::Points {
                 let colour = line_colour(one.style, index);
                 group(area, &format!("{class}{}", dashes(one.style)), || {
@@ -75,7 +75,7 @@ impl Legend {
     }
 }
 
-/// Attribute that draws the lines of a group in that style.
+/// Attribute of a group that draws its lines in this style.
 pub(super) fn dashes(style: Style) -> &'static str {
     if matches!(style, Style::Dashed | Style::Limit) { " stroke-dasharray=\"80 50\"" } else { "" }
 }

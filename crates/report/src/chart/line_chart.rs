@@ -21,15 +21,15 @@ use super::ticks::Ticks;
 
 /// Height of the frame of an ordinary chart, in pixels.
 const HEIGHT: f64 = 370.0;
-/// Least and greatest height of the frame where both axes have one scale.
+/// Smallest and largest height of the frame if both axes have the same scale, in pixels.
 const EQUAL: [f64; 2] = [150.0, 620.0];
-/// Columns of curves are this wide, in pixels.
+/// Width of a column within which curves are thinned, in pixels.
 const COLUMN: f64 = 0.5;
-/// Series with more points than this are thinned.
+/// Largest number of points of a series that is not thinned.
 const LONG: usize = 2000;
-/// Symbols on curves stand this far apart, in pixels along the curve.
+/// Distance of symbols along a curve, in pixels.
 const APART: f64 = 120.0;
-/// The first symbol of a curve stands this far or further from its start, in pixels.
+/// Smallest distance of the first symbol from the start of a curve, in pixels.
 const FIRST: f64 = 20.0;
 /// Height of a row of labels of markers, in pixels.
 const MARKER_ROW: f64 = 16.0;
@@ -40,7 +40,9 @@ const MARKER_ROW: f64 = 16.0;
 /// use report::chart::{ChartAxis, Chart, Series, Style};
 ///
 /// let deflection = (0..=60).map(|x| [f64::from(x), 0.5 * (f64::from(x) / 60.0 * 3.14).sin()]).collect();
-/// let chart = Chart::new("Path of the trunnion", ChartAxis::new("place", "ft"), ChartAxis::new("deflection", "ft").downwards())
+/// let axes = [ChartAxis::new("position", "ft"), ChartAxis::new("deflection", "ft").downwards()];
+/// let [x, y] = axes;
+/// let chart = Chart::new("Path of the trunnion", x, y)
 ///     .with(Series::new("influence", Style::Line, deflection))
 ///     .with(Series::new("rigid rail", Style::Dashed, vec![[0.0, 0.0], [60.0, 0.0]]))
 ///     .mark(30.0, "midspan");
@@ -60,20 +62,20 @@ pub struct Chart {
     pub series: Vec<Series>,
     /// Vertical lines with labels.
     pub markers: Vec<SeriesMarker>,
-    /// Small print below the chart.
+    /// Note below the chart, in small letters.
     pub note: String,
-    /// Both axes have the same scale: a circle stays one. Linear axes only.
+    /// Whether both axes have the same scale, so that a circle is drawn as one. For linear axes only.
     pub equal_aspect: bool,
 }
 
-/// A drawn chart: the picture, and what a read-out under the pointer needs.
+/// A drawn chart: the picture, and the data for the display of values under the pointer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Drawing {
     /// The picture.
     pub svg: Svg,
-    /// Where its data lie.
+    /// Placement of its data.
     pub frame: PlotArea,
-    /// Points drawn for each series: all of them, or the thinned ones.
+    /// Points drawn for each series, after thinning.
     pub series: Vec<Vec<[f64; 2]>>,
 }
 
@@ -105,12 +107,12 @@ impl Chart {
 
     /// Draws the chart.
     ///
-    /// Series without points are named in the legend and not drawn. Long series are thinned to four points a
-    /// half pixel with their extremes kept.
+    /// Series without points appear only in the legend. Long series are thinned to at most four points in each half
+    /// pixel, which preserves their extremes.
     ///
     /// # Errors
-    /// [`Error::NotFinite`], [`Error::NotPositive`] and [`Error::Marker`] for what cannot be placed,
-    /// [`Error::NoData`] where no series has a point, [`Error::Range`] for an axis that cannot be drawn.
+    /// [`Error::NotFinite`], [`Error::NotPositive`] and [`Error::Marker`] for points and markers that cannot be
+    /// placed, [`Error::NoData`] where no series has a point, [`Error::Range`] for an axis that cannot be drawn.
     pub fn draw(&self) -> Result<Drawing, Error> {
         self.check()?;
         let layout = self.layout()?;
@@ -122,7 +124,7 @@ impl Chart {
         Ok(Drawing { svg, frame: layout.frame, series: drawn })
     }
 
-    /// Places title, legend, labels of markers, frame and note below each other.
+    /// Arranges title, legend, labels of markers, frame and note one below the other.
     fn layout(&self) -> Result<Layout, Error> {
         let (x, y, height) = self.scales()?;
         let title = wrap(&self.title, WIDTH - 40.0, TITLE);
@@ -196,7 +198,7 @@ impl Chart {
         let y = AxisScale::new(&self.y_axis, points().map(|p| p[1]), true)?;
         let mut found = (x, y, HEIGHT);
         if self.equal_aspect && !x.log && !y.log {
-            // The frame is as wide as the labels of the y axis leave it, and those depend on the height.
+            // The width of the frame depends on the labels of the y axis, and these depend on the height.
             for _ in 0..8 {
                 let width =
                     PlotArea::new((&self.x_axis, found.0), (&self.y_axis, found.1), 0.0, found.2).0.width;
@@ -208,7 +210,7 @@ impl Chart {
         Ok(found)
     }
 
-    /// There are more than two curves: symbols tell them apart in grey.
+    /// Whether there are more than two curves, so that symbols are needed to distinguish them without colour.
     fn is_crowded(&self) -> bool {
         self.series.iter().filter(|s| !s.has_symbols()).count() > 2
     }
@@ -281,7 +283,7 @@ impl Chart {
     }
 }
 
-/// What stands where on the picture of a chart.
+/// Positions of the parts of a chart.
 struct Layout {
     title: Vec<String>,
     legend: Legend,

@@ -1,10 +1,9 @@
 //! Charts as plain data, drawn to SVG with plotters.
 //!
-//! [`Chart`] holds curves over two axes and serves both the SVG file and the report, [`SurfacePlot`] an influence
-//! grid, [`GirderPlot`] the side view of a girder. plotters draws them: its chart builder places the frame, its
-//! coordinates place the data, its mesh draws grid, ticks and labels, its series and elements the rest.
-//! What is ours extends it where it is made to be extended: a drawing backend that writes small SVG with groups,
-//! a coordinate with our ticks, and a few elements.
+//! A [`Chart`] has curves over two axes, for SVG files and for the report; a [`SurfacePlot`] is an influence grid, a
+//! [`GirderPlot`] the side view of a girder. plotters draws them: its chart builder places the frame, its coordinates
+//! place the data, its mesh draws grid, ticks and labels, its series and elements the rest. This module adds a
+//! drawing backend that writes small SVG with groups, a coordinate with ticks of its own, and a few elements.
 //!
 //! Files in their order, each of which imports from earlier ones only: `error`, `label`, `text`, `svg`; `backend`,
 //! `series`, `palette`, `elements`, `sheet`; `axis`, `scale`, `ticks`, `coordinate`, `frame`, `legend`; `thinning`,

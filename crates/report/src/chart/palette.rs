@@ -1,4 +1,4 @@
-//! Colours of the pictures. They can be told apart in print without colour too.
+//! Colours of the pictures, which differ in a print without colour as well.
 
 use plotters::style::RGBColor;
 
@@ -11,7 +11,7 @@ pub(super) const FAINT: RGBColor = RGBColor(0xdd, 0xdd, 0xdd);
 /// Notes, markers and limits.
 pub(super) const GREY: RGBColor = RGBColor(0x66, 0x66, 0x66);
 
-/// Line colours in the order of use; their greys alternate between dark and light.
+/// Line colours in the order of use; without colour they alternate between dark and light grey.
 const PALETTE: [RGBColor; 8] = [
     RGBColor(0x16, 0x16, 0x1d),
     RGBColor(0xd6, 0x5a, 0x0b),
@@ -33,7 +33,8 @@ pub(super) fn line_colour(style: Style, series: usize) -> RGBColor {
     if style == Style::Limit { GREY } else { colour(series) }
 }
 
-/// Colour of a value between -1 (blue) and 1 (red); 0 is white, and the grey darkens with the absolute value.
+/// Colour of a value between -1 (blue) and 1 (red); 0 is white, and the colour becomes darker with the absolute
+/// value.
 pub(super) fn shade(value: f64) -> RGBColor {
     let full = if value < 0.0 { [0x1b, 0x4f, 0x9c] } else { [0x9e, 0x1b, 0x2e] };
     let t = value.abs().min(1.0).powf(0.85);

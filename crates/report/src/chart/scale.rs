@@ -1,9 +1,9 @@
-//! Scales: data to the unit interval, over ranges that end at 1, 2 or 5 times a power of ten.
+//! Scales, which map data to the unit interval, over ranges that end at multiples of 1, 2 or 5 times a power of ten.
 
 use super::axis::ChartAxis;
 use super::error::Error;
 
-/// Ranges shorter than this count as a single value: powers of ten below it lose digits.
+/// Length of a range below which it is treated as a single value, because smaller powers of ten lose digits.
 const TINY: f64 = 1e-280;
 
 /// Scale of one axis: data to the unit interval.
@@ -14,7 +14,7 @@ pub(super) struct AxisScale {
     pub log: bool,
 }
 
-/// Least and greatest value; infinities the wrong way round where there is none.
+/// Smallest and largest value; (infinity, -infinity) if there is none.
 pub(super) fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)))
 }
@@ -62,7 +62,7 @@ impl AxisScale {
         }
     }
 
-    /// Place of a value: 0 at the lower end, 1 at the upper.
+    /// Position of a value: 0 at the lower end, 1 at the upper end.
     pub fn unit(&self, value: f64) -> f64 {
         if self.log {
             (value / self.low).ln() / (self.high / self.low).ln()
@@ -71,7 +71,7 @@ impl AxisScale {
         }
     }
 
-    /// The scale about the same middle, longer by a factor; a factor below 1 leaves it as it is.
+    /// The scale with the same middle and a range longer by `factor`; unchanged for a factor below 1.
     pub fn widened(self, factor: f64) -> Self {
         let (middle, half) = (0.5 * (self.low + self.high), 0.5 * (self.high - self.low));
         if factor > 1.0 {

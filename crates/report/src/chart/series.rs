@@ -1,4 +1,4 @@
-//! What a chart shows: series of points, and markers across it.
+//! Data of a chart: series of points, and markers across the chart.
 
 /// How a series is drawn.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -8,13 +8,13 @@ pub enum Style {
     Line,
     /// The same, dashed.
     Dashed,
-    /// The same, dashed and grey: a bound of the others, not one of them.
+    /// The same, dashed and grey, for a limit of the other series.
     Limit,
     /// A symbol at each point.
     Points,
     /// A thin line from point to point, and a symbol at each.
     Marked,
-    /// Each value held until the next point.
+    /// Each value continues to the next point.
     Step,
 }
 
@@ -33,7 +33,7 @@ pub struct Series {
     pub label: String,
     /// How it is drawn.
     pub style: Style,
-    /// (x, y), in the units of the axes, in the order in which they are joined.
+    /// Points (x, y) in the units of the axes, in the order in which they are connected.
     pub points: Vec<[f64; 2]>,
     /// Range along x of each point, lower end first, in the units of the axis; empty: no ranges are drawn.
     pub spread: Vec<[f64; 2]>,
@@ -58,7 +58,7 @@ impl Series {
         Series { spread, ..self }
     }
 
-    /// Whether a symbol stands at every point.
+    /// Whether every point has a symbol.
     pub(super) fn has_symbols(&self) -> bool {
         matches!(self.style, Style::Points | Style::Marked)
     }

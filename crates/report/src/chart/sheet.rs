@@ -1,4 +1,4 @@
-//! The sheet that a picture is drawn on: a drawing area of plotters over [`SvgBackend`], places in pixels.
+//! The sheet of a picture: a drawing area of plotters over [`SvgBackend`], with positions in pixels.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -12,24 +12,26 @@ use super::svg::{FINE, Svg};
 
 /// Width of a picture in pixels.
 pub(super) const WIDTH: f64 = 860.0;
-/// Coordinates beyond this many drawing units are held at it.
-pub(super) const HELD: f64 = 1e6;
+/// Largest magnitude of a coordinate in drawing units; larger ones are set to it.
+pub(super) const LARGEST: f64 = 1e6;
 /// Height of a line of a title in pixels.
 pub(super) const TITLE_LINE: f64 = 22.0;
 /// Height of a line of a note in pixels.
 pub(super) const NOTE_LINE: f64 = 16.0;
-/// Room above a title in pixels.
+/// Space above a title in pixels.
 const ABOVE_TITLE: f64 = 8.5;
 
-/// Sizes of text, in pixels.
+/// Size of the text of titles, in pixels.
 pub(super) const TITLE: f64 = 16.0;
+/// Size of the labels of axes, in pixels.
 pub(super) const LABEL: f64 = 13.0;
+/// Size of all other text, in pixels.
 pub(super) const SMALL: f64 = 12.0;
 
 /// A drawing area in drawing units from its upper left corner.
 pub(super) type Area<'s> = DrawingArea<SvgBackend<'s>, Shift>;
 
-/// A picture of `width` by `height` pixels, rounded up, with what `draw` adds to it.
+/// A picture of `width` by `height` pixels, rounded up, with the content that `draw` adds.
 pub(super) fn picture(
     width: f64,
     height: f64,
@@ -48,7 +50,7 @@ pub(super) fn picture(
 
 /// Drawing units of a length in pixels.
 pub(super) fn units(pixels: f64) -> i32 {
-    (pixels * FINE).clamp(-HELD, HELD).round() as i32
+    (pixels * FINE).clamp(-LARGEST, LARGEST).round() as i32
 }
 
 /// A place in drawing units.
@@ -61,7 +63,7 @@ pub(super) fn stroke(colour: RGBColor, width: f64) -> ShapeStyle {
     colour.stroke_width(units(width).unsigned_abs())
 }
 
-/// Style of text of a size in pixels; the given part of its box lies at its place.
+/// Style of text of a size in pixels. `across` and `down` select the point of its box that is at its position.
 pub(super) fn font(size: f64, colour: RGBColor, across: HPos, down: VPos) -> TextStyle<'static> {
     let font = FontDesc::new(FontFamily::SansSerif, size * FINE, FontStyle::Normal);
     TextStyle { color: colour.to_backend_color(), ..TextStyle::from(font) }.pos(Pos::new(across, down))
@@ -83,7 +85,7 @@ pub(super) fn group(
     Ok(area.draw(&Tag("</g>".to_owned()))?)
 }
 
-/// Draws a group that is clipped to a rectangle: an inner viewport, which needs no name.
+/// Draws a group that is clipped to a rectangle, as an inner viewport, which needs no identifier.
 pub(super) fn clipped(
     area: &Area<'_>,
     attributes: &str,

@@ -8,7 +8,7 @@ use super::contour::region;
 use super::coordinate::Coordinate;
 use super::elements::OnePath;
 use super::error::Error;
-use super::frame::{self, BELOW, PlotArea, pairs, plot};
+use super::frame::{self, BELOW, Plot, PlotArea, pairs, plot};
 use super::label::{fixed, short, with_unit};
 use super::line_chart::Chart;
 use super::palette::{GREY, INK, shade};
@@ -19,18 +19,20 @@ use super::svg::Svg;
 use super::text::wrap;
 use super::ticks::{Ticks, exponent};
 
-/// Grids with at most this many rows and columns are shown as tables.
+/// Largest number of rows and of columns of a grid that is shown as a table.
 const TABLE: usize = 12;
 /// Side of the map in pixels.
 const SIDE: f64 = 560.0;
-/// Room left of the map and of notes, in pixels.
+/// Space to the left of the map and of notes, in pixels.
 const LEFT: f64 = 92.0;
-/// Room right of tables and notes, in pixels.
+/// Space to the right of tables and notes, in pixels.
 const RIGHT: f64 = 30.0;
-/// Greatest width, and height, of a cell of a table in pixels.
+/// Largest width of a cell of a table, and its height, in pixels.
 const CELL: [f64; 2] = [104.0, 34.0];
 /// White to the right of and below a cell of a table, in pixels.
 const GAP: f64 = 1.5;
+/// Absolute value of a cell, relative to the largest, above which its text is white.
+const DARK: f64 = 0.62;
 /// Upper edges of tables and maps, below their heading, in pixels.
 const BELOW_HEADING: [f64; 2] = [92.0, 62.0];
 
@@ -71,7 +73,7 @@ pub struct SurfacePlot {
     pub values: Vec<Vec<f64>>,
     /// Coordinates of supports, drawn as thin lines.
     pub supports: Vec<f64>,
-    /// Small print below the picture.
+    /// Note below the picture, in small letters.
     pub note: String,
 }
 
@@ -81,20 +83,20 @@ impl SurfacePlot {
     /// Between the stations the map is linear along the edges of the grid's cells.
     ///
     /// # Errors
-    /// [`Error::NoData`], [`Error::Shape`], [`Error::Stations`] or [`Error::NotFinite`] for a grid that is
-    /// not one; the indices of the last are row and column.
+    /// [`Error::NoData`], [`Error::Shape`], [`Error::Stations`] or [`Error::NotFinite`] for an invalid grid; the
+    /// indices of the last error are row and column.
     pub fn svg(&self) -> Result<Svg, Error> {
         self.check()?;
         if self.at.len() <= TABLE && self.loads.len() <= TABLE { self.table() } else { self.map() }
     }
 
-    /// One influence line a load station, as a chart with deflections positive upwards as in the grid.
+    /// One influence line for each load station, as a chart with deflections positive upwards as in the grid.
     ///
     /// # Errors
     /// As [`SurfacePlot::svg`].
     pub fn lines(&self) -> Result<Chart, Error> {
         self.check()?;
-        let x = ChartAxis::new("place of the deflection", &self.length_unit);
+        let x = ChartAxis::new("position of the deflection", &self.length_unit);
         let mut chart = Chart::new(&self.title, x, ChartAxis::new(&self.label, &self.unit));
         for (column, load) in self.loads.iter().enumerate() {
             let points = self.at.iter().zip(&self.values).map(|(x, row)| [*x, row[column]]).collect();
@@ -163,56 +165,55 @@ impl SurfacePlot {
         let end = top + height * rows;
         sheet::picture(WIDTH, end + 24.0 + NOTE_LINE * note.len() as f64, |area| {
             self.heading(area, power)?;
-            let head = |stations: &[f64], is_reversed| {
-                let values = (0..stations.len()).map(|i| i as f64 + 0.5).collect();
-                let labels = stations.iter().map(|station| short(*station)).collect();
-                let scale = AxisScale { low: 0.0, high: stations.len() as f64, log: false };
-                Coordinate { scale, ticks: Ticks { values, labels, exponent: 0 }, is_reversed }
-            };
             let rectangle = [left, top, width * columns, height * rows];
-            let mut cells = plot(
-                area,
-                rectangle,
-                [37.0, 0.0, 72.0, 0.0],
-                [head(&self.loads, false), head(&self.at, true)],
-            )?;
+            let coordinates = [cell_indices(&self.loads, false), cell_indices(&self.at, true)];
+            let mut cells = plot(area, rectangle, [37.0, 0.0, 72.0, 0.0], coordinates)?;
             group(area, "class=\"cells\"", || {
-                let share = |value: f64| if limit > 0.0 { value / limit } else { 0.0 };
-                let all = || {
-                    let rows = self.values.iter().enumerate();
-                    rows.flat_map(|(i, row)| {
-                        row.iter().enumerate().map(move |(j, v)| (j as f64, i as f64, *v))
-                    })
-                };
-                cells.draw_series(all().map(|(x, y, value)| {
-                    let corners = [(x, y), (x + 1.0, y + 1.0)];
-                    let mut cell = Rectangle::new(corners, shade(share(value)).filled());
-                    let gap = units(GAP).unsigned_abs();
-                    cell.set_margin(0, gap, 0, gap);
-                    cell
-                }))?;
-                cells.draw_series(all().map(|(x, y, value)| {
-                    let ink = if share(value).abs() > 0.62 { WHITE } else { INK };
-                    let style = font(SMALL, ink, HPos::Center, VPos::Center);
-                    Text::new(fixed(value, power, 2), (x + 0.5, y + 0.5), style)
-                }))?;
-                let head = font(SMALL, INK, HPos::Center, VPos::Center);
-                let unit = &self.length_unit;
-                cells
-                    .configure_mesh()
-                    .disable_mesh()
-                    .axis_style(TRANSPARENT)
-                    .set_tick_mark_size(LabelAreaPosition::Top, units(3.0))
-                    .set_tick_mark_size(LabelAreaPosition::Left, units(5.0))
-                    .label_style(bold(head.clone()))
-                    .axis_desc_style(head)
-                    .x_desc(format!("load at ({unit})"))
-                    .y_desc(format!("deflection at ({unit})"))
-                    .draw()?;
-                Ok(())
+                self.draw_cells(&mut cells, limit, power)?;
+                self.label_cells(&mut cells)
             })?;
             group(area, "class=\"note\"", || sheet::note(area, &note, [LEFT, end + 14.0]))
         })
+    }
+
+    /// Draws all cells of the table, shaded relative to the largest absolute value `limit`, and then their values.
+    fn draw_cells(&self, cells: &mut Plot<'_>, limit: f64, power: i32) -> Result<(), Error> {
+        let relative = |value: f64| if limit > 0.0 { value / limit } else { 0.0 };
+        let all = || {
+            let rows = self.values.iter().enumerate();
+            rows.flat_map(|(i, row)| row.iter().enumerate().map(move |(j, v)| (j as f64, i as f64, *v)))
+        };
+        cells.draw_series(all().map(|(x, y, value)| {
+            let corners = [(x, y), (x + 1.0, y + 1.0)];
+            let mut cell = Rectangle::new(corners, shade(relative(value)).filled());
+            let gap = units(GAP).unsigned_abs();
+            cell.set_margin(0, gap, 0, gap);
+            cell
+        }))?;
+        cells.draw_series(all().map(|(x, y, value)| {
+            let ink = if relative(value).abs() > DARK { WHITE } else { INK };
+            let style = font(SMALL, ink, HPos::Center, VPos::Center);
+            Text::new(fixed(value, power, 2), (x + 0.5, y + 0.5), style)
+        }))?;
+        Ok(())
+    }
+
+    /// Draws the stations above the columns and to the left of the rows of the table.
+    fn label_cells(&self, cells: &mut Plot<'_>) -> Result<(), Error> {
+        let head = font(SMALL, INK, HPos::Center, VPos::Center);
+        let unit = &self.length_unit;
+        cells
+            .configure_mesh()
+            .disable_mesh()
+            .axis_style(TRANSPARENT)
+            .set_tick_mark_size(LabelAreaPosition::Top, units(3.0))
+            .set_tick_mark_size(LabelAreaPosition::Left, units(5.0))
+            .label_style(bold(head.clone()))
+            .axis_desc_style(head)
+            .x_desc(format!("load at ({unit})"))
+            .y_desc(format!("deflection at ({unit})"))
+            .draw()?;
+        Ok(())
     }
 
     /// Values as bands of colour between contours.
@@ -230,8 +231,7 @@ impl SurfacePlot {
         let frame =
             PlotArea { left: LEFT, top: BELOW_HEADING[1], width: SIDE, height: SIDE, x, y, is_reversed };
         let levels = levels(low, high);
-        let is_dashed = levels.iter().any(|v| *v < -1e-9 * limit);
-        let note = if is_dashed {
+        let note = if levels.iter().any(|v| *v < -1e-9 * limit) {
             format!("{} Contours below zero are dashed.", self.note)
         } else {
             self.note.clone()
@@ -243,39 +243,67 @@ impl SurfacePlot {
             let mut map = frame.plot(area, [frame.x_ticks(), Ticks::new(&y, 10.0)])?;
             let colours = band_colours(&levels, low, high, limit);
             group(area, "class=\"bands\" stroke-linecap=\"round\"", || {
-                let whole = [(x.low, y.low), (x.high, y.high)];
-                map.plotting_area().draw(&Rectangle::new(whole, colours[0].filled()))?;
-                // Rounding must not decide on which side of zero a support lies.
-                let snap = |v: &f64| if v.abs() < 1e-12 * limit { 0.0 } else { *v };
-                let values: Vec<Vec<f64>> =
-                    self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
-                for (level, colour) in levels.iter().zip(&colours[1..]) {
-                    let found = region(&self.loads, &self.at, &values, *level);
-                    let is_zero = level.abs() < 1e-9 * limit;
-                    let lines = if *level < 0.0 && !is_zero { found.dashes } else { found.chords };
-                    let style = if is_zero { stroke(INK, 1.6) } else { stroke(GREY, 0.7) };
-                    map.draw_series([
-                        OnePath {
-                            pieces: found.polygons.iter().map(|p| pairs(p).collect()).collect(),
-                            style: colour.filled(),
-                        },
-                        OnePath { pieces: lines.iter().map(|line| pairs(line).collect()).collect(), style },
-                    ])?;
-                }
-                Ok(())
+                self.draw_bands(&mut map, &frame, &levels, &colours, limit)
             })?;
             group(area, "class=\"scales\"", || {
-                let inside = self.supports.iter().filter(|s| (x.low..=x.high).contains(s));
-                map.draw_series(inside.flat_map(|s| {
-                    let (across, up) = ([(*s, y.low), (*s, y.high)], [(x.low, *s), (x.high, *s)]);
-                    [across, up].map(|ends| PathElement::new(ends, stroke(GREY, 1.0)))
-                }))?;
+                self.draw_supports(&mut map, &frame)?;
                 frame::axes(&mut map, [&axes[0], &axes[1]])?;
                 bar(area, &frame, &levels, &colours, power)
             })?;
             group(area, "class=\"note\"", || sheet::note(area, &note, [LEFT, end + 6.0]))
         })
     }
+
+    /// Draws the bands from the lowest on: the whole frame in the first colour, then for each level the region at or
+    /// above it in the next colour, with its contour line. `limit` is the largest absolute value.
+    fn draw_bands(
+        &self,
+        map: &mut Plot<'_>,
+        frame: &PlotArea,
+        levels: &[f64],
+        colours: &[RGBColor],
+        limit: f64,
+    ) -> Result<(), Error> {
+        let (x, y) = (frame.x, frame.y);
+        let whole = [(x.low, y.low), (x.high, y.high)];
+        map.plotting_area().draw(&Rectangle::new(whole, colours[0].filled()))?;
+        // values at supports are zero except for rounding, whose sign must not affect the contours
+        let snap = |v: &f64| if v.abs() < 1e-12 * limit { 0.0 } else { *v };
+        let values: Vec<Vec<f64>> = self.values.iter().map(|row| row.iter().map(snap).collect()).collect();
+        for (level, colour) in levels.iter().zip(&colours[1..]) {
+            let found = region(&self.loads, &self.at, &values, *level);
+            let is_zero = level.abs() < 1e-9 * limit;
+            let lines = if *level < 0.0 && !is_zero { found.dashes } else { found.chords };
+            let style = if is_zero { stroke(INK, 1.6) } else { stroke(GREY, 0.7) };
+            map.draw_series([
+                OnePath {
+                    pieces: found.polygons.iter().map(|p| pairs(p).collect()).collect(),
+                    style: colour.filled(),
+                },
+                OnePath { pieces: lines.iter().map(|line| pairs(line).collect()).collect(), style },
+            ])?;
+        }
+        Ok(())
+    }
+
+    /// Draws a vertical and a horizontal line through each support inside the frame.
+    fn draw_supports(&self, map: &mut Plot<'_>, frame: &PlotArea) -> Result<(), Error> {
+        let (x, y) = (frame.x, frame.y);
+        let inside = self.supports.iter().filter(|s| (x.low..=x.high).contains(s));
+        map.draw_series(inside.flat_map(|s| {
+            let (across, up) = ([(*s, y.low), (*s, y.high)], [(x.low, *s), (x.high, *s)]);
+            [across, up].map(|ends| PathElement::new(ends, stroke(GREY, 1.0)))
+        }))?;
+        Ok(())
+    }
+}
+
+/// Coordinate over the indices of rows or columns of a table, with the stations as labels.
+fn cell_indices(stations: &[f64], is_reversed: bool) -> Coordinate {
+    let values = (0..stations.len()).map(|i| i as f64 + 0.5).collect();
+    let labels = stations.iter().map(|station| short(*station)).collect();
+    let scale = AxisScale { low: 0.0, high: stations.len() as f64, log: false };
+    Coordinate { scale, ticks: Ticks { values, labels, exponent: 0 }, is_reversed }
 }
 
 /// Colours of the bands below, between and above the levels.

@@ -1,6 +1,6 @@
 //! Finished pictures.
 
-/// Drawing units a pixel: plotters places everything on whole numbers, and curves are to be smooth.
+/// Drawing units in a pixel. plotters rounds all coordinates to whole units, which must be small for smooth curves.
 pub(super) const FINE: f64 = 10.0;
 /// Fonts in the order of preference.
 const FONT: &str = "Arial, Helvetica, sans-serif";
@@ -47,7 +47,7 @@ impl Svg {
         self.element("role=\"img\"", 1.0)
     }
 
-    /// The SVG element with further attributes; `unit` is the length of a pixel where the element stands.
+    /// The SVG element with further attributes; `unit` is the length of a pixel in the units of the parent element.
     fn element(&self, attributes: &str, unit: f64) -> String {
         let Svg { width, height, elements } = self;
         format!(
@@ -62,7 +62,7 @@ impl Svg {
     }
 }
 
-/// One picture of several, from top to bottom.
+/// Several pictures in one, from top to bottom.
 #[must_use]
 pub fn stack(pictures: &[Svg]) -> Svg {
     let mut all = Svg::default();

@@ -92,7 +92,7 @@ fn wheel_forces_stand_in_millions() {
             vec![[0.0, 2.4e6], [4.0, 2.41e6], [8.0, 2.39e6], [12.0, 2.4e6]],
         ));
     let svg = show("forces", &chart.svg().expect("data are finite"));
-    assert!(svg.contains("wheel force (10\u{2076} lbf)"), "the power of ten stands in the caption");
+    assert!(svg.contains("wheel force (10\u{2076} lbf)"), "the power of ten is in the caption");
     assert!(svg.len() < 150_000, "20,000 points are thinned");
 }
 
@@ -134,8 +134,8 @@ fn girder_is_drawn() {
         members: vec![vec![[-15.0, 0.0], [75.0, 0.0]]],
         rail: vec![[-15.0, 3.66], [75.0, 3.66]],
         supports: vec![
-            SupportMark { at: [0.0, 0.0], holds_length: true },
-            SupportMark { at: [60.0, 0.0], holds_length: false },
+            SupportMark { at: [0.0, 0.0], is_fixed_lengthwise: true },
+            SupportMark { at: [60.0, 0.0], is_fixed_lengthwise: false },
         ],
         stations: stations(7).iter().map(|x| [*x, 3.66]).collect(),
         loads: vec![[23.7, 3.66], [26.3, 3.66]],
@@ -151,7 +151,8 @@ fn girder_is_drawn() {
     assert!(svg.contains("displacements x 10"), "the factor is stated");
 }
 
-/// Three labels at least on every logarithmic axis, in order and within it, whether it spans a share of a decade or many.
+/// Three labels at least on every logarithmic axis, in order and within it, whether it spans a fraction of a decade or
+/// many decades.
 #[test]
 fn logarithmic_axes_can_be_read() {
     for (low, high) in [(1.3, 2.2), (5.6e3, 2.4e4), (0.9, 1.1), (2e-9, 3e-4), (0.5, 60.0), (2.1e-3, 0.62)] {

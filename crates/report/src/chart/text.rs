@@ -1,6 +1,6 @@
-//! Room that text takes.
+//! Width of text.
 
-/// Width of a text in pixels, on the wide side: no font is at hand to measure with.
+/// Upper estimate of the width of a text in pixels, because no font is available to measure it.
 pub(super) fn text_width(text: &str, size: f64) -> f64 {
     let em: f64 = text
         .chars()

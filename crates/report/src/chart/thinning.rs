@@ -1,10 +1,11 @@
-//! Long curves thinned without losing an extreme.
+//! Thinning of long curves that preserves all extremes.
 
-/// Indices of the points that a polyline keeps which has far more points than the picture has columns.
+/// Indices of the points that remain of a polyline with far more points than the picture has columns.
 ///
-/// Of each run of consecutive points within one column of the given width, the first, lowest, highest and last
-/// point are kept in order. These are at most four points a run, and the envelope of the curve is that of all
-/// points to the last bit, for curves that turn back in x as well. Polylines of at most `limit` points keep all.
+/// The points are divided into runs of consecutive points within one column of the width `column`. Of each run the
+/// first, lowest, highest and last point remain, in their order: at most four. The envelope of the curve is therefore
+/// that of all points to the last bit, also for curves whose x is not monotonic. Polylines of at most `limit` points
+/// are unchanged.
 pub(super) fn thin(points: &[[f64; 2]], column: f64, limit: usize) -> Vec<usize> {
     if points.len() <= limit {
         return (0..points.len()).collect();

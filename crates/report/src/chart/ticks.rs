@@ -3,7 +3,7 @@
 use super::label::{fixed, with_power};
 use super::scale::{AxisScale, step};
 
-/// Labels that a logarithmic axis must have to be read.
+/// Smallest number of labels of a logarithmic axis.
 const FEWEST: usize = 3;
 
 /// Values on an axis with their labels.
@@ -11,9 +11,9 @@ const FEWEST: usize = 3;
 pub(super) struct Ticks {
     /// Values in increasing order, all inside the range.
     pub values: Vec<f64>,
-    /// One label a value, in units of 10^exponent; empty where a label would crowd.
+    /// One label for each value, in units of 10^exponent; empty where there is no room for a label.
     pub labels: Vec<String>,
-    /// Power of ten taken out of the labels, a multiple of 3.
+    /// Common power of ten of the labels, a multiple of 3, which is stated with the unit of the axis.
     pub exponent: i32,
 }
 
@@ -29,7 +29,7 @@ impl Ticks {
             return Ticks::linear(scale, target);
         }
         let ticks = Ticks::logarithmic(scale);
-        // A part of a decade may hold one of 1, 2 and 5, or none.
+        // A range within one decade may contain one tick at 1, 2 or 5, or none.
         if ticks.labels.iter().filter(|label| !label.is_empty()).count() < FEWEST {
             Ticks::linear(scale, target)
         } else {
@@ -87,7 +87,7 @@ impl Ticks {
     }
 }
 
-/// Power of ten, a multiple of 3, to take out of labels whose largest absolute value is `largest`; 0 from 0.01 up to
+/// Common power of ten, a multiple of 3, of labels whose largest absolute value is `largest`; 0 from 0.01 up to
 /// 10,000.
 pub(super) fn exponent(largest: f64) -> i32 {
     if largest == 0.0 || (0.01..1e4).contains(&largest) {
@@ -97,7 +97,7 @@ pub(super) fn exponent(largest: f64) -> i32 {
     power.div_euclid(3) * 3
 }
 
-/// Decimals that tell ticks of the given step apart.
+/// Number of decimals with which the labels of ticks of the given step differ.
 fn decimals(step: f64, exponent: i32) -> usize {
     let scaled = step / 10f64.powi(exponent);
     let power = (scaled * (1.0 + 1e-9)).log10().floor() as i32;

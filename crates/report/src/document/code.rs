@@ -9,7 +9,7 @@ use formats::text::number::rounded;
 const FINE: f64 = 2e4;
 
 /// Largest multiple that is stored as an integer; doubles represent larger ones inexactly.
-const MOST: f64 = 9e15;
+const LARGEST: f64 = 9e15;
 
 /// Exponent of the power of ten that divides a range into [`FINE`] to 10 [`FINE`] steps.
 #[must_use]
@@ -20,7 +20,7 @@ pub fn exponent(range: [f64; 2]) -> i32 {
 }
 
 /// Encodes `values` as `{"s": exponent, "n": count, "v": [n0, n1 - n0, ...]}`, in which n are the nearest integer
-/// multiples of 10^exponent. Repetitions of the last difference are omitted. If a multiple exceeds `MOST`, the
+/// multiples of 10^exponent. Repetitions of the last difference are omitted. If a multiple exceeds `LARGEST`, the
 /// values are stored with seven digits instead.
 ///
 /// All values must be finite. The error of each is at most half a step.
@@ -31,7 +31,7 @@ pub(crate) fn coded(values: &[f64], exponent: i32) -> Value {
         (if exponent < 0 { value * power } else { value / power }).round()
     };
     let counts: Vec<f64> = values.iter().map(|value| steps(*value)).collect();
-    if counts.iter().any(|count| count.abs() > MOST) {
+    if counts.iter().any(|count| count.abs() > LARGEST) {
         return plain(values);
     }
     let mut last = 0;

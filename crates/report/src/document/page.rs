@@ -11,7 +11,7 @@ use serde_json::json;
 
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
-const ANIMATION_SCRIPT: &str = include_str!("film.js");
+const ANIMATION_SCRIPT: &str = include_str!("animation.js");
 /// Significant digits of shown numbers.
 const DIGITS: usize = 7;
 
@@ -171,10 +171,10 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
     let mut still = None;
     let (svg, class, data) = match &figure.picture {
         Picture::Svg(svg) => (svg.clone(), "picture", None),
-        Picture::Animation(film) => {
-            let data = film.data().ok_or(Error::Animation { section, figure: index })?;
-            still = Some(film.still_time);
-            (film.svg.clone(), "picture film", Some(data))
+        Picture::Animation(animation) => {
+            let data = animation.data().ok_or(Error::Animation { section, figure: index })?;
+            still = Some(animation.still_time);
+            (animation.svg.clone(), "picture animation", Some(data))
         }
         Picture::Chart(chart) => {
             let drawing = chart.draw().map_err(|source| Error::Chart { section, figure: index, source })?;
@@ -207,7 +207,15 @@ fn shown(cell: &TableCell) -> Option<String> {
 /// The data of a chart for the display of values under the pointer, as JSON that is safe inside a script element.
 fn data(chart: &Chart, drawing: &Drawing) -> String {
     let frame = &drawing.frame;
-    let axis = |axis: &crate::chart::ChartAxis, range: [f64; 2]| json!({"label": axis.label, "unit": axis.unit, "range": range, "log": axis.log, "flip": axis.downwards});
+    let axis = |axis: &crate::chart::ChartAxis, range: [f64; 2]| {
+        json!({
+            "label": axis.label,
+            "unit": axis.unit,
+            "range": range,
+            "log": axis.log,
+            "flip": axis.downwards,
+        })
+    };
     let [x, y] = frame.ranges();
     let list = |values: &[f64], axis: &crate::chart::ChartAxis, range| {
         if axis.log { plain(values) } else { coded(values, exponent(range)) }

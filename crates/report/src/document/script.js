@@ -1,6 +1,6 @@
 "use strict";
-// Read-out under the pointer, and series switched on and off by their legend. Without scripts the charts stay as they are.
-// Numbers as steps of a power of ten, each from the one before; the last step repeats.
+// Display of values under the pointer, and series switched on and off by their legend. Without scripts the charts are static.
+// A number is encoded as the difference from the one before in multiples of a power of ten; the last difference repeats.
 const decode = (code) => {
   if (Array.isArray(code)) return code;
   const power = 10 ** Math.abs(code.s);
@@ -58,7 +58,7 @@ for (const source of document.querySelectorAll('.chart > script')) {
   readout.hidden = true;
   box.append(readout);
 
-  // Nearest point of a series: across first, the height decides where a curve turns back.
+  // Nearest point of a series: the horizontal distance decides, the vertical one between points at the same abscissa.
   const nearest = (points, x, y) => {
     let best = null, least = Infinity;
     for (const point of points) {

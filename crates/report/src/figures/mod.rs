@@ -1,8 +1,13 @@
 //! Figures of a run: charts, girder plots, the animation of the crane.
+//!
+//! `run_figure` is a figure with its name; `motion`, `rails`, `responses`, `structures` and `animation` make figures,
+//! and `run` collects those of a run in the order of the report.
 
 pub mod animation;
 pub mod error;
-pub mod pictures;
-pub(crate) mod rail_picture;
-pub(crate) mod response_picture;
+pub(crate) mod motion;
+pub(crate) mod rails;
+pub(crate) mod responses;
 pub mod run;
+pub mod run_figure;
+pub(crate) mod structures;

@@ -6,11 +6,11 @@ use results::case_result::CaseResult;
 use results::response::{Response, RunComparison};
 
 use super::error::FigureError;
-use super::pictures::{LabelledRun, RunFigure};
-use super::{animation, pictures, rail_picture, response_picture};
+use super::run_figure::{LabelledRun, RunFigure};
+use super::{animation, motion, rails, responses, structures};
 
-/// The figures of a scene and its comparisons with their `outcomes`: runs first, with comparisons in the same charts,
-/// then the structures, solved in `known`.
+/// The figures of a scene and its comparisons: first those of the runs with their `outcomes`, with the comparisons in
+/// the same charts, then those of the structures, whose solutions are in `known`.
 ///
 /// # Errors
 /// A figure that cannot be drawn or evaluated.
@@ -38,17 +38,17 @@ pub fn figures(
         .map(|fired| (fired.time, scene.events[fired.rule].name.as_str()))
         .collect();
     let (run, input) = (&labelled[0], &outcomes[0].input);
-    let mut plates: Vec<RunFigure> = animation::animation_figure(run, input)?.into_iter().collect();
-    plates.extend(pictures::travel(run, &fired));
-    plates.extend(rail_picture::rails(&labelled, comparison));
-    plates.extend(pictures::paths(&labelled));
-    plates.extend(pictures::wheels(run, input));
+    let mut figures: Vec<RunFigure> = animation::animation_figure(run, input)?.into_iter().collect();
+    figures.extend(motion::travel(run, &fired));
+    figures.extend(rails::rail_sum_charts(&labelled, comparison));
+    figures.extend(motion::paths(&labelled));
+    figures.extend(motion::wheels(run, input));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
-    plates.extend(response_picture::pictures(&labelled, &responses, &outcomes[0].lines));
+    figures.extend(responses::response_charts(&labelled, &responses, &outcomes[0].lines));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solution_of(known, &structure.origin) else { continue };
-        plates.extend(pictures::girder(&structure.name, index, run, input, solved)?);
-        plates.extend(pictures::structure(&structure.name, scene.units, solved)?);
+        figures.extend(structures::girder(&structure.name, index, run, input, solved)?);
+        figures.extend(structures::influence(&structure.name, scene.units, solved)?);
     }
-    Ok(plates)
+    Ok(figures)
 }

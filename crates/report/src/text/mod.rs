@@ -1,6 +1,6 @@
 //! The content of the report of a run, section by section.
 
-pub(crate) mod codes_story;
-pub(crate) mod fatigue_story;
-pub(crate) mod response_story;
-pub mod story;
+pub(crate) mod codes;
+pub(crate) mod fatigue;
+pub(crate) mod responses;
+pub mod run_report;

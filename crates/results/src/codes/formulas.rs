@@ -131,7 +131,7 @@ impl<'c> CodeCase<'c> {
                 AIST,
                 "3.7.2, Table 3.2 (2021)",
                 "impact on the largest wheel loads",
-                Some(1.0 + self.practice.kind.shares().impact),
+                Some(1.0 + self.practice.kind.fractions().impact),
             )
     }
 
@@ -163,7 +163,7 @@ impl<'c> CodeCase<'c> {
         let crane = &self.crane.model;
         let moving = crane.lifted + crane.trolley;
         let thrust = aist::side_thrust(self.practice.kind, crane).ok();
-        let shares = self.practice.kind.shares();
+        let fractions = self.practice.kind.fractions();
         let inertia = self.measured.acceleration.and_then(|a| cmaa::drive_inertia(a * self.metre).ok());
         CodeValues::default()
             .add(
@@ -171,7 +171,7 @@ impl<'c> CodeCase<'c> {
                 "3.7.2, Table 3.2 (2021)",
                 format!(
                     "largest of {} Q, {} (Q + T), {} (Q + T + B)",
-                    shares.lifted, shares.trolley, shares.crane
+                    fractions.lifted, fractions.trolley, fractions.crane
                 ),
                 thrust.map(|thrust| thrust.governing()),
             )
@@ -267,7 +267,10 @@ impl<'c> CodeCase<'c> {
             .add(
                 AIST,
                 "3.7.2, Table 3.2 (2021)",
-                format!("{} of the largest loads of the driven wheels", self.practice.kind.shares().traction),
+                format!(
+                    "{} of the largest loads of the driven wheels",
+                    self.practice.kind.fractions().traction
+                ),
                 loads.and_then(|loads| aist::tractive_force(self.practice.kind, &loads).ok()),
             )
     }

@@ -76,7 +76,7 @@ fn cmaa_factors(case: &CodeCase) -> [FactorEntry; 4] {
 /// The impact factor, and loads of one wheel: static, in load group 1, and with impact.
 fn wheel_loads(case: &CodeCase) -> [FactorEntry; 5] {
     let (practice, force) = (case.practice, Dimension::FORCE);
-    let impact = Some(practice.kind.shares().impact);
+    let impact = Some(practice.kind.fractions().impact);
     let [near, far] = [case.full.map(|full| full.near), case.full.map(|full| full.far)];
     let group = case.phi2.and_then(|phi2| case.crane.model.wheel_loads(factor::PHI1[1], phi2).ok());
     let group = group.map(|group| group.near);

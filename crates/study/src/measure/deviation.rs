@@ -63,7 +63,7 @@ fn common(run: &ComparedColumns, reference: &ComparedColumns) -> usize {
 }
 
 /// The last output time until which the largest error of `run` in each of `groups` is at most `wanted`, as
-/// [`deviations`] gives it for runs that end there; `None` where there is no such time, or a column is missing in
+/// [`deviations`] computes it for runs that end there; `None` where there is no such time, or a column is missing in
 /// `run`.
 #[must_use]
 pub fn horizon(

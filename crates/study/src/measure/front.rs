@@ -1,7 +1,7 @@
 //! Pareto fronts of points (cost, error).
 //!
-//! A point a dominates b if a costs no more and errs no more than b, and a differs from b. The front is the set of
-//! points that no other dominates. All pairs are compared: a study has a hundred points.
+//! A point a dominates b if neither its cost nor its error is larger than that of b, and a differs from b. The front
+//! is the set of points that no other dominates. All pairs are compared: a study has a hundred points.
 
 /// Whether each point (cost, error) lies on the Pareto front, which no other point dominates.
 ///
@@ -29,7 +29,8 @@ pub fn front(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     front
 }
 
-/// Ratio of the cost of a point (cost, error) to that of the cheapest of `points` with no larger error: 1 on the front.
+/// Ratio of the cost of a point (cost, error) to that of the cheapest of `points` with no larger error: 1 on the
+/// front.
 #[must_use]
 pub fn cost_ratio(point: [f64; 2], points: &[[f64; 2]]) -> f64 {
     let no_worse = points.iter().filter(|other| other[1] <= point[1]);

@@ -23,7 +23,7 @@ impl Memory {
 pub struct AllocationCount<T> {
     /// The result of the job.
     pub out: T,
-    /// Bytes that the result holds.
+    /// Bytes that the result occupies.
     pub retained: Option<u64>,
     /// Largest number of bytes that were held at once.
     pub peak: Option<u64>,

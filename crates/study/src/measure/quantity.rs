@@ -31,7 +31,7 @@ impl ErrorGroup {
     /// Number of groups.
     pub const COUNT: usize = 5;
     /// Number of leading groups that a study must resolve: deflections and vertical wheel forces.
-    pub const ASKED: usize = 2;
+    pub const REQUIRED: usize = 2;
 
     /// The word of the group in files.
     #[must_use]
@@ -45,7 +45,7 @@ impl ErrorGroup {
         }
     }
 
-    /// The name of the group in pictures.
+    /// The name of the group in charts.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {

@@ -5,7 +5,7 @@ use sim::Stepping;
 use crate::measure::cpu::limited;
 use crate::measure::spread::TimeSpread;
 use crate::settings::budget::StudyBudget;
-use crate::settings::ladder::{self, varies};
+use crate::settings::list::{self, varies};
 use formats::scene::Scene;
 use formats::scene::motion::simulation_input;
 use foundations::SolvedStructure;
@@ -21,7 +21,8 @@ pub struct Auto {
     pub trials: Option<TimeSpread>,
 }
 
-/// Lets "auto" choose every foundation that may vary, and returns its reasons and the scene on the chosen foundations.
+/// Lets "auto" choose every foundation that may vary, and returns its reasons and the scene on the chosen
+/// foundations.
 pub fn choose_foundations(
     scene: &Scene,
     known: &[SolvedStructure],
@@ -33,7 +34,7 @@ pub fn choose_foundations(
         Err(why) => return (Err(why), None),
     };
     if choices.is_empty() {
-        return (Err("no foundation may vary".to_owned()), None);
+        return (Err("the scene has no foundation that can vary".to_owned()), None);
     }
     let name = |choice: &sim::Choice| chosen.structures[choice.structure].name.clone();
     let reasons =
@@ -49,7 +50,7 @@ pub fn choose_foundations(
 /// The scene with every foundation that may vary left to "auto".
 #[must_use]
 pub fn left_to_auto(scene: &Scene) -> Scene {
-    let mut out = ladder::massless(scene);
+    let mut out = list::massless(scene);
     out.stepping = Stepping::default();
     for structure in out.structures.iter_mut().filter(|structure| varies(structure)) {
         structure.auto = true;
@@ -62,16 +63,16 @@ pub fn left_to_auto(scene: &Scene) -> Scene {
 /// # Errors
 /// A scene that cannot be simulated, or a choice that took longer, in words.
 pub fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Vec<sim::Choice>, String> {
-    let cast = simulation_input(scene).map_err(|failure| failure.to_string())?;
+    let input = simulation_input(scene).map_err(|failure| failure.to_string())?;
     let recorded = records_dofs(scene, known);
     let selected =
-        limited(limit, |watch| foundations::select_and_run(scene, &cast.scene, known, &recorded, watch));
+        limited(limit, |watch| foundations::select_and_run(scene, &input.scene, known, &recorded, watch));
     let selected = selected.map_err(|error| match error {
         foundations::Error::Simulation(error) => run_error::in_scene_names(&error, scene),
         other => other.to_string(),
     })?;
     match selected.run.status {
-        sim::Status::Stopped => Err("it took longer than a setting may".to_owned()),
+        sim::Status::Stopped => Err("the choice exceeded its time limit".to_owned()),
         _ => Ok(selected.choices),
     }
 }

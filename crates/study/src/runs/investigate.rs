@@ -1,9 +1,10 @@
 //! A study: settings of a scene, their errors against converged references, and their costs.
 //!
 //! 1. "auto" chooses the foundations that the scene leaves to it.
-//! 2. Converged references are run, up to three (see [`ReferenceKind`]). Where none of them resolves deflections and wheel
-//!    forces to the end of the scene, the study ends earlier.
-//! 3. Every setting runs once: its largest errors in each group of columns, its counts of steps and stages, its memory.
+//! 2. Converged references are run, up to three (see [`ReferenceKind`]). Where none of them resolves deflections and
+//!    wheel forces to the end of the scene, the study ends earlier.
+//! 3. Every setting runs once: its largest errors in each group of columns, its counts of steps and stages, its
+//!    memory.
 //! 4. All settings that ran to their ends are timed, in repetitions that run all of them in turn.
 
 use sim::Stepping;
@@ -21,19 +22,20 @@ use crate::runs::setup::{SetupCache, TimedCase};
 use crate::runs::timing::time;
 use crate::settings::budget::StudyBudget;
 use crate::settings::detail::MeshDetail;
-use crate::settings::ladder::{self, SceneKinds};
+use crate::settings::list::{self, SceneKinds};
 use crate::settings::setting::{ReferenceKind, Setting, SettingFamily};
 use formats::scene::{Analysis, Scene};
 use foundations::SolvedStructure;
 use results::run_error;
 
 /// Smallest fraction of the duration of a scene to which a study may be shortened.
-const LEAST: f64 = 0.25;
+const SHORTEST: f64 = 0.25;
 
 /// The results of a study.
 #[derive(Clone, Debug)]
 pub struct Study {
-    /// Time, s, at which the study ends because no reference resolves errors after it; `None`: it ends with the scene.
+    /// Time, s, at which the study ends because no reference resolves errors after it; `None`: it ends with the
+    /// scene.
     pub until: Option<f64>,
     /// The converged runs that errors are measured against.
     pub references: Vec<ConvergedReference>,
@@ -48,8 +50,8 @@ pub struct Study {
 impl Study {
     /// The reference of one kind, where it could be run.
     #[must_use]
-    pub fn reference(&self, against: ReferenceKind) -> Option<&ConvergedReference> {
-        self.references.iter().find(|own| own.against == against)
+    pub fn reference(&self, kind: ReferenceKind) -> Option<&ConvergedReference> {
+        self.references.iter().find(|own| own.kind == kind)
     }
 }
 
@@ -78,14 +80,16 @@ pub fn study(
     own.structures.iter_mut().for_each(|structure| structure.auto = false);
 
     observer.message("running references");
-    let (mut references, lost) = references(&own, kinds, &mut cache, budget, observer)?;
+    let (mut references, failed) = references(&own, kinds, &mut cache, budget, observer)?;
     if references.is_empty() {
-        let first = lost.into_iter().next().map(|(_, why)| why);
+        let first = failed.into_iter().next().map(|(_, why)| why);
         return Err(Error::NoReferences(first.unwrap_or_default()));
     }
     let until = until(&references, own.end, budget.resolution);
     if let Some(time) = until {
-        observer.message(&format!("no reference tells what comes after t = {time} s: the study ends there"));
+        observer.message(&format!(
+            "no reference resolves errors after t = {time} s: the study ends at this time"
+        ));
         references.iter_mut().for_each(|reference| reference.cut(time));
     }
     let end = until.unwrap_or(scene.end);
@@ -95,25 +99,26 @@ pub fn study(
     let chosen = chosen.map(|chosen| Scene { end, ..chosen });
     references.iter().for_each(|reference| report_resolution(reference, observer));
     let settings = settings(&own, chosen, known, kinds, budget);
-    let (mut points, cases) = measure_all(settings, kinds, &references, &lost, &mut cache, budget, observer);
+    let (mut points, cases) =
+        measure_all(settings, kinds, &references, &failed, &mut cache, budget, observer);
     time(&mut points, &mut auto, &cases, scene, known, budget, observer);
-    Ok(Study { until, references, failed_references: lost, points, auto })
+    Ok(Study { until, references, failed_references: failed, points, auto })
 }
 
 /// Reports the smallest error that a reference resolves in each group.
 fn report_resolution(reference: &ConvergedReference, observer: &dyn Observer) {
-    let resolved = ErrorGroup::ALL.iter().filter(|own| reference.resolves(**own).is_finite());
+    let resolved = ErrorGroup::ALL.iter().filter(|own| reference.resolution(**own).is_finite());
     let resolved: Vec<String> =
-        resolved.map(|own| format!("{} from {:.1e}", own.name(), reference.resolves(*own))).collect();
+        resolved.map(|own| format!("{} from {:.1e}", own.name(), reference.resolution(*own))).collect();
     observer.message(&format!(
-        "reference \"{}\" tells errors of {} on: {}",
-        reference.against.word(),
+        "reference \"{}\" resolves errors of {}: {}",
+        reference.kind.word(),
         resolved.join(", "),
-        reference.words[0]
+        reference.descriptions[0]
     ));
 }
 
-/// All settings: those of the ladder, the scene as written, and the foundations that "auto" has `chosen`.
+/// All settings: those of the list, the scene as written, and the foundations that "auto" has `chosen`.
 fn settings(
     own: &Scene,
     chosen: Option<Scene>,
@@ -121,33 +126,21 @@ fn settings(
     kinds: SceneKinds,
     budget: &StudyBudget,
 ) -> Vec<Setting> {
-    let mut settings = ladder::settings(own, known, kinds, budget);
-    let (family, knob) = (SettingFamily::Written, "accuracy");
-    settings.push(Setting {
-        family,
-        parameter: knob,
-        value: own.accuracy,
-        scene: own.clone(),
-        stations: None,
-    });
+    let mut settings = list::settings(own, known, kinds, budget);
+    let (family, parameter) = (SettingFamily::Written, "accuracy");
+    settings.push(Setting { family, parameter, value: own.accuracy, scene: own.clone(), stations: None });
     if kinds.varies && own.analysis == Analysis::Dynamic {
         let family = SettingFamily::Stepping;
-        settings.push(Setting {
-            family,
-            parameter: knob,
-            value: own.accuracy,
-            scene: own.clone(),
-            stations: None,
-        });
+        settings.push(Setting { family, parameter, value: own.accuracy, scene: own.clone(), stations: None });
     }
     if let Some(chosen) = chosen {
         let (family, value) = (SettingFamily::Auto, chosen.accuracy);
-        settings.push(Setting { family, parameter: knob, value, scene: chosen, stations: None });
+        settings.push(Setting { family, parameter, value, scene: chosen, stations: None });
     }
     if !kinds.varies {
         // there is no other foundation to compare with: only the scene's own can be run
         settings.retain(|setting| {
-            setting.family.against() == ReferenceKind::Own || setting.family == SettingFamily::Written
+            setting.family.reference_kind() == ReferenceKind::Own || setting.family == SettingFamily::Written
         });
     }
     settings
@@ -158,7 +151,7 @@ fn measure_all(
     settings: Vec<Setting>,
     kinds: SceneKinds,
     references: &[ConvergedReference],
-    lost: &[(ReferenceKind, String)],
+    failed: &[(ReferenceKind, String)],
     cache: &mut SetupCache<'_>,
     budget: &StudyBudget,
     observer: &dyn Observer,
@@ -167,12 +160,12 @@ fn measure_all(
     let mut cases = Vec::new();
     let mut points = Vec::new();
     for (index, setting) in settings.into_iter().enumerate() {
-        let against = if kinds.varies { setting.family.against() } else { ReferenceKind::Own };
-        let reference = references.iter().find(|own| own.against == against);
+        let kind = if kinds.varies { setting.family.reference_kind() } else { ReferenceKind::Own };
+        let reference = references.iter().find(|own| own.kind == kind);
         let (case, outcome) = match reference {
             Some(reference) => measure(cache, &setting, reference, budget),
             None => {
-                let why = lost.iter().find(|(own, _)| *own == against).map_or("", |(_, why)| why.as_str());
+                let why = failed.iter().find(|(own, _)| *own == kind).map_or("", |(_, why)| why.as_str());
                 (None, PointOutcome::Refused(why.to_owned()))
             }
         };
@@ -194,8 +187,8 @@ fn references(
     budget: &StudyBudget,
     observer: &dyn Observer,
 ) -> Result<References, Error> {
-    let whole = |detail: MeshDetail| ladder::whole(own, kinds, detail);
-    let massless = |_| ladder::massless(own);
+    let whole = |detail: MeshDetail| list::whole(own, kinds, detail);
+    let massless = |_| list::massless(own);
     let written = |_| own.clone();
     let all: [(ReferenceKind, &Make<'_>, bool); 3] = [
         (ReferenceKind::Whole, &whole, kinds.has_mass && own.analysis == Analysis::Dynamic),
@@ -203,17 +196,17 @@ fn references(
         (ReferenceKind::Own, &written, false),
     ];
     let mut references: Vec<ConvergedReference> = Vec::new();
-    let mut lost = Vec::new();
+    let mut failed = Vec::new();
     let mut seen: Vec<Scene> = Vec::new();
-    for (against, make, meshes) in all {
-        if against != ReferenceKind::Own && !kinds.varies {
+    for (kind, make, meshes) in all {
+        if kind != ReferenceKind::Own && !kinds.varies {
             continue;
         }
         let plain = Scene { accuracy: 0.0, stepping: Stepping::default(), ..make(MeshDetail::Modes(2)) };
         let same = seen.iter().position(|own| *own == plain);
         let reference = match same {
-            Some(at) => Ok(ConvergedReference { against, ..ConvergedReference::clone(&references[at]) }),
-            None => reference(cache, against, make, meshes, budget),
+            Some(at) => Ok(ConvergedReference { kind, ..ConvergedReference::clone(&references[at]) }),
+            None => reference(cache, kind, make, meshes, budget),
         };
         match reference {
             Ok(reference) => {
@@ -222,21 +215,21 @@ fn references(
             }
             Err(error) => {
                 let why = error.to_string();
-                observer.message(&format!("reference \"{}\": {why}", against.word()));
-                lost.push((against, why));
+                observer.message(&format!("reference \"{}\": {why}", kind.word()));
+                failed.push((kind, why));
             }
         }
     }
-    Ok((references, lost))
+    Ok((references, failed))
 }
 
 /// The time at which a study must end before the scene does, at `end`: the earliest until which a reference resolves
 /// errors of deflections and wheel forces down to `resolution`. `None` where all resolve them to the end, or where
-/// that time is less than the fraction [`LEAST`] of `end`.
+/// that time is less than the fraction [`SHORTEST`] of `end`.
 fn until(references: &[ConvergedReference], end: f64, resolution: f64) -> Option<f64> {
     let short = references.iter().filter(|reference| reference.worst_resolution() > resolution);
     let times = short.map(|reference| reference.horizon(resolution).unwrap_or(0.0));
-    times.reduce(f64::min).filter(|time| *time >= LEAST * end)
+    times.reduce(f64::min).filter(|time| *time >= SHORTEST * end)
 }
 
 /// Runs a setting once and compares it with the reference; a setting that reached its end is returned for timing.
@@ -288,7 +281,7 @@ mod tests {
     use crate::measure::deviation::ComparedColumns;
 
     /// Two runs of ten seconds whose wheel forces differ by a tenth from `time` on.
-    fn diverging(against: ReferenceKind, time: usize) -> ConvergedReference {
+    fn diverging(kind: ReferenceKind, time: usize) -> ConvergedReference {
         let trace = |shift: f64| {
             let force = |k: usize| if k < time { 1.0 } else { 1.0 + shift };
             let columns = vec![
@@ -297,7 +290,7 @@ mod tests {
             ];
             ComparedColumns { time: (0..11).map(|k| k as f64).collect(), columns }
         };
-        ConvergedReference::new(against, trace(0.0), trace(0.1), Default::default())
+        ConvergedReference::new(kind, trace(0.0), trace(0.1), Default::default())
     }
 
     #[test]

@@ -3,8 +3,8 @@
 //! A reference is a pair of runs that differ in everything that can err: the number of modes (or of elements) and the
 //! method of integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the
 //! study must resolve, until a run exceeds its time limit, or until the list of the budget ends; the closest pair is
-//! kept. The difference d of the pair bounds what the reference can say: errors of settings are resolved from
-//! [`RESOLUTION_FACTOR`] d on.
+//! kept. The difference d of the pair limits the resolution of the reference: errors of settings are resolved if they
+//! exceed [`RESOLUTION_FACTOR`] d.
 
 use sim::{Method, Stepping};
 
@@ -23,7 +23,7 @@ use results::run_error;
 pub const RESOLUTION_FACTOR: f64 = 10.0;
 /// Ratio of the time limit of a reference to that of other runs.
 const LIMIT_FACTOR: f64 = 10.0;
-/// Resolution above which a reference says nothing about a group of columns.
+/// Resolution above which a reference is not used for a group of columns.
 const COARSEST: f64 = 0.1;
 /// Difference of a pair below which no finer pair is run.
 const SMALLEST_DIFFERENCE: f64 = 1e-9;
@@ -35,13 +35,13 @@ pub type Make<'m> = dyn Fn(MeshDetail) -> Scene + 'm;
 #[derive(Clone, Debug)]
 pub struct ConvergedReference {
     /// The kind of settings that it is the reference for.
-    pub against: ReferenceKind,
+    pub kind: ReferenceKind,
     /// Columns of the run itself.
     pub columns: ComparedColumns,
     /// Columns of the second run.
     pub second: ComparedColumns,
     /// The settings of both runs in words.
-    pub words: [String; 2],
+    pub descriptions: [String; 2],
     /// Largest relative difference of both runs in each group.
     pub difference: [Option<f64>; ErrorGroup::COUNT],
     /// Accuracy, and largest relative difference of deflections and wheel forces, of each pair that was run.
@@ -49,37 +49,37 @@ pub struct ConvergedReference {
 }
 
 impl ConvergedReference {
-    /// A reference from the columns of its two runs; `words`: the settings of both.
+    /// A reference from the columns of its two runs; `descriptions`: the settings of both in words.
     #[must_use]
     pub fn new(
-        against: ReferenceKind,
+        kind: ReferenceKind,
         columns: ComparedColumns,
         second: ComparedColumns,
-        words: [String; 2],
+        descriptions: [String; 2],
     ) -> ConvergedReference {
         let difference = differences(&second, &columns);
-        ConvergedReference { against, columns, second, words, difference, approach: Vec::new() }
+        ConvergedReference { kind, columns, second, descriptions, difference, approach: Vec::new() }
     }
 
-    /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs; infinite where it
-    /// has no column of the group.
+    /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs;
+    /// infinite where it has no column of the group.
     #[must_use]
-    pub fn resolves(&self, group: ErrorGroup) -> f64 {
+    pub fn resolution(&self, group: ErrorGroup) -> f64 {
         let at = ErrorGroup::ALL.iter().position(|own| *own == group);
         let difference = at.and_then(|at| self.difference[at]);
         difference.map_or(f64::INFINITY, |difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))
     }
 
-    /// The same; `None` where that is coarser than 0.1, which says nothing of use.
+    /// The same; `None` where it is coarser than 0.1, which is of no use.
     #[must_use]
-    pub fn resolution_of(&self, group: ErrorGroup) -> Option<f64> {
-        Some(self.resolves(group)).filter(|least| *least <= COARSEST)
+    pub fn usable_resolution(&self, group: ErrorGroup) -> Option<f64> {
+        Some(self.resolution(group)).filter(|least| *least <= COARSEST)
     }
 
     /// The larger resolution of deflections and vertical wheel forces.
     #[must_use]
     pub fn worst_resolution(&self) -> f64 {
-        self.difference[..ErrorGroup::ASKED]
+        self.difference[..ErrorGroup::REQUIRED]
             .iter()
             .flatten()
             .fold(0.0, |most, own| most.max(RESOLUTION_FACTOR * own))
@@ -92,7 +92,7 @@ impl ConvergedReference {
         horizon(
             &self.second,
             &self.columns,
-            &ErrorGroup::ALL[..ErrorGroup::ASKED],
+            &ErrorGroup::ALL[..ErrorGroup::REQUIRED],
             resolution / RESOLUTION_FACTOR,
         )
     }
@@ -122,18 +122,18 @@ fn differences(run: &ComparedColumns, reference: &ComparedColumns) -> [Option<f6
 /// A scene that cannot start; [`Error::NoReference`] where no pair ran to its end.
 pub fn reference(
     cache: &mut SetupCache<'_>,
-    against: ReferenceKind,
+    kind: ReferenceKind,
     make: &Make<'_>,
     meshes: bool,
     budget: &StudyBudget,
 ) -> Result<ConvergedReference, Error> {
     let mut search = Search { best: None, approach: Vec::new(), why: String::new() };
     let modes = budget.references.iter().map(|&(accuracy, modes)| (accuracy, MeshDetail::Modes(modes)));
-    search.refine(cache, against, make, modes, budget)?;
+    search.refine(cache, kind, make, modes, budget)?;
     let is_near = search.best.as_ref().is_some_and(|best| best.worst_resolution() <= budget.resolution);
     if meshes && !is_near {
         let all = budget.meshes.iter().map(|&(accuracy, elements)| (accuracy, MeshDetail::Mesh(elements)));
-        search.refine(cache, against, make, all, budget)?;
+        search.refine(cache, kind, make, all, budget)?;
     }
     let no_reference = || Error::NoReference(search.why.clone());
     let best = search.best.ok_or_else(no_reference)?;
@@ -144,7 +144,7 @@ pub fn reference(
 struct Search {
     best: Option<ConvergedReference>,
     approach: Vec<(f64, f64)>,
-    /// Reason of the end, where a run did not reach its own.
+    /// Why the search ended, if a run was not completed.
     why: String,
 }
 
@@ -153,7 +153,7 @@ impl Search {
     fn refine(
         &mut self,
         cache: &mut SetupCache<'_>,
-        against: ReferenceKind,
+        kind: ReferenceKind,
         make: &Make<'_>,
         levels: impl Iterator<Item = (f64, MeshDetail)>,
         budget: &StudyBudget,
@@ -175,7 +175,7 @@ impl Search {
                     }
                     Err(failure) => return Err(failure),
                 };
-            let reference = ConvergedReference::new(against, columns, second, [words, second_words]);
+            let reference = ConvergedReference::new(kind, columns, second, [words, second_words]);
             let largest = reference.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
             self.approach.push((accuracy, reference.worst_resolution() / RESOLUTION_FACTOR));
             if self.best.as_ref().is_none_or(|best| reference.worst_resolution() < best.worst_resolution()) {
@@ -199,7 +199,7 @@ fn pair(
     accuracy: f64,
     limit: f64,
 ) -> Result<Result<[DescribedRun; 2], String>, Error> {
-    let none = || Err("no method integrates it".to_owned());
+    let none = || Err("no method can integrate the scene".to_owned());
     let (first, method, words) = match one(cache, &scenes[0], accuracy, Method::Auto, limit)? {
         Ok(Some(run)) => run,
         Ok(None) => return Ok(none()),
@@ -269,7 +269,7 @@ pub fn foundation(structure: &formats::scene::Structure) -> String {
     match structure.foundation {
         Foundation::Parts { count, .. } => format!("{word}, {count} parts"),
         Foundation::Modal { modes, .. } => format!("{word}, {modes} modes"),
-        Foundation::Full { elements, .. } => format!("{word}, {elements} elements a member"),
+        Foundation::Full { elements, .. } => format!("{word}, {elements} elements per member"),
         Foundation::Influence => format!("{word}, {}", structure.interpolation.word()),
         Foundation::Rigid | Foundation::Ties { .. } => word.to_owned(),
     }

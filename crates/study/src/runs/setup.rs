@@ -22,7 +22,7 @@ use results::cases::records_dofs;
 use results::columns::NamedColumns;
 use results::response::{self, Response};
 
-/// Builds the foundations of settings, and keeps modes and tables that settings have in common.
+/// Builds the foundations of settings, and caches modes and tables that several settings use.
 pub struct SetupCache<'k> {
     known: &'k [SolvedStructure],
     /// Modes of each structure.
@@ -34,7 +34,7 @@ pub struct SetupCache<'k> {
 /// A setting that is ready to run.
 pub struct CaseSetup {
     scene: Scene,
-    cast: SimulationInput,
+    input: SimulationInput,
     foundations: Vec<Foundation>,
     /// Stations of each rail of the tables that are read; `None`: those of the specs.
     stations: Option<usize>,
@@ -60,9 +60,9 @@ impl<'k> SetupCache<'k> {
     pub fn set_up(&mut self, setting: &Setting) -> Result<CaseSetup, Error> {
         let start = cpu::seconds();
         let scene = setting.scene.clone();
-        let cast = simulation_input(&scene)?;
+        let input = simulation_input(&scene)?;
         let mut built = self.build(&scene, setting.stations)?;
-        if setting.family.is_pure() {
+        if setting.family.omits_residual() {
             for own in built.iter_mut().filter(|own| own.foundation.structure.is_some()) {
                 own.foundation.compliance = None;
             }
@@ -72,7 +72,7 @@ impl<'k> SetupCache<'k> {
         for (s, foundation) in foundations.iter_mut().enumerate() {
             foundation.recorded = recorded(s, foundation);
         }
-        Ok(CaseSetup { scene, cast, foundations, stations: setting.stations, setup: cpu::seconds() - start })
+        Ok(CaseSetup { scene, input, foundations, stations: setting.stations, setup: cpu::seconds() - start })
     }
 
     /// The columns of a `run` of `case` that errors are measured in.
@@ -87,7 +87,7 @@ impl<'k> SetupCache<'k> {
             scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
         let lines = response::influence_lines(scene, &built, &solved)?;
         let mut record = NamedColumns::new(scene, &run.history);
-        let response = Response::new(scene, &case.cast, &run.history, &built, &solved, &lines, &mut record)?;
+        let response = Response::new(scene, &case.input, &run.history, &built, &solved, &lines, &mut record)?;
         let own = quantities(scene).len();
         let mut columns = ComparedColumns { time: record.values("time").to_vec(), columns: Vec::new() };
         for (index, column) in record.columns.into_iter().enumerate() {
@@ -156,7 +156,7 @@ impl CaseSetup {
     /// # Errors
     /// A scene that cannot start; a method that cannot integrate it.
     pub fn run(&self, watch: &mut dyn FnMut(f64) -> ControlFlow<()>) -> Result<Run, sim::Error> {
-        sim::run_by(self.scene.stepping, &self.cast.scene, &self.foundations, watch)
+        sim::run_by(self.scene.stepping, &self.input.scene, &self.foundations, watch)
     }
 
     /// Degrees of freedom of all foundations; those of bodies do not count.

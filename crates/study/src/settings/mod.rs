@@ -2,5 +2,5 @@
 
 pub(crate) mod budget;
 pub(crate) mod detail;
-pub(crate) mod ladder;
+pub(crate) mod list;
 pub(crate) mod setting;

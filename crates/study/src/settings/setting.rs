@@ -96,7 +96,7 @@ impl SettingFamily {
 
     /// The kind of reference that its errors are measured against.
     #[must_use]
-    pub const fn against(self) -> ReferenceKind {
+    pub const fn reference_kind(self) -> ReferenceKind {
         match self {
             SettingFamily::Adaptive(_) | SettingFamily::Fixed(_) | SettingFamily::Stepping => {
                 ReferenceKind::Own
@@ -106,9 +106,9 @@ impl SettingFamily {
         }
     }
 
-    /// Whether the residual flexibility is left out.
+    /// Whether the natural modes are used without residual flexibility.
     #[must_use]
-    pub const fn is_pure(self) -> bool {
+    pub const fn omits_residual(self) -> bool {
         matches!(self, SettingFamily::ModalWithoutResidual)
     }
 }
@@ -117,8 +117,8 @@ impl Setting {
     /// The setting in words, such as `modal, modes 4`.
     #[must_use]
     pub fn label(&self) -> String {
-        let Setting { family, parameter: knob, value, .. } = self;
+        let Setting { family, parameter, value, .. } = self;
         let value = if *value < 1.0 { format!("{value:e}") } else { value.to_string() };
-        format!("{}, {knob} {value}", family.name())
+        format!("{}, {parameter} {value}", family.name())
     }
 }

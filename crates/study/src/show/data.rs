@@ -1,4 +1,4 @@
-//! A study as JSON and CSV. Times stand in files of their own: they differ between runs.
+//! A study as JSON and CSV. Times are in separate files, because they differ between runs.
 
 use serde_json::{Map, Value, json};
 
@@ -17,6 +17,7 @@ use results::columns::bytes;
 pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
     let fronts = fronts(study, &stages);
     let points = study.points.iter().enumerate();
+    let failed = study.failed_references.iter().map(|(own, why)| (own.word().to_owned(), json!(why)));
     json!({
         "format": "girderway-study/1",
         "name": scene.name,
@@ -24,7 +25,7 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
         "limit": budget.limit,
         "until": study.until,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
-        "lost": study.failed_references.iter().map(|(own, why)| (own.word().to_owned(), json!(why))).collect::<Map<String, Value>>(),
+        "lost": failed.collect::<Map<String, Value>>(),
         "auto": match &study.auto {
             Ok(auto) => {
                 let all = auto.reasons.iter().map(|(name, why)| (name.clone(), json!(why)));
@@ -32,7 +33,7 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
             }
             Err(why) => json!({ "why": why }),
         },
-        "dearer_by_stages": excess_costs(study, &stages),
+        "cost_ratio_by_stages": cost_ratios_json(study, &stages),
         "settings": points.map(|(k, own)| setting(own, &on(&fronts, k))).collect::<Vec<_>>(),
     })
 }
@@ -44,11 +45,11 @@ fn reference(own: &ConvergedReference) -> Value {
         all.filter_map(|(k, q)| Some((q.word().to_owned(), json!(value(k)?)))).collect::<Map<String, Value>>()
     };
     json!({
-        "against": own.against.word(),
-        "run": own.words[0],
-        "beside": own.words[1],
+        "against": own.kind.word(),
+        "run": own.descriptions[0],
+        "beside": own.descriptions[1],
         "difference": each(&|k| own.difference[k]),
-        "tells_from": each(&|k| own.difference[k].map(|difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))),
+        "resolution": each(&|k| own.difference[k].map(|difference| RESOLUTION_FACTOR * difference.max(f64::EPSILON))),
         "approach": own.approach.iter()
             .map(|(accuracy, difference)| json!({ "accuracy": accuracy, "difference": difference }))
             .collect::<Vec<_>>(),
@@ -63,7 +64,7 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
         "family": setting.family.name(),
         setting.parameter: setting.value,
         "accuracy": setting.scene.accuracy,
-        "against": setting.family.against().word(),
+        "against": setting.family.reference_kind().word(),
         "foundation": structures.collect::<Map<String, Value>>(),
     });
     match outcome {
@@ -97,16 +98,16 @@ fn setting(point: &StudyPoint, fronts: &[&'static str]) -> Value {
 /// Ratio of the cost of the first point of `family` to that of the cheapest setting with no larger error, for each
 /// group of columns: 1 on the Pareto front. Errors below the resolution of the reference count as equal to it.
 #[must_use]
-pub fn excesses(
+pub fn cost_ratios(
     study: &Study,
     family: SettingFamily,
     cost: &dyn Fn(&StudyPoint) -> Option<f64>,
 ) -> Vec<(ErrorGroup, f64)> {
-    let Some(reference) = study.reference(family.against()) else { return Vec::new() };
+    let Some(reference) = study.reference(family.reference_kind()) else { return Vec::new() };
     let of = |quantity: ErrorGroup| {
-        let least = reference.resolution_of(quantity)?;
+        let least = reference.usable_resolution(quantity)?;
         let place = |point: &StudyPoint| Some([cost(point)?, point.error(quantity)?.max(least)]);
-        let all = study.points.iter().filter(|point| point.setting.family.against() == reference.against);
+        let all = study.points.iter().filter(|point| point.setting.family.reference_kind() == reference.kind);
         let all: Vec<(SettingFamily, [f64; 2])> =
             all.filter_map(|point| Some((point.setting.family, place(point)?))).collect();
         let own = all.iter().find(|(known, _)| *known == family)?.1;
@@ -116,13 +117,18 @@ pub fn excesses(
     ErrorGroup::ALL.into_iter().filter_map(of).collect()
 }
 
-/// The same as JSON, for the scene as written (among foundations and among methods) and for the choice of "auto".
-fn excess_costs(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
+/// The cost ratios as JSON, of the scene as written (among foundations and among methods) and of the choice of
+/// "auto".
+fn cost_ratios_json(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Value {
     let of = |family: SettingFamily| {
-        let all = excesses(study, family, cost).into_iter();
+        let all = cost_ratios(study, family, cost).into_iter();
         Value::Object(all.map(|(quantity, own)| (quantity.word().to_owned(), json!(own))).collect())
     };
-    json!({ "as written": of(SettingFamily::Written), "auto": of(SettingFamily::Auto), "stepping": of(SettingFamily::Stepping) })
+    json!({
+        "as written": of(SettingFamily::Written),
+        "auto": of(SettingFamily::Auto),
+        "stepping": of(SettingFamily::Stepping),
+    })
 }
 
 /// Cost of a point as its number of contact solutions, where it ran to its end.
@@ -136,12 +142,12 @@ fn fronts(study: &Study, cost: &dyn Fn(&StudyPoint) -> Option<f64>) -> Vec<Vec<u
     let of = |quantity: ErrorGroup| {
         let mut kept = Vec::new();
         for reference in &study.references {
-            let least = reference.resolves(quantity);
+            let least = reference.resolution(quantity);
             let (at, pairs): (Vec<usize>, Vec<[f64; 2]>) = study
                 .points
                 .iter()
                 .enumerate()
-                .filter(|(_, point)| point.setting.family.against() == reference.against)
+                .filter(|(_, point)| point.setting.family.reference_kind() == reference.kind)
                 .filter_map(|(k, point)| Some((k, [cost(point)?, point.error(quantity)?.max(least)])))
                 .unzip();
             kept.extend(at.into_iter().zip(on_front(&pairs)).filter(|(_, on)| *on).map(|(k, _)| k));
@@ -177,7 +183,7 @@ pub fn timing_json(study: &Study) -> Value {
     let trials = study.auto.as_ref().ok().and_then(|auto| auto.trials);
     json!({
         "clock": if cfg!(unix) { "time that the thread worked, s" } else { "time, s" },
-        "dearer": excess_costs(study, &StudyPoint::seconds),
+        "cost_ratio": cost_ratios_json(study, &StudyPoint::seconds),
         "settings": points.collect::<Vec<_>>(),
         "auto_with_its_trials": trials.map(|own| json!({
             "median": own.median, "least": own.min, "most": own.max, "repetitions": own.count,
@@ -200,9 +206,9 @@ pub fn csv(study: &Study) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(&head)?;
     for point in &study.points {
         let StudyPoint { setting, outcome } = point;
-        let (family, against) = (setting.family, setting.family.against());
+        let (family, kind) = (setting.family, setting.family.reference_kind());
         let mut row = vec![family.name(), setting.parameter.to_owned(), format!("{:?}", setting.value)];
-        row.push(against.word().to_owned());
+        row.push(kind.word().to_owned());
         row.push(
             match outcome {
                 PointOutcome::Done(_) => "done",

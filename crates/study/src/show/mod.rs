@@ -1,4 +1,4 @@
 //! Output of a study: data files and charts.
 
 pub(crate) mod data;
-pub(crate) mod picture;
+pub(crate) mod figure;

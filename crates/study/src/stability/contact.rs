@@ -19,8 +19,9 @@ use report::chart::{Series, Style};
 const METHODS: [&str; 4] = ["fixed point", "staggered", "lag of one step", "girderway, direct"];
 /// Passes after which an iteration stops with the forces that it has.
 const PASSES: usize = 50;
-/// Largest relative error that counts as right, and the smallest that no user overlooks.
+/// Largest relative error that counts as right.
 const ALLOWED: f64 = 1e-6;
+/// Smallest relative error that a user certainly notices.
 const OBVIOUS: f64 = 1e2;
 
 /// Relative error of the forces after `PASSES` passes of F <- k (d - G F) from F = 0, either of all wheels at once or
@@ -114,7 +115,7 @@ fn errors(
     ]
 }
 
-/// The layers of all methods for wheels at `offsets`, which the map calls `who`.
+/// The layers of all methods for wheels at `offsets`; `who` is the name of these wheels in the map.
 fn layers(
     subject: &MapSubject<'_>,
     who: &str,
@@ -133,7 +134,7 @@ fn layers(
         for &k in stiffnesses {
             let all = errors(subject, offsets, k, x, &compliance);
             for (index, (layer, result)) in layers.iter_mut().zip(all).enumerate() {
-                // the lagged run starts a thousandth off: it need not have come to rest, but must not have grown
+                // the lagged run starts with an error of 1e-3, which must not grow but need not have decayed
                 let allowed = if index == 2 { 1e-3 } else { ALLOWED };
                 let (value, verdict) = match result {
                     Ok(error) => (error, MapVerdict::of(error, allowed, OBVIOUS)),
@@ -152,14 +153,15 @@ fn layers(
 #[must_use]
 pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let axes = [
-        MapScale::new("place along the rail", &subject.unit(Dimension::LENGTH), false),
+        MapScale::new("position along the rail", &subject.unit(Dimension::LENGTH), false),
         MapScale::new("stiffness of a wheel", &subject.unit(Dimension::STIFFNESS), true),
     ];
     let mut map = StabilityMap::new(
         "contact",
-        "Ways to find contact forces",
+        "Methods of solving for contact forces",
         axes,
-        "Forces at rest after 50 passes or steps, against (G + I/k) F = d; the line is k times the largest eigenvalue of G = 1.",
+        "Forces at rest after 50 passes or steps, compared with the solution of (G + I/k) F = d. On the line, k \
+         times the largest eigenvalue of G is 1.",
     );
     let both: [(&str, Vec<f64>); 2] = [("one wheel", vec![0.0]), ("truck", subject.offsets.clone())];
     let stiffnesses = spread(1e-3 * subject.stiffness, 1e3 * subject.stiffness, points);

@@ -38,19 +38,20 @@ fn map(own: &StabilityMap) -> Value {
 fn layer(own: &MapLayer) -> Value {
     let counts = MapVerdict::WORDS.iter().zip(own.counts());
     let mut messages: Vec<(&str, usize)> = Vec::new();
-    for cell in &own.points {
-        let MapVerdict::Refused(why) = &cell.verdict else { continue };
+    for point in &own.points {
+        let MapVerdict::Refused(why) = &point.verdict else { continue };
         match messages.iter_mut().find(|(known, _)| known == why) {
             Some((_, count)) => *count += 1,
             None => messages.push((why, 1)),
         }
     }
     let counts = counts.map(|(word, count)| ((*word).to_owned(), json!(count)));
+    let messages = messages.iter().map(|(why, count)| json!({ "message": why, "points": count }));
     json!({
         "method": own.method,
         "is_girderway": own.is_ours,
         "counts": counts.collect::<Object<String, Value>>(),
-        "messages": messages.iter().map(|(why, count)| json!({ "message": why, "points": count })).collect::<Vec<_>>(),
+        "messages": messages.collect::<Vec<_>>(),
     })
 }
 
@@ -63,10 +64,10 @@ pub fn csv(maps: &[StabilityMap]) -> Result<Vec<u8>, csv::Error> {
     writer.write_record(["map", "method", "x", "y", "verdict", "value"])?;
     for map in maps {
         for layer in &map.layers {
-            for cell in &layer.points {
-                let [x, y] = cell.at.map(|own| format!("{own:e}"));
-                let value = format!("{:e}", cell.value);
-                writer.write_record([map.name, &layer.method, &x, &y, cell.verdict.word(), &value])?;
+            for point in &layer.points {
+                let [x, y] = point.at.map(|own| format!("{own:e}"));
+                let value = format!("{:e}", point.value);
+                writer.write_record([map.name, &layer.method, &x, &y, point.verdict.word(), &value])?;
             }
         }
     }

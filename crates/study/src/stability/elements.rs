@@ -1,9 +1,9 @@
 //! Rounding error of beam elements in double precision, against the number and the length of elements.
 //!
 //! A simply supported Euler-Bernoulli beam of unit length carries a unit force. Its elements are exact at nodes, so
-//! whatever differs from the closed form x^2 (1 - x)^2 / 3 is rounding: the condition number of the stiffness matrix
-//! grows with the fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky
-//! factorisation in doubles stands beside the library, which certifies a bound of its own error.
+//! every difference from the closed form x^2 (1 - x)^2 / 3 is a rounding error: the condition number of the stiffness
+//! matrix grows with the fourth power of the number of elements, and with the ratio of lengths. A banded Cholesky
+//! factorisation in doubles is compared with the library, which certifies a bound of its own error.
 
 use fea::{FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use splines::{Axis, Probe};
@@ -12,8 +12,9 @@ use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::subject::MapSubject;
 use report::chart::{Series, Style};
 
-/// Largest relative error that counts as right, and the smallest that no user overlooks.
+/// Largest relative error that counts as right.
 const ALLOWED: f64 = 1e-6;
+/// Smallest relative error that a user certainly notices.
 const OBVIOUS: f64 = 0.5;
 /// Smallest error that is drawn: the axis is logarithmic.
 const LEAST: f64 = 1e-17;
@@ -45,13 +46,13 @@ fn assembled(lengths: &[f64]) -> Band {
         }
     }
     // a restrained degree of freedom has a unit row
-    for held in [0, n - 2] {
-        for (offset, entry) in band[held].iter_mut().enumerate() {
+    for restrained in [0, n - 2] {
+        for (offset, entry) in band[restrained].iter_mut().enumerate() {
             *entry = if offset == 3 { 1.0 } else { 0.0 };
         }
         for below in 1..4 {
-            if held + below < n {
-                band[held + below][3 - below] = 0.0;
+            if restrained + below < n {
+                band[restrained + below][3 - below] = 0.0;
             }
         }
     }
@@ -129,22 +130,24 @@ fn exact(x: f64) -> f64 {
 /// Both maps: 2 to 2^`most` equal elements, and one short element between two long ones.
 #[must_use]
 pub fn maps(subject: &MapSubject<'_>, most: u32) -> Vec<StabilityMap> {
-    let title = format!("{}: elements against error in double precision", subject.name);
+    let title = format!("{}: error in double precision over the number of elements", subject.name);
     let axes =
         |label: &str| [MapScale::new(label, "", true), MapScale::new("relative error at midspan", "", true)];
     let mut equal = StabilityMap::new(
         "elements",
         &title,
         axes("equal elements of a simply supported span"),
-        "Euler-Bernoulli elements, exact but for rounding; wrong from 1e-6 on. The line is the bound that girderway certifies.",
+        "Euler-Bernoulli elements, exact except for rounding; wrong if the error exceeds 1e-6. The line is the bound \
+         that girderway certifies.",
     );
     let many: Vec<Vec<f64>> = (1..=most).map(|i| vec![1.0 / f64::from(1 << i); 1 << i]).collect();
     fill(&mut equal, many.iter().map(|own| (own.len() as f64, own.clone(), own.len() / 2)));
     let mut short = StabilityMap::new(
         "short-element",
-        "One short element among two long ones: error in double precision",
-        axes("length of the short element by the span"),
-        "Two halves and one short element between them; wrong from 1e-6 on. The line is the bound that girderway certifies.",
+        "One short element between two long ones: error in double precision",
+        axes("length of the short element / span"),
+        "Two halves of a span and one short element between them; wrong if the error exceeds 1e-6. The line is the \
+         bound that girderway certifies.",
     );
     let ratios = super::steps::spread(1e-9, 1e-1, 65);
     let few = ratios.into_iter().map(|ratio| (ratio, vec![0.5 - 0.5 * ratio, ratio, 0.5 - 0.5 * ratio], 1));

@@ -6,9 +6,9 @@
 //!
 //! M q'' + c B^T B q' + B^T (G + I/k)^-1 B q = 0.
 //!
-//! A structure only stores energy: G is symmetric and positive, and no eigenvalue has a positive real part. A table
-//! that is read with G(x, z) different from G(z, x) does work on a closed loop of wheel forces, so the motion can
-//! grow without any excitation. The map first searches the bogie that grows fastest on AKISPL without dampers (its
+//! A structure only stores energy: G is symmetric and positive, and no eigenvalue has a positive real part. If a
+//! table is read with G(x, z) different from G(z, x), wheel forces do work in closed loops, so the motion can grow
+//! without any excitation. The map first searches the bogie that grows fastest on AKISPL without dampers (its
 //! place, the offset of its centre of mass and its radius of gyration), then bisects the damper that stops this
 //! growth, and then evaluates the growth over place and damper for every reading. A last layer runs the simulator
 //! itself on the AKISPL table.
@@ -27,7 +27,7 @@ use formats::units::Dimension;
 use foundations::influence_blocks;
 use results::warning::RESIDUAL;
 
-/// Largest growth rate that counts as none, relative to the frequency of the wheels on their springs.
+/// Largest growth rate that is treated as zero, relative to the frequency of the wheels on their springs.
 const NONE: f64 = 1e-9;
 
 /// Duration of a run, in times in which the motion grows by the factor e.
@@ -40,7 +40,7 @@ const INITIAL_SPEED: f64 = 1e-2;
 struct Bogie {
     /// Position of the middle between the wheels along the rail.
     x: f64,
-    /// Distance of the centre of mass from there.
+    /// Distance of the centre of mass from this middle.
     offset: f64,
     /// Radius of gyration.
     gyration: f64,
@@ -117,8 +117,8 @@ impl BogieFamily<'_, '_> {
         bogie.growth(&matrix)
     }
 
-    /// A bogie without dampers by three parameters: its place (0 to 1 along the span), the offset of its centre of mass
-    /// (-1 to 1, in half wheel distances) and its radius of gyration (0 to 1: 0.3 to 9 half wheel distances,
+    /// A bogie without dampers from three parameters: its position (0 to 1 along the span), the offset of its centre
+    /// of mass (-1 to 1, in half wheel distances) and its radius of gyration (0 to 1: 0.3 to 9 half wheel distances,
     /// logarithmically).
     fn candidate(&self, [place, offset, gyration]: [f64; 3]) -> Bogie {
         Bogie {
@@ -131,7 +131,7 @@ impl BogieFamily<'_, '_> {
         }
     }
 
-    /// The middle of cell `i` of `count` equal ones along the places that a bogie can take.
+    /// The middle of part `i` of `count` equal parts of the range of positions of a bogie.
     fn place(&self, i: usize, count: usize) -> f64 {
         self.subject.span[0] + self.half + self.inner * (i as f64 + 0.5) / count as f64
     }
@@ -191,16 +191,16 @@ impl BogieFamily<'_, '_> {
         dampers: &[f64],
         points: usize,
     ) -> Vec<MapPoint> {
-        let mut cells = Vec::new();
+        let mut map_points = Vec::new();
         for x in (0..points).map(|i| self.place(i, points)) {
             for &c in dampers {
                 let own = Bogie { x, law: [self.subject.stiffness, c], ..bogie };
                 let Some(value) = self.growth(compliance, own) else { continue };
                 let verdict = if value <= NONE * self.omega { MapVerdict::Right } else { MapVerdict::Wrong };
-                cells.push(MapPoint { at: [x, c], value, verdict });
+                map_points.push(MapPoint { at: [x, c], value, verdict });
             }
         }
-        cells
+        map_points
     }
 
     /// Runs of the simulator on the AKISPL `tables` with `bogie` and each of the `dampers`: whether the motion grows,
@@ -272,7 +272,7 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
     };
     let (growth, worst) = family.fastest_growing(&akispl);
     map.note("akispl: largest growth without dampers, 1/s", growth);
-    map.note("akispl: where", worst.x);
+    map.note("akispl: position", worst.x);
     map.note("akispl: distance of the centre of mass from the middle", worst.offset);
     map.note("akispl: radius of gyration", worst.gyration);
     let needed = family.stopping_damper(&akispl, worst);
@@ -287,31 +287,31 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> Result<StabilityMap, Stri
         } else {
             name.to_owned()
         };
-        let cells = family.growth_over_span(compliance, worst, &dampers, points);
-        map.layers.push(MapLayer::new(method, is_ours).with(cells));
+        let map_points = family.growth_over_span(compliance, worst, &dampers, points);
+        map.layers.push(MapLayer::new(method, is_ours).with(map_points));
     }
-    let cells = family.simulated(&akispl, &tables, worst, &dampers);
-    map.layers.push(MapLayer::new("girderway told to read by akispl, worst place", true).with(cells));
+    let map_points = family.simulated(&akispl, &tables, worst, &dampers);
+    map.layers.push(MapLayer::new("girderway, akispl, worst position", true).with(map_points));
     Ok(map)
 }
 
 /// The map without numbers and layers.
 fn empty_map(subject: &MapSubject<'_>) -> StabilityMap {
     let axes = [
-        MapScale::new("place of the bogie", &subject.unit(Dimension::LENGTH), false),
+        MapScale::new("position of the bogie", &subject.unit(Dimension::LENGTH), false),
         MapScale::new("damper of a wheel to the ground", &subject.unit(Dimension::DAMPING), true),
     ];
     StabilityMap::new(
         "excitation",
-        "A bogie at rest on tables: does it shake itself?",
+        "Self-excitation of a bogie at rest on influence tables",
         axes,
-        "Two wheels under a body whose centre of mass is where growth is largest; wrong where the motion grows: structures \
-         only take energy, a table that is not symmetric gives some.",
+        "Two wheels under a body with the centre of mass of largest growth; wrong where the motion grows: a \
+         structure only stores energy, but a table that is not symmetric supplies energy.",
     )
 }
 
-/// Notes the largest work of a closed loop of the forces of two wheels at the distance `spacing`, and its ratio to the
-/// energy stored: zero for a symmetric compliance.
+/// Notes the largest work of a closed loop of the forces of two wheels at the distance `spacing`, and its ratio to
+/// the energy stored: zero for a symmetric compliance.
 fn note_loop_work(
     map: &mut StabilityMap,
     subject: &MapSubject<'_>,
@@ -319,23 +319,23 @@ fn note_loop_work(
     compliance: &dyn Compliance,
     spacing: f64,
 ) -> Result<(), String> {
-    let strip = CouplingBlock::direct(compliance, (0, Axis::Vertical));
+    let block = CouplingBlock::direct(compliance, (0, Axis::Vertical));
     let places: Vec<f64> =
         (0..=600).map(|i| subject.span[0] + subject.length() * f64::from(i) / 600.0).collect();
-    let largest = loop_work(&strip, spacing, &places).map_err(|error| error.to_string())?;
+    let largest = loop_work(&block, spacing, &places).map_err(|error| error.to_string())?;
     map.note(
         format!("{name}: work of a closed loop of two wheels' forces"),
         largest.work * subject.load * subject.load,
     );
     if largest.stored > 0.0 {
-        map.note(format!("{name}: the same by the energy stored"), largest.work / largest.stored);
+        map.note(format!("{name}: the same relative to the stored energy"), largest.work / largest.stored);
     }
     Ok(())
 }
 
 /// Runs the simulator with one bogie on the AKISPL table for [`EFOLDINGS`] times the time in which its motion grows
-/// by the factor e. A growth rate below a hundredth of the frequency of the wheels counts as that, so that the run
-/// ends.
+/// by the factor e. A growth rate below a hundredth of the frequency of the wheels is replaced by this hundredth,
+/// which limits the duration of the run.
 ///
 /// Returns whether the speed in the last tenth of the run is more than twice that in the first, and the energy
 /// residual of the run.

@@ -1,4 +1,4 @@
-//! Maps of where methods work and where they fail: one layer a method, one verdict a point.
+//! Maps of where methods work and where they fail: one layer for each method, one verdict for each point.
 //!
 //! # Example
 //! ```
@@ -7,11 +7,11 @@
 //! // Explicit Euler on z' = -z: its factor per step is 1 - h, so that it diverges for h > 2.
 //! let axes = [MapScale::new("step", "s", false), MapScale::new("amplification", "", false)];
 //! let mut map = StabilityMap::new("euler", "Explicit Euler", axes, "Wrong where the solution grows.");
-//! let cells = [0.5_f64, 1.5, 2.5].map(|h| {
+//! let points = [0.5_f64, 1.5, 2.5].map(|h| {
 //!     let value = (1.0 - h).abs();
 //!     MapPoint { at: [h, value], value, verdict: MapVerdict::of(value, 1.0, 10.0) }
 //! });
-//! map.layers.push(MapLayer::new("explicit Euler", false).with(cells.to_vec()));
+//! map.layers.push(MapLayer::new("explicit Euler", false).with(points.to_vec()));
 //! map.note("largest stable step, s", 2.0);
 //!
 //! assert_eq!(map.layers[0].counts(), [2, 1, 0, 0, 0]);
@@ -101,18 +101,18 @@ impl MapLayer {
 
     /// The same layer with these points.
     #[must_use]
-    pub fn with(self, cells: Vec<MapPoint>) -> MapLayer {
-        MapLayer { points: cells, ..self }
+    pub fn with(self, points: Vec<MapPoint>) -> MapLayer {
+        MapLayer { points, ..self }
     }
 
     /// The number of points of each verdict, in the order of [`MapVerdict::WORDS`].
     #[must_use]
     pub fn counts(&self) -> [usize; 5] {
-        MapVerdict::WORDS.map(|word| self.points.iter().filter(|cell| cell.verdict.word() == word).count())
+        MapVerdict::WORDS.map(|word| self.points.iter().filter(|point| point.verdict.word() == word).count())
     }
 }
 
-/// A single number that a map reports beside its points.
+/// A single number that a map reports in addition to its points.
 #[derive(Clone, Debug)]
 pub struct MapFinding {
     /// What it is, with its unit.
@@ -151,9 +151,9 @@ pub struct StabilityMap {
     pub axes: [MapScale; 2],
     /// Methods.
     pub layers: Vec<MapLayer>,
-    /// Single numbers beside the points.
+    /// Single numbers in addition to the points.
     pub findings: Vec<MapFinding>,
-    /// What the verdicts mean on this map.
+    /// Meaning of the verdicts on this map.
     pub note: String,
 }
 

@@ -7,18 +7,18 @@ mod contact;
 mod data;
 mod elements;
 mod excitation;
+mod figure;
 mod liftoff;
 mod map;
 mod penalty;
-mod picture;
 mod steppers;
 mod steps;
 mod subject;
 mod ties;
 
 pub use data::{csv, json};
+pub use figure::figures;
 pub use map::{MapFinding, MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
-pub use picture::pictures;
 pub use subject::MapSubject;
 
 use crate::observer::Observer;
@@ -46,7 +46,7 @@ pub fn maps(subject: &MapSubject<'_>, quick: bool, observer: &dyn Observer) -> M
     observer.message("mapping steps");
     maps.extend(steps::maps(subject, points(30)));
     observer.message("mapping ties");
-    match if quick { Err("--quick leaves it out".to_owned()) } else { ties::map(points(27)) } {
+    match if quick { Err("left out by --quick".to_owned()) } else { ties::map(points(27)) } {
         Ok(map) => maps.push(map),
         Err(why) => absent.push(("ties".to_owned(), why)),
     }

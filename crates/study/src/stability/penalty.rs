@@ -2,8 +2,8 @@
 //!
 //! The rail of a girder runs at the height h above its axis. The closed form of the lateral compliance of the rail at
 //! midspan is L^3 / 48 E I + h^2 L / (4 G J). A post of s times the bending stiffness of the girder adds its own h^3
-//! / (3 s) where it is soft, and loses digits of the factorisation where it is stiff: the best error lies between
-//! them and grows with the number of elements. An exact offset has neither error.
+//! / (3 s), which is large if the post is soft; if it is stiff, the factorisation loses digits. The smallest error
+//! lies between these limits and grows with the number of elements. An exact offset has neither error.
 
 use fea::{CrossSection, FactoredFrame, Member, Model, Rail, RailSegment, Support};
 use nalgebra::{DMatrix, DVector};
@@ -14,8 +14,9 @@ use super::map::{MapLayer, MapPoint, MapScale, MapVerdict, StabilityMap};
 use super::steps::spread;
 use super::subject::MapSubject;
 
-/// Largest relative error that counts as right, and the smallest that no user overlooks.
+/// Largest relative error that counts as right.
 const ALLOWED: f64 = 1e-6;
+/// Smallest relative error that a user certainly notices.
 const OBVIOUS: f64 = 0.5;
 /// Offset of the rail relative to the span where the scene's girder has none.
 const USUAL: f64 = 0.06;
@@ -119,7 +120,7 @@ fn error_of(beam: Beam, value: f64) -> f64 {
 
 /// The points of a post over its stiffnesses `stiffs`, and the smallest error with its stiffness.
 fn post(beam: Beam, count: usize, stiffs: &[f64]) -> (Vec<MapPoint>, (f64, f64)) {
-    let mut cells = Vec::new();
+    let mut map_points = Vec::new();
     let mut best = (f64::INFINITY, 0.0);
     for &stiff in stiffs {
         let (value, verdict) = match beam.penalty(count, stiff).map(|value| error_of(beam, value)) {
@@ -129,9 +130,9 @@ fn post(beam: Beam, count: usize, stiffs: &[f64]) -> (Vec<MapPoint>, (f64, f64))
         if value < best.0 {
             best = (value, stiff);
         }
-        cells.push(MapPoint { at: [stiff, value], value, verdict });
+        map_points.push(MapPoint { at: [stiff, value], value, verdict });
     }
-    (cells, best)
+    (map_points, best)
 }
 
 /// The map of the error against the stiffness of the post.
@@ -139,22 +140,23 @@ fn post(beam: Beam, count: usize, stiffs: &[f64]) -> (Vec<MapPoint>, (f64, f64))
 pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
     let beam = beam_of(subject);
     let axes = [
-        MapScale::new("stiffness of the post by that of the girder", "", true),
-        MapScale::new("relative error of the rail's lateral give", "", true),
+        MapScale::new("stiffness of the post / that of the girder", "", true),
+        MapScale::new("relative error of the lateral compliance of the rail", "", true),
     ];
     let mut map = StabilityMap::new(
         "penalty",
-        "A rail off the axis of its girder: stiff members or exact kinematics",
+        "A rail with an offset from the axis of its girder: stiff members or exact kinematics",
         axes,
-        "Soft posts give, hard ones cost digits: wrong from 1e-6 on. Ours has the offset in its kinematics and no stiffness to choose.",
+        "A soft post deflects, a stiff one loses digits; wrong if the error exceeds 1e-6. In girderway the offset is \
+         part of the kinematics, without a stiffness to choose.",
     );
-    map.note("torsional stiffness by lateral bending stiffness", beam.twist);
-    map.note("height of the rail by the span", beam.offset);
+    map.note("torsional stiffness / lateral bending stiffness", beam.twist);
+    map.note("height of the rail / span", beam.offset);
     let stiffs = spread(1.0, 1e16, points);
     for count in [4, 16, 64] {
-        let (cells, best) = post(beam, count, &stiffs);
-        map.note(format!("{count} elements: least error"), best.0);
-        map.note(format!("{count} elements: at the stiffness"), best.1);
+        let (map_points, best) = post(beam, count, &stiffs);
+        map.note(format!("{count} elements: smallest error"), best.0);
+        map.note(format!("{count} elements: stiffness of smallest error"), best.1);
         for stiff in [1e3, 1e5, 1e7] {
             if let Some(value) = beam.penalty(count, stiff) {
                 map.note(
@@ -163,9 +165,9 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
                 );
             }
         }
-        map.layers.push(MapLayer::new(format!("stiff post, {count} elements"), false).with(cells));
+        map.layers.push(MapLayer::new(format!("stiff post, {count} elements"), false).with(map_points));
     }
-    let mut cells = Vec::new();
+    let mut map_points = Vec::new();
     for count in [4, 16, 64] {
         let (value, verdict) = match beam.by_offset(count).map(|value| error_of(beam, value)) {
             Ok(error) => (error, MapVerdict::of(error, ALLOWED, OBVIOUS)),
@@ -173,13 +175,13 @@ pub fn map(subject: &MapSubject<'_>, points: usize) -> StabilityMap {
         };
         map.note(format!("girderway, {count} elements: error"), value);
         // there is no stiffness to choose: the error is drawn over the whole axis
-        cells.extend(stiffs.iter().map(|stiff| MapPoint {
+        map_points.extend(stiffs.iter().map(|stiff| MapPoint {
             at: [*stiff, value],
             value,
             verdict: verdict.clone(),
         }));
     }
-    map.layers.push(MapLayer::new("girderway, 4, 16 and 64 elements", true).with(cells));
+    map.layers.push(MapLayer::new("girderway, 4, 16 and 64 elements", true).with(map_points));
     map
 }
 
@@ -188,7 +190,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn post_errs_by_its_own_bending() {
+    fn error_of_a_post_is_its_own_bending() {
         // the post adds h^3 / (3 s); the rest is exact
         let beam = Beam { twist: 0.3, offset: 0.06 };
         for stiff in [1.0, 10.0, 1e3] {

@@ -3,9 +3,9 @@
 //! The rail compliance G(x) softens the spring k of the wheel: with s(t) = 1 / (1 + k G(v t)), the wheel obeys z'' +
 //! 2 d s(t) z' + omega^2 s(t) z = 0, whose coefficients have the period L/v of a span. By Floquet's theorem the
 //! motion decays where the spectral radius of the matrix that maps (z, z') over one period (the monodromy matrix) is
-//! less than 1. The same matrix of a stepper says whether its solution decays: the stepper is wrong where its
-//! spectral radius exceeds 1 and that of the motion, which a fine Dormand-Prince integration gives. One map varies
-//! the step length over speed, the other the accuracy of adaptive steps.
+//! less than 1. The same holds for the solution of a stepper and its matrix: the stepper is wrong where its spectral
+//! radius exceeds 1 and that of the exact motion, which is computed by a fine Dormand-Prince integration. One map
+//! varies the step length over speed, the other the accuracy of adaptive steps.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -20,17 +20,17 @@ use formats::scene::stepper_word;
 use formats::units::Dimension;
 use results::warning::RESIDUAL;
 
-/// Steps a span, at least, of the integration that stands for the exact motion.
+/// Smallest number of steps in a span for the integration that is taken as exact.
 const FINE: f64 = 4000.0;
 /// Excess of a spectral radius over 1 above which a motion counts as growing.
 const GROWTH: f64 = 1e-6;
 /// Relative error of the spectral radius of the exact motion.
 const RADIUS_ERROR: f64 = 1e-6;
-/// Spectral radius below which a motion plainly decays.
+/// Spectral radius below which a motion clearly decays.
 const DECAYS: f64 = 0.95;
 /// Factor by which a stepper may exceed the spectral radius of a motion that grows.
 const TOLERATED: f64 = 1.02;
-/// Spectral radius, relative to the allowed one, that no user overlooks.
+/// Spectral radius, relative to the allowed one, that a user certainly notices.
 const OBVIOUS: f64 = 100.0;
 
 /// The crossing of one span by one wheel.
@@ -38,9 +38,9 @@ struct Crossing<'s, 'a> {
     subject: &'s MapSubject<'a>,
     /// Frequency of the wheel on its spring alone, radian/s.
     omega: f64,
-    /// Its damper by its mass, 1/s.
+    /// Its damper divided by its mass, 1/s.
     damping: f64,
-    /// k G at even places of the span.
+    /// k G at equally spaced positions of the span.
     softness: Vec<f64>,
 }
 
@@ -54,7 +54,8 @@ impl Crossing<'_, '_> {
         1.0 / (1.0 + softness)
     }
 
-    /// Spectral radius of the monodromy matrix by a stepper with `count` steps a span of the duration `period`.
+    /// Spectral radius of the monodromy matrix of a stepper with `count` steps over a span, which takes the time
+    /// `period`.
     fn radius(&self, (size, step): (usize, StepMethod), period: f64, count: usize) -> f64 {
         let stiffness = |t: f64| self.omega * self.omega * self.softening(t / period);
         let damping = |t: f64| self.damping * self.softening(t / period);
@@ -69,7 +70,7 @@ impl Crossing<'_, '_> {
         monodromy(&of, STEPPERS[2].2, 2, period, self.fine(period))
     }
 
-    /// Steps a span of the integration that stands for the exact motion: at least 60 a period of the wheel.
+    /// Number of steps in a span for the integration that is taken as exact: at least 60 in a period of the wheel.
     fn fine(&self, period: f64) -> usize {
         FINE.max(60.0 * period * self.omega / (2.0 * PI)).ceil() as usize
     }
@@ -90,8 +91,8 @@ impl Crossing<'_, '_> {
     }
 
     /// Spectral radius of one crossing by the simulator, and the larger energy residual of its two runs: each run
-    /// starts with one of z and z' and gives a column of the monodromy matrix. The message where the simulator
-    /// refuses.
+    /// starts with a unit value of z or z' and yields a column of the monodromy matrix. The error is the message of
+    /// the simulator.
     fn simulated(&self, stepping: Stepping, speed: f64, accuracy: f64) -> Result<(f64, f64), String> {
         let subject = self.subject;
         let law = subject.linear(subject.stiffness, subject.damping);
@@ -161,8 +162,8 @@ impl Motions {
     }
 }
 
-/// Verdict on the spectral radius of a stepper where that of the exact motion is `physical`: a motion that grows may be
-/// exceeded by 2 %, one that does not grow must not be made to.
+/// Verdict on the spectral radius of a stepper where that of the exact motion is `physical`. If the exact motion
+/// grows, the stepper may exceed its spectral radius by 2 %; otherwise the motion of the stepper must not grow.
 fn judge(radius: f64, physical: f64) -> MapVerdict {
     let allowed = if physical > 1.0 { TOLERATED * physical } else { 1.0 + GROWTH };
     MapVerdict::of(radius, allowed, OBVIOUS * allowed)
@@ -177,35 +178,36 @@ fn by_step(crossing: &Crossing<'_, '_>, motions: &Motions, fastest: f64, points:
     ];
     let mut map = StabilityMap::new(
         "steps",
-        "Steps that keep a wheel on equal spans stable",
+        "Stability of a wheel on equal spans over the step length",
         axes,
-        "A wheel on spring and damper, whose force the rail carries, crosses the longest span again and again. Wrong where the \
-         spectral radius of a span's steps exceeds 1 and that of the motion (by 2 % where that itself grows).",
+        "A wheel on a spring and a damper, whose force acts on the rail, crosses the longest span repeatedly. Wrong \
+         where the spectral radius of the steps over a span exceeds 1 and that of the exact motion (by 2 % where \
+         that motion grows).",
     );
     map.note("frequency of the wheel on its spring, radian/s", omega);
-    map.note("share of critical damping", 0.5 * crossing.damping / omega);
+    map.note("fraction of critical damping", 0.5 * crossing.damping / omega);
     let ground = crossing.physical_with_ground_damper(subject.length() / fastest);
-    map.note("growth a span at the highest speed, the damper's force past the rail", ground);
+    map.note("growth over a span at the highest speed with the damper to the ground", ground);
     for (speed, physical) in motions.each() {
         if physical > 1.0 + GROWTH {
             map.note(
-                format!("growth a span of the motion itself at {speed:.4} {}", map.axes[0].unit),
+                format!("growth of the exact motion over a span at {speed:.4} {}", map.axes[0].unit),
                 physical,
             );
         }
     }
     let steps = spread(0.2, 12.0, points);
     for (name, size, step) in STEPPERS {
-        let (cells, first) = other_stepper(crossing, motions, &steps, (size, step));
+        let (map_points, first) = other_stepper(crossing, motions, &steps, (size, step));
         if first.is_finite() {
             map.note(format!("{name}: first unstable step x frequency of a motion that decays"), first);
         }
-        map.layers.push(MapLayer::new(name, false).with(cells));
+        map.layers.push(MapLayer::new(name, false).with(map_points));
     }
     for method in [Method::Sdirk4, Method::Radau, Method::Gauss2, Method::Gauss3] {
-        let cells = simulator_by_step(crossing, motions, &steps, fastest, method);
+        let map_points = simulator_by_step(crossing, motions, &steps, fastest, method);
         let word = stepper_word(method);
-        map.layers.push(MapLayer::new(format!("girderway, {word}, equal steps"), true).with(cells));
+        map.layers.push(MapLayer::new(format!("girderway, {word}, equal steps"), true).with(map_points));
     }
     map
 }
@@ -218,7 +220,7 @@ fn other_stepper(
     steps: &[f64],
     stepper: (usize, StepMethod),
 ) -> (Vec<MapPoint>, f64) {
-    let mut cells = Vec::new();
+    let mut map_points = Vec::new();
     let mut first = f64::INFINITY;
     for (speed, physical) in motions.each() {
         for &wanted in steps {
@@ -228,10 +230,10 @@ fn other_stepper(
             if verdict != MapVerdict::Right && physical < DECAYS {
                 first = first.min(real);
             }
-            cells.push(MapPoint { at: [speed, real], value: finite(value), verdict });
+            map_points.push(MapPoint { at: [speed, real], value: finite(value), verdict });
         }
     }
-    (cells, first)
+    (map_points, first)
 }
 
 /// The points of a `method` of the simulator with equal steps; speeds below a sixtieth of the highest are left out.
@@ -242,7 +244,7 @@ fn simulator_by_step(
     fastest: f64,
     method: Method,
 ) -> Vec<MapPoint> {
-    let mut cells = Vec::new();
+    let mut map_points = Vec::new();
     for (speed, physical) in motions.each().filter(|(speed, _)| *speed > fastest / 60.0) {
         for &wanted in steps {
             let Some((period, count, real)) = crossing.equal_steps(speed, wanted) else { continue };
@@ -255,26 +257,26 @@ fn simulator_by_step(
                 },
                 Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            cells.push(MapPoint { at: [speed, real], value: finite(value), verdict });
+            map_points.push(MapPoint { at: [speed, real], value: finite(value), verdict });
         }
     }
-    cells
+    map_points
 }
 
 /// The map of the accuracy that the simulator is asked for against speed, with adaptive steps.
 fn by_accuracy(crossing: &Crossing<'_, '_>, motions: &Motions, points: usize) -> StabilityMap {
     let axes = [
         MapScale::new("speed", &crossing.subject.unit(Dimension::SPEED), true),
-        MapScale::new("accuracy asked for", "", true),
+        MapScale::new("requested accuracy", "", true),
     ];
     let mut map = StabilityMap::new(
         "accuracies",
-        "Accuracies that keep a wheel on equal spans stable",
+        "Stability of a wheel on equal spans over the accuracy",
         axes,
-        "The same crossing by steps that follow the accuracy; wrong where the spectral radius of a span exceeds 1 and that of the motion \
-         by more than the accuracy, relatively.",
+        "The same crossing with adaptive steps of the requested accuracy; wrong where the spectral radius over a \
+         span exceeds 1 and that of the exact motion by a relative difference larger than the accuracy.",
     );
-    let mut cells = Vec::new();
+    let mut map_points = Vec::new();
     for (speed, physical) in motions.each() {
         for accuracy in spread(1e-7, 1e-1, points.min(13)) {
             let (value, verdict) = match crossing.simulated(Stepping::default(), speed, accuracy) {
@@ -283,10 +285,10 @@ fn by_accuracy(crossing: &Crossing<'_, '_>, motions: &Motions, points: usize) ->
                 }
                 Err(why) => (0.0, MapVerdict::Refused(why)),
             };
-            cells.push(MapPoint { at: [speed, accuracy], value: finite(value), verdict });
+            map_points.push(MapPoint { at: [speed, accuracy], value: finite(value), verdict });
         }
     }
-    map.layers.push(MapLayer::new("girderway", true).with(cells));
+    map.layers.push(MapLayer::new("girderway", true).with(map_points));
     map
 }
 
@@ -296,7 +298,7 @@ pub fn spread(low: f64, high: f64, count: usize) -> Vec<f64> {
     (0..count).map(|i| low * (high / low).powf(i as f64 / (count - 1).max(1) as f64)).collect()
 }
 
-/// The value, or the largest finite number where it is infinite or not a number: files hold finite numbers only.
+/// The value, or the largest finite number where it is infinite or not a number: files contain finite numbers only.
 #[must_use]
 pub fn finite(value: f64) -> f64 {
     if value.is_finite() { value } else { f64::MAX }

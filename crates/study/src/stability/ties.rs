@@ -2,8 +2,8 @@
 //!
 //! A beam on a Winkler bed of the stiffness u per length has the critical speed v_cr = (4 u E I / m^2)^(1/4). A
 //! constant force at the speed v deflects it by 1 / sqrt(1 - (v / v_cr)^2) times the static deflection. A rail
-//! without mass keeps the static deflection at any speed, and is silently wrong; a rail on ties with mass follows the
-//! line.
+//! without mass has the static deflection at any speed, which is silently wrong; a rail on ties with mass agrees with
+//! the formula.
 
 use std::ops::ControlFlow;
 
@@ -17,18 +17,22 @@ use formats::units::{Force, Length, Units};
 use foundations::{full_mesh_foundation, solve};
 use report::chart::{Series, Style};
 
-/// Largest relative error of the deflection that counts as right, and the smallest that no user overlooks.
+/// Largest relative error of the deflection that counts as right.
 const ALLOWED: f64 = 1e-2;
+/// Smallest relative error that a user certainly notices.
 const OBVIOUS: f64 = 10.0;
 /// Length of the rail relative to its characteristic length (4 E I / u)^(1/4).
 const LENGTH: f64 = 100.0;
-/// Highest speed relative to the critical one: above it, waves do not leave the wheel within a rail of this length.
+/// Highest speed relative to the critical one. At higher speeds, the motion is not steady within a rail of this
+/// length.
 const FASTEST: f64 = 0.7;
-/// Stiffness of the wheel relative to that of the rail: so soft that its force is practically constant.
+/// Stiffness of the wheel relative to that of the rail: so low that the force of the wheel is practically constant.
 const SOFT: f64 = 1e-4;
-/// Fractions of the rail at which the wheel starts, its deflection is evaluated from, and the run ends.
+/// Fraction of the rail at which the wheel starts.
 const START: f64 = 0.2;
+/// Fraction of the rail from which the deflection is evaluated.
 const EVALUATED: f64 = 0.6;
+/// Fraction of the rail at which the run ends.
 const STOP: f64 = 0.7;
 
 /// A rail of 136 lb/yd on ties at 24 in with a track modulus of 3,000 psi, with and without its mass; inches, pounds,
@@ -98,13 +102,14 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
     let track = Track::new()?;
     let axes = [
         MapScale::new("speed / critical speed", "", false),
-        MapScale::new("deflection under the wheel / that at rest", "", true),
+        MapScale::new("deflection under the wheel / static deflection", "", true),
     ];
     let mut map = StabilityMap::new(
         "ties",
         "A constant force on a rail on ties",
         axes,
-        "Mean over a tenth of a rail of 184 ties, 136 lb/yd on 3,000 psi; the line is 1 / sqrt(1 - (v / v_cr)^2) of a rail on a bed. Wrong from 1e-2 on.",
+        "Mean over a tenth of a rail of 184 ties, 136 lb/yd on 3,000 psi. The line is 1 / sqrt(1 - (v / v_cr)^2), \
+         the solution for a Winkler bed. Wrong if the error exceeds 1e-2.",
     );
     map.note("critical speed, in/s", track.critical_speed);
     let mut layers = [("rail without mass", false), ("girderway, ties with mass", true)]
@@ -123,12 +128,12 @@ pub fn map(points: usize) -> Result<StabilityMap, String> {
                 Err(why) => (expected, 0.0, MapVerdict::Refused(why)),
             };
             if layer.is_ours {
-                map.note(format!("deflection at {fraction:.3} of it"), at);
+                map.note(format!("deflection at {fraction:.3} of the critical speed"), at);
             }
             layer.points.push(MapPoint { at: [fraction, at], value, verdict });
         }
     }
-    let line = Series::new("rail on a bed", Style::Line, line);
+    let line = Series::new("rail on a Winkler bed", Style::Line, line);
     layers.iter_mut().for_each(|layer| layer.lines.push(line.clone()));
     map.layers.extend(layers);
     Ok(map)

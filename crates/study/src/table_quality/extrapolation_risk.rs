@@ -143,22 +143,24 @@ impl fmt::Display for ExtrapolationRisk {
         match self {
             ExtrapolationRisk::Few { found } => write!(
                 f,
-                "{found} x values: four are the least, but readers of the language ask for up to {PORTABLE}"
+                "{found} x values: four are the minimum, but some documents of AKISPL require {PORTABLE}"
             ),
             ExtrapolationRisk::Uneven { spacing: [low, high] } => write!(
                 f,
-                "stations at unequal distances, {} to {}: ADAMS vouches for derivatives of AKISPL at equal ones only",
+                "stations at unequal distances, {} to {}: ADAMS guarantees derivatives of AKISPL for equal distances \
+                 only",
                 short(*low),
                 short(*high)
             ),
             ExtrapolationRisk::Inside { at } => write!(
                 f,
-                "rigid supports inside the table, at {}: one curve runs over spans and overhangs alike",
+                "rigid supports inside the table, at {}: one curve covers spans and overhangs",
                 list(at)
             ),
             ExtrapolationRisk::Rectangle { shape: [rows, columns] } => write!(
                 f,
-                "{rows} curves of {columns} values: deflections and loads have different stations, symmetry cannot hold between them"
+                "{rows} curves of {columns} values: deflections and loads have different stations, so that the table \
+                 cannot be symmetric"
             ),
             ExtrapolationRisk::Short { rail: [from, to] } => {
                 let [from, to] = [from, to].map(|x| short(*x));
@@ -168,19 +170,20 @@ impl fmt::Display for ExtrapolationRisk {
                 let more = if at.len() > LISTED { ", ..." } else { "" };
                 write!(
                     f,
-                    "supports, hinges or changes of section that are no stations: {}, at {}{more}",
+                    "supports, hinges or changes of section without a station: {}, at {}{more}",
                     at.len(),
                     list(&at[..at.len().min(LISTED)])
                 )
             }
             ExtrapolationRisk::NotLinear => f.write_str(
-                "no LINEAR_EXTRAPOLATE: beyond its ends the table goes on as a parabola or a cubic",
+                "no LINEAR_EXTRAPOLATE: beyond its ends the table is extrapolated by a parabola or a cubic",
             ),
             ExtrapolationRisk::Negative { at, value } => write!(
                 f,
-                "{value:e} on the diagonal, at {at}: the deflection under a load points against it (signs of z and load?)"
+                "{value:e} on the diagonal, at {at}: the deflection under a load is opposite to the load (check the \
+                 signs of z and of the load)"
             ),
-            ExtrapolationRisk::Zero => f.write_str("nothing but zeros"),
+            ExtrapolationRisk::Zero => f.write_str("all values are zero"),
         }
     }
 }

@@ -8,7 +8,7 @@ use splines::{Axis, BeamFit, Compliance, Error, InfluenceBlock};
 
 use super::extrapolation_risk::ExtrapolationRisk;
 use super::reading_method::{TableReadingMethod, beam_of};
-use super::readings::{ReadingFindings, ReadingPlanes, strip};
+use super::readings::{ReadingFindings, ReadingPlanes, coupling_block};
 use super::subject::{TableItem, TableSource};
 
 /// Settings of an evaluation.
@@ -27,11 +27,11 @@ pub struct TableQualitySettings {
 
 /// The exact values with which readings are compared.
 #[derive(Clone, Debug)]
-pub enum Truth {
+pub enum ExactValues {
     /// The exact surface of the grid file.
     Surface,
     /// The beam whose influence coefficients the table holds.
-    Lifted(BeamFit),
+    Beam(BeamFit),
     /// Neither.
     None,
 }
@@ -49,7 +49,7 @@ pub struct TableQuality {
     /// Rigid supports.
     pub supports: Vec<f64>,
     /// The exact values that errors are measured against.
-    pub truth: Truth,
+    pub exact_values: ExactValues,
     /// Scale of the errors of a coupling: the geometric mean of the largest entries of its two direct tables; `None`
     /// for a direct table, or where these are missing.
     pub scale: Option<f64>,
@@ -91,11 +91,11 @@ impl TableQuality {
         let item = &subject.items[index];
         let table = &item.table;
         let direct = item.is_direct();
-        let lifted = if direct { beam_of(0, table).ok() } else { None };
-        let truth = match (&subject.surface, item.paths, &lifted) {
-            (Some(_), Some(_), _) => Truth::Surface,
-            (_, _, Some(lift)) => Truth::Lifted(lift.clone()),
-            _ => Truth::None,
+        let beam = if direct { beam_of(0, table).ok() } else { None };
+        let exact_values = match (&subject.surface, item.paths, &beam) {
+            (Some(_), Some(_), _) => ExactValues::Surface,
+            (_, _, Some(beam)) => ExactValues::Beam(beam.clone()),
+            _ => ExactValues::None,
         };
         let supports = if direct { support_stations(table) } else { Vec::new() };
         let mut quality = TableQuality {
@@ -110,14 +110,14 @@ impl TableQuality {
             verdicts: Vec::new(),
             load: settings.load,
             supports,
-            truth,
+            exact_values,
         };
         for end in ends(table.x(), settings.beyond) {
             let worst =
                 extrapolated_rows(table, end)?.into_iter().max_by(|a, b| a.spread().total_cmp(&b.spread()));
             quality.beyond.extend(worst);
         }
-        quality.readings = quality.read(subject, settings, lifted.as_ref())?;
+        quality.readings = quality.read(subject, settings, beam.as_ref())?;
         quality.judge(settings);
         Ok(quality)
     }
@@ -127,21 +127,21 @@ impl TableQuality {
         &self,
         subject: &TableSource,
         settings: &TableQualitySettings,
-        lifted: Option<&BeamFit>,
+        beam: Option<&BeamFit>,
     ) -> Result<Vec<ReadingFindings>, Error> {
         let mut out = Vec::new();
-        let Some(ways) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
-        let Some(frame) = self.frame(subject, settings, ways) else { return Ok(out) };
-        for manner in TableReadingMethod::ALL {
-            if manner == TableReadingMethod::Exact {
-                // the beam behind the table is a reading where another surface is the exact one
-                if let (Some(lift), Truth::Surface) = (lifted, &self.truth) {
-                    out.push(ReadingFindings::of(manner, &strip(&lift.surface, UP), &frame)?);
+        let Some(paths) = self.item.paths.filter(|_| !self.is_empty()) else { return Ok(out) };
+        let Some(frame) = self.frame(subject, settings, paths) else { return Ok(out) };
+        for method in TableReadingMethod::ALL {
+            if method == TableReadingMethod::Exact {
+                // the beam of the table counts as a reading where the exact surface is another one
+                if let (Some(beam), ExactValues::Surface) = (beam, &self.exact_values) {
+                    out.push(ReadingFindings::of(method, &coupling_block(&beam.surface, UP), &frame)?);
                 }
                 continue;
             }
-            let Some(reading) = reading(subject, &self.item, manner) else { continue };
-            out.push(ReadingFindings::of(manner, &strip(reading.as_ref(), ways), &frame)?);
+            let Some(reading) = reading(subject, &self.item, method) else { continue };
+            out.push(ReadingFindings::of(method, &coupling_block(reading.as_ref(), paths), &frame)?);
         }
         Ok(out)
     }
@@ -167,7 +167,7 @@ impl TableQuality {
         &'a self,
         subject: &'a TableSource,
         settings: &TableQualitySettings,
-        ways: [RailDirection; 2],
+        paths: [RailDirection; 2],
     ) -> Option<ReadingPlanes<'a>> {
         let table = &self.item.table;
         let own = |points: &[f64]| [points[0], points[points.len() - 1]];
@@ -176,10 +176,10 @@ impl TableQuality {
         if self.item.is_direct() {
             range = [common(range[0], range[1]); 2];
         }
-        let exact = match &self.truth {
-            Truth::Surface => subject.surface.as_ref().map(|surface| strip(surface, ways)),
-            Truth::Lifted(lift) => Some(strip(&lift.surface, UP)),
-            Truth::None => None,
+        let exact = match &self.exact_values {
+            ExactValues::Surface => subject.surface.as_ref().map(|surface| coupling_block(surface, paths)),
+            ExactValues::Beam(beam) => Some(coupling_block(&beam.surface, UP)),
+            ExactValues::None => None,
         };
         if let Some([x, z]) = exact.as_ref().and_then(splines::quality::CouplingBlock::range) {
             range = [common(range[0], x), common(range[1], z)];
@@ -202,21 +202,22 @@ impl TableQuality {
         if let Some(spectrum) = self.spectrum.filter(|s| s.smallest < -slack - ROUNDING * s.largest) {
             self.verdicts.push(TableVerdict::Indefinite(spectrum));
         }
-        let Some((manner, tolerance)) = settings.judged else { return };
+        let Some((method, tolerance)) = settings.judged else { return };
         if self.item.paths.is_none() || self.is_empty() {
             return;
         }
         let error =
-            self.readings.iter().find(|reading| reading.method == manner).and_then(|found| found.error);
+            self.readings.iter().find(|reading| reading.method == method).and_then(|found| found.error);
         match error.map(|error| self.relative(&error)) {
             Some(error) if error <= tolerance => {}
-            Some(error) => self.verdicts.push(TableVerdict::Error(manner, error, tolerance)),
-            None => self.verdicts.push(TableVerdict::Unknown(manner)),
+            Some(error) => self.verdicts.push(TableVerdict::Error(method, error, tolerance)),
+            None => self.verdicts.push(TableVerdict::Unknown(method)),
         }
     }
 }
 
-/// The beam behind a table has one rail and gives its vertical deflections, whatever the direction of the table.
+/// Path of the beam whose coefficients a table holds: it has one rail and vertical deflections, whatever the
+/// direction of the table.
 pub(super) const UP: [RailDirection; 2] = [(0, Axis::Vertical); 2];
 /// Fraction of the largest eigenvalue below which a negative one is rounding.
 const ROUNDING: f64 = 1e-13;
@@ -226,8 +227,8 @@ const UNCOUPLED: f64 = 1e-9;
 
 /// Geometric mean of the largest entries of the two direct tables of a coupling.
 fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
-    let largest = |way: RailDirection| {
-        let own = subject.items.iter().filter(|item| item.paths == Some([way; 2]));
+    let largest = |path: RailDirection| {
+        let own = subject.items.iter().filter(|item| item.paths == Some([path; 2]));
         own.map(|item| item.table.values().amax()).next()
     };
     let [deflection, load] = item.paths?;
@@ -238,13 +239,13 @@ fn scale(subject: &TableSource, item: &TableItem) -> Option<f64> {
 pub(super) fn reading(
     subject: &TableSource,
     item: &TableItem,
-    manner: TableReadingMethod,
+    method: TableReadingMethod,
 ) -> Option<Box<dyn Compliance>> {
     let [deflection, load] = item.paths?;
     let own = InfluenceBlock { deflection, load, table: item.table.clone() };
-    let all = subject.sheets();
-    let together = if all.contains(&own) { manner.read(&all).ok() } else { None };
-    together.or_else(|| manner.read(&[own]).ok())
+    let all = subject.blocks();
+    let together = if all.contains(&own) { method.read(&all).ok() } else { None };
+    together.or_else(|| method.read(&[own]).ok())
 }
 
 /// Ends of the elements of the loaded rail; empty where they are unknown.

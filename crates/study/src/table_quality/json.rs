@@ -3,38 +3,37 @@
 use serde_json::{Value, json};
 use splines::quality::{BlockExtreme, ReadingError, SlopeJump};
 
-use super::findings::{TableQuality, TableVerdict, Truth};
+use super::findings::{ExactValues, TableQuality, TableVerdict};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
 use super::subject::TableSource;
 
 /// Name of the format with its version.
 pub const FORMAT: &str = "girderway-check/1";
 
-/// All findings as one JSON text.
+/// All findings as JSON.
 #[must_use]
-pub fn json(subject: &TableSource, all: &[TableQuality]) -> String {
+pub fn json(subject: &TableSource, all: &[TableQuality]) -> Value {
     let tables: Vec<Value> = all.iter().map(table).collect();
-    let object = json!({
+    json!({
         "format": FORMAT,
         "file": subject.file,
         "units": subject.units.map(formats::units::Units::json),
         "passed": all.iter().all(|found| found.verdicts.is_empty()),
         "notes": subject.notes,
         "tables": tables,
-    });
-    format!("{object:#}\n")
+    })
 }
 
 fn table(found: &TableQuality) -> Value {
     let table = &found.item.table;
-    let truth = match &found.truth {
-        Truth::Surface => json!({ "from": "surface" }),
-        Truth::Lifted(lift) => json!({ "from": "table", "EI": 1.0 / lift.bending, "error": lift.error }),
-        Truth::None => Value::Null,
+    let exact_values = match &found.exact_values {
+        ExactValues::Surface => json!({ "from": "surface" }),
+        ExactValues::Beam(beam) => json!({ "from": "table", "EI": 1.0 / beam.bending, "error": beam.error }),
+        ExactValues::None => Value::Null,
     };
     let failed: Vec<Value> = found.verdicts.iter().map(verdict).collect();
-    let hazards: Vec<Value> =
-        found.risks.iter().map(|h| json!({ "kind": h.word(), "text": h.to_string() })).collect();
+    let risks: Vec<Value> =
+        found.risks.iter().map(|risk| json!({ "kind": risk.word(), "text": risk.to_string() })).collect();
     let beyond: Vec<Value> = found
         .beyond
         .iter()
@@ -56,10 +55,10 @@ fn table(found: &TableQuality) -> Value {
         "asymmetry": found.asymmetry.as_ref().map(extreme),
         "eigenvalues": found.spectrum.map(|s| [s.smallest, s.largest]),
         "supports": found.supports,
-        "exact": truth,
+        "exact": exact_values,
         "readings": found.readings.iter().map(|r| reading(found, r)).collect::<Vec<_>>(),
         "beyond": beyond,
-        "hazards": hazards,
+        "hazards": risks,
         "failed": failed,
     })
 }
@@ -85,18 +84,18 @@ fn reading(found: &TableQuality, reading: &ReadingFindings) -> Value {
 fn direct(object: &mut Value, own: &DirectFindings, load: Option<f64>) {
     object["asymmetry"] = extreme(&own.asymmetry);
     object["eigenvalues"] = json!([own.spectrum.smallest, own.spectrum.largest]);
-    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.indefinite_fractions).map(|((wheels, layout), share)| {
+    let layouts = WHEELS.iter().zip(&own.layouts).zip(&own.indefinite_fractions).map(|((wheels, layout), fraction)| {
         json!({
             "wheels": wheels, "at": layout.places, "eigenvalue": layout.smallest, "stiffness": layout.stiffness,
-            "indefinite_share": share,
+            "indefinite_share": fraction,
         })
     });
     object["layouts"] = layouts.collect();
-    object["slope_jump"] = own.kink.as_ref().map_or(Value::Null, kink);
+    object["slope_jump"] = own.slope_jump.as_ref().map_or(Value::Null, slope_jump);
     if let Some(pair) = &own.pair {
         object["pair"] = json!({
             "at": pair.work.at, "work_by_load_squared": pair.work.work, "stored_by_load_squared": pair.work.stored,
-            "slope_jump": pair.kink.as_ref().map(kink),
+            "slope_jump": pair.slope_jump.as_ref().map(slope_jump),
         });
     }
     if let Some(load) = load {
@@ -111,7 +110,7 @@ fn extreme(found: &BlockExtreme) -> Value {
     json!({ "value": found.value, "x": found.x, "z": found.z })
 }
 
-fn kink(found: &SlopeJump) -> Value {
+fn slope_jump(found: &SlopeJump) -> Value {
     json!({ "x": found.x, "before": found.before, "beyond": found.beyond })
 }
 
@@ -121,9 +120,9 @@ fn verdict(verdict: &TableVerdict) -> Value {
         TableVerdict::Indefinite(s) => {
             json!({ "check": "positive-semidefinite", "eigenvalues": [s.smallest, s.largest] })
         }
-        TableVerdict::Error(manner, error, tolerance) => {
-            json!({ "check": "error", "reading": manner.word(), "error": error, "tolerance": tolerance })
+        TableVerdict::Error(method, error, tolerance) => {
+            json!({ "check": "error", "reading": method.word(), "error": error, "tolerance": tolerance })
         }
-        TableVerdict::Unknown(manner) => json!({ "check": "error", "reading": manner.word(), "error": null }),
+        TableVerdict::Unknown(method) => json!({ "check": "error", "reading": method.word(), "error": null }),
     }
 }

@@ -6,16 +6,16 @@
 //!    ends of its spectrum. Between them: each of the [`TableReadingMethod`]s against the exact surface or, where
 //!    there is none, against the beam in bending whose influence coefficients the table holds, if its values lie
 //!    within 1 % of one.
-//! 3. A reading that is not symmetric does work on closed loops of wheel forces; one that is not positive lets
-//!    several stiff wheels at some layout sink without load. [`ReadingFindings`] holds both, as computed by
+//! 3. With a reading that is not symmetric, wheel forces do work in closed loops; with one that is not positive
+//!    definite, some layouts of several stiff wheels are unstable. [`ReadingFindings`] holds both, as computed by
 //!    [`splines::quality`].
-//! 4. `text`, `json` and `picture` write the findings.
+//! 4. `text`, `json` and `figure` write the findings.
 
 pub mod digits;
 pub mod extrapolation_risk;
+pub mod figure;
 mod findings;
 pub mod json;
-pub mod picture;
 pub mod reading_method;
 pub mod readings;
 pub mod subject;

@@ -5,9 +5,9 @@ use splines::{
     TableReading, fit_beam,
 };
 
-/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam stands for
-/// the table.
-const MISFIT: f64 = 0.01;
+/// Largest deviation of a table from a beam in bending, relative to its largest entry, at which the beam is taken as
+/// the exact structure of the table.
+const BEAM_TOLERANCE: f64 = 0.01;
 
 /// A method of reading tables of influence coefficients.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -59,19 +59,20 @@ impl TableReadingMethod {
         }
     }
 
-    /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without couplings.
+    /// The tables read by this method. [`TableReadingMethod::Exact`] accepts a single vertical table without
+    /// couplings.
     ///
     /// # Errors
     /// As [`TableReading::new`], [`FactoredTable::new`] and [`beam_of()`].
-    pub fn read(self, sheets: &[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> {
+    pub fn read(self, blocks: &[InfluenceBlock]) -> Result<Box<dyn Compliance>, Error> {
         let kind = match self {
             TableReadingMethod::Akispl => ReadingMethod::Akispl,
             TableReadingMethod::Cubspl => ReadingMethod::Cubspl,
             TableReadingMethod::Symmetrised => ReadingMethod::Symmetrised,
             TableReadingMethod::Natural => ReadingMethod::Natural,
-            TableReadingMethod::Factored => return Ok(Box::new(FactoredTable::new(sheets, Rank::Full)?)),
+            TableReadingMethod::Factored => return Ok(Box::new(FactoredTable::new(blocks, Rank::Full)?)),
             TableReadingMethod::Exact => {
-                return match sheets {
+                return match blocks {
                     [one] if one.load == one.deflection && one.load.1 == Axis::Vertical => {
                         Ok(Box::new(beam_of(one.load.0, &one.table)?.surface))
                     }
@@ -79,7 +80,7 @@ impl TableReadingMethod {
                 };
             }
         };
-        Ok(Box::new(TableReading::new(kind, sheets)?))
+        Ok(Box::new(TableReading::new(kind, blocks)?))
     }
 }
 
@@ -89,5 +90,5 @@ impl TableReadingMethod {
 /// A table that deviates from every such beam by more than 1 percent of its largest entry.
 pub fn beam_of(rail: usize, table: &SplineTable) -> Result<BeamFit, Error> {
     let beam = fit_beam(rail, table)?;
-    if beam.error <= MISFIT { Ok(beam) } else { Err(Error::NoBeamFit) }
+    if beam.error <= BEAM_TOLERANCE { Ok(beam) } else { Err(Error::NoBeamFit) }
 }

@@ -44,7 +44,7 @@ pub struct DirectFindings {
     /// The weakest layouts of 2, 4, 8 wheels.
     pub layouts: Vec<WheelLayout>,
     /// The largest jump of slope under a moving wheel; `None` where there is no station between the ends.
-    pub kink: Option<SlopeJump>,
+    pub slope_jump: Option<SlopeJump>,
     /// Findings of two wheels at the distance of the settings.
     pub pair: Option<Pair>,
 }
@@ -55,7 +55,7 @@ pub struct Pair {
     /// The loop of forces with the most work.
     pub work: LoopWork,
     /// The largest jump of slope of their mean.
-    pub kink: Option<SlopeJump>,
+    pub slope_jump: Option<SlopeJump>,
 }
 
 /// Exact block and places with which a reading is compared.
@@ -71,29 +71,29 @@ pub struct ReadingPlanes<'a> {
 }
 
 impl ReadingFindings {
-    /// The findings of a reading whose block is `strip`.
+    /// The findings of a reading whose block is `block`.
     ///
     /// # Errors
     /// A place at which the reading or the exact surface cannot be evaluated.
     pub fn of(
-        manner: TableReadingMethod,
-        strip: &CouplingBlock<'_>,
+        method: TableReadingMethod,
+        block: &CouplingBlock<'_>,
         frame: &ReadingPlanes<'_>,
     ) -> Result<ReadingFindings, Error> {
-        let [x, z] = [strip.load.0, strip.deflection.0].map(|rail| strip.compliance.breaks(rail));
+        let [x, z] = [block.load.0, block.deflection.0].map(|rail| block.compliance.breaks(rail));
         let exact = frame.exact.as_ref();
         let against = |from: [[f64; 2]; 2]| {
             let error = |exact: &CouplingBlock<'_>| {
                 let ends = |own: &[f64], rail: usize| [own, &exact.compliance.breaks(rail)].concat();
                 let [x, z] = [ends(&x, exact.load.0), ends(&z, exact.deflection.0)];
                 let [x, z] = [dense(&x, from[0]), dense(&z, from[1])];
-                reading_error(strip, exact, &x, &z)
+                reading_error(block, exact, &x, &z)
             };
             exact.map(error).transpose()
         };
-        let direct = strip.is_direct().then(|| direct(strip, &x, frame)).transpose()?;
-        let span = frame.span.filter(|_| strip.is_direct()).map_or(Ok(None), |span| against([span; 2]))?;
-        Ok(ReadingFindings { method: manner, error: against(frame.range)?, span, direct })
+        let direct = block.is_direct().then(|| direct(block, &x, frame)).transpose()?;
+        let span = frame.span.filter(|_| block.is_direct()).map_or(Ok(None), |span| against([span; 2]))?;
+        Ok(ReadingFindings { method, error: against(frame.range)?, span, direct })
     }
 }
 
@@ -104,33 +104,34 @@ fn dense(breaks: &[f64], range: [f64; 2]) -> Vec<f64> {
 
 /// The findings on symmetry and definiteness of a direct block.
 fn direct(
-    strip: &CouplingBlock<'_>,
+    block: &CouplingBlock<'_>,
     breaks: &[f64],
     frame: &ReadingPlanes<'_>,
 ) -> Result<DirectFindings, Error> {
     let range = frame.range[0];
     let at = dense(breaks, range);
     let few = sample_places(breaks, range, SPECTRUM);
-    let mut shares = [0.0; 3];
-    for (share, wheels) in shares.iter_mut().zip(WHEELS) {
-        *share = indefinite_fraction(strip, wheels, LAYOUTS, range)?;
+    let mut fractions = [0.0; 3];
+    for (fraction, wheels) in fractions.iter_mut().zip(WHEELS) {
+        *fraction = indefinite_fraction(block, wheels, LAYOUTS, range)?;
     }
-    let largest =
-        |kinks: Vec<SlopeJump>| kinks.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()));
+    let largest = |slope_jumps: Vec<SlopeJump>| {
+        slope_jumps.into_iter().max_by(|a, b| a.jump().abs().total_cmp(&b.jump().abs()))
+    };
     let pair = match frame.spacing.filter(|spacing| *spacing < range[1] - range[0]) {
         None => None,
         Some(spacing) => {
-            let kink = largest(pair_slope_jumps(strip, spacing, range)?);
-            Some(Pair { work: loop_work(strip, spacing, &at)?, kink })
+            let slope_jump = largest(pair_slope_jumps(block, spacing, range)?);
+            Some(Pair { work: loop_work(block, spacing, &at)?, slope_jump })
         }
     };
     Ok(DirectFindings {
-        asymmetry: asymmetry(strip, &at)?,
-        scale: strip.matrix(&few, &few)?.amax(),
-        spectrum: spectrum(strip, &few)?,
-        indefinite_fractions: shares,
-        layouts: weakest_layouts(strip, &WHEELS, &few)?,
-        kink: largest(diagonal_slope_jumps(strip, range)?),
+        asymmetry: asymmetry(block, &at)?,
+        scale: block.matrix(&few, &few)?.amax(),
+        spectrum: spectrum(block, &few)?,
+        indefinite_fractions: fractions,
+        layouts: weakest_layouts(block, &WHEELS, &few)?,
+        slope_jump: largest(diagonal_slope_jumps(block, range)?),
         pair,
     })
 }
@@ -140,18 +141,18 @@ fn direct(
 /// # Errors
 /// As [`ReadingFindings::of`].
 pub fn map(
-    strip: &CouplingBlock<'_>,
+    block: &CouplingBlock<'_>,
     exact: &CouplingBlock<'_>,
     z: &[f64],
     x: &[f64],
 ) -> Result<Vec<Vec<f64>>, Error> {
-    let error = strip.matrix(z, x)? - exact.matrix(z, x)?;
+    let error = block.matrix(z, x)? - exact.matrix(z, x)?;
     Ok(error.row_iter().map(|row| row.iter().copied().collect()).collect())
 }
 
 /// The block of a compliance between two paths: deflection and load.
 #[must_use]
-pub fn strip(
+pub fn coupling_block(
     compliance: &dyn Compliance,
     [deflection, load]: [splines::quality::RailDirection; 2],
 ) -> CouplingBlock<'_> {

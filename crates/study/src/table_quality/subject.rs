@@ -81,13 +81,16 @@ impl TableSource {
         let (grid, surface) = grid_file::read(source)?;
         let mut notes: Vec<String> = Vec::new();
         for rail in grid.rails.iter().filter(|rail| rail.stations.len() < SplineTable::FEWEST_X) {
-            notes.push(format!("rail {} has fewer than four stations: no table of loads on it", rail.name));
+            notes.push(format!(
+                "rail {} has fewer than four stations, so it has no table of loads",
+                rail.name
+            ));
         }
         let rails = grid.rails.len();
         let mut items = Vec::new();
         for table in &TableSet::of_grid(&grid).tables {
-            let ways = ways(table.id, rails);
-            items.extend(item(&source.name, table)?.map(|item| TableItem { paths: ways, ..item }));
+            let paths = paths(table.id, rails);
+            items.extend(item(&source.name, table)?.map(|item| TableItem { paths, ..item }));
         }
         if items.is_empty() {
             let fault = Fault::new(&Place::root().key("rails"), "must have a rail of at least four stations");
@@ -103,7 +106,9 @@ impl TableSource {
         for (table, linear) in &contents.tables {
             match item(file, table)? {
                 Some(item) => items.push(TableItem { linear: *linear, ..item }),
-                None => notes.push(format!("SPLINE/{} is one curve alone: no influence table", table.id)),
+                None => {
+                    notes.push(format!("SPLINE/{} has a single curve, so it is no influence table", table.id))
+                }
             }
         }
         // the file does not state which tables belong together: each is a path of its own
@@ -117,15 +122,15 @@ impl TableSource {
             return Err(wrong.hint("an influence table has one Y list for each z").into());
         }
         if contents.units.is_none() {
-            notes.push("the file says no units: numbers are in its own".to_owned());
+            notes.push("the file states no units: all numbers are in the units of the file".to_owned());
         }
         Ok(TableSource { file: file.to_owned(), units: contents.units, items, surface: None, notes })
     }
 
     /// The tables that can be read together: those of known paths, whose direct tables are in the file.
     #[must_use]
-    pub fn sheets(&self) -> Vec<InfluenceBlock> {
-        let own = |way: RailDirection| self.items.iter().any(|item| item.paths == Some([way; 2]));
+    pub fn blocks(&self) -> Vec<InfluenceBlock> {
+        let own = |path: RailDirection| self.items.iter().any(|item| item.paths == Some([path; 2]));
         let known = self.items.iter().filter_map(|item| Some((item.paths?, &item.table)));
         known
             .filter(|([deflection, load], table)| own(*deflection) && own(*load) && table.z().len() > 1)
@@ -142,14 +147,15 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
     }
     let numbers = curves.x().iter().chain(curves.z()).chain(curves.y().iter().flatten());
     if let Some(wrong) = numbers.into_iter().find(|number| number.abs() > LARGEST) {
-        let wrong = format!("SPLINE/{} holds {wrong:e}, which no structure has", given.id);
+        let wrong =
+            format!("SPLINE/{} has the value {wrong:e}, which is too large for any structure", given.id);
         return Err(Diagnostic::of_file(file, wrong).hint("which units are these?").into());
     }
     for points in [curves.x(), curves.z()] {
         let least = NEAREST * (points[points.len() - 1] - points[0]);
         if let Some(pair) = points.windows(2).find(|pair| pair[1] - pair[0] < least) {
             let wrong = format!("SPLINE/{} has stations at {} and {}", given.id, pair[0], pair[1]);
-            return Err(Diagnostic::of_file(file, wrong).hint("take one of them out").into());
+            return Err(Diagnostic::of_file(file, wrong).hint("remove one of them").into());
         }
     }
     let values = DMatrix::from_fn(curves.z().len(), curves.x().len(), |i, j| curves.y()[i][j]);
@@ -161,7 +167,7 @@ fn item(file: &str, given: &tables::Table) -> Result<Option<TableItem>, Error> {
 
 /// Paths of a table of a grid with this number of rails, by the number of the table: from 6 on, six for each pair of
 /// rails.
-fn ways(id: u32, rails: usize) -> Option<[RailDirection; 2]> {
+fn paths(id: u32, rails: usize) -> Option<[RailDirection; 2]> {
     let place = usize::try_from(id).ok()?.checked_sub(6)?;
     let (pair, index) = (place / 6, place % 6);
     let (deflection, load) = axes(*GridBlock::ALL.get(index)?);

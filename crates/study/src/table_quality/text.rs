@@ -5,7 +5,7 @@ use std::fmt::Write;
 use splines::quality::{BlockExtreme, WheelLayout};
 
 use super::digits::{sharp, short};
-use super::findings::{TableQuality, TableVerdict, Truth};
+use super::findings::{ExactValues, TableQuality, TableVerdict};
 use super::readings::{DirectFindings, ReadingFindings, WHEELS};
 use super::subject::TableSource;
 use formats::units::{Dimension, Units};
@@ -63,20 +63,23 @@ fn one(out: &mut String, found: &TableQuality, units: Words) {
         short(x[x.len() - 1])
     );
     if found.item.paths.is_none() {
-        let _ = writeln!(out, "  a coupling by its name: it need not be symmetric, and is not read alone");
+        let _ = writeln!(
+            out,
+            "  a coupling, according to its name: it need not be symmetric and is not evaluated alone"
+        );
     }
     if found.is_empty() {
-        let _ = writeln!(out, "  no coupling: nothing but rounding beside the directions' own tables");
+        let _ = writeln!(out, "  no coupling: all values are rounding errors relative to the direct tables");
         return;
     }
     stations(out, found, units);
     if !found.readings.is_empty() {
-        let _ = writeln!(out, "  {}", truth(found, units));
+        let _ = writeln!(out, "  {}", exact_values(found, units));
         readings(out, found, units);
     }
     beyond(out, found, units);
-    for hazard in &found.risks {
-        let _ = writeln!(out, "  note: {hazard}");
+    for risk in &found.risks {
+        let _ = writeln!(out, "  note: {risk}");
     }
     for verdict in &found.verdicts {
         let _ = writeln!(out, "  FAILED: {}", sentence(verdict, units));
@@ -103,7 +106,7 @@ fn stations(out: &mut String, found: &TableQuality, units: Words) {
     if let Some(spectrum) = found.spectrum {
         let _ = writeln!(
             out,
-            "    eigenvalues from {} to {} {flexibility}; digits leave {} open",
+            "    eigenvalues from {} to {} {flexibility}; uncertainty of the digits {}",
             if spectrum.smallest.abs() < 1e-13 * spectrum.largest {
                 "0".to_owned()
             } else {
@@ -116,19 +119,21 @@ fn stations(out: &mut String, found: &TableQuality, units: Words) {
 }
 
 /// The exact values that errors are measured against, in words.
-fn truth(found: &TableQuality, units: Words) -> String {
-    match &found.truth {
-        Truth::Surface => "readings, errors against the exact surface of the grid file".to_owned(),
-        Truth::Lifted(lift) => {
+fn exact_values(found: &TableQuality, units: Words) -> String {
+    match &found.exact_values {
+        ExactValues::Surface => {
+            "readings, with errors relative to the exact surface of the grid file".to_owned()
+        }
+        ExactValues::Beam(beam) => {
             let stiffness = units.of(Dimension::of(2, 1, 0));
             format!(
-                "readings, errors against the beam behind the table: EI = {} {stiffness}, {} % from its values",
-                short(1.0 / lift.bending),
-                short(100.0 * lift.error)
+                "readings, with errors relative to the beam of the table: EI = {} {stiffness}, {} % from its values",
+                short(1.0 / beam.bending),
+                short(100.0 * beam.error)
             )
         }
-        Truth::None => {
-            "readings; no beam in bending gives this table, so errors are not known: check its grid file"
+        ExactValues::None => {
+            "readings; no beam in bending has this table, so errors are unknown: check the grid file"
                 .to_owned()
         }
     }
@@ -188,11 +193,11 @@ fn loop_work(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let length = units.bracket(Dimension::LENGTH);
     let (factor, work) = match found.load {
         Some(load) => (load * load, format!("work of a loop of forces{}", units.bracket(Dimension::MOMENT))),
-        None => (1.0, format!("work of a loop by P^2{}", units.bracket(Dimension::FLEXIBILITY))),
+        None => (1.0, format!("work of a loop / P^2{}", units.bracket(Dimension::FLEXIBILITY))),
     };
     rows.add(&work, &|r| r.direct.as_ref().map(|d| short(factor * d.asymmetry.value)));
     rows.add(&format!("{work}, pair"), &|r| pair(r).map(|p| short(factor * p.work.work)));
-    rows.add("  of what the pair stores there (%)", &|r| {
+    rows.add("  relative to its stored energy (%)", &|r| {
         pair(r).map(|p| percent(p.work.work, p.work.stored))
     });
     rows.add(&format!("  first wheel at{length}"), &|r| {
@@ -202,7 +207,7 @@ fn loop_work(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
 
 /// Eigenvalues and indefinite layouts of wheels.
 fn definiteness(rows: &mut Rows<'_>, units: Words) {
-    rows.add("smallest eigenvalue, of the largest", &|r| {
+    rows.add("smallest eigenvalue / largest", &|r| {
         r.direct.as_ref().map(|d| rounded(d.spectrum.smallest / d.spectrum.largest.max(f64::MIN_POSITIVE)))
     });
     for (k, wheels) in WHEELS.into_iter().enumerate() {
@@ -228,17 +233,17 @@ fn slope_jumps(rows: &mut Rows<'_>, found: &TableQuality, units: Words) {
     let load = found.load.unwrap_or(1.0);
     let jump =
         |value: f64, d: &DirectFindings| if noise(value, d) { "0".to_owned() } else { short(load * value) };
-    rows.add(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.kink?.jump(), d))));
+    rows.add(&slope, &|r| r.direct.as_ref().and_then(|d| Some(jump(d.slope_jump?.jump(), d))));
     rows.add(&format!("  at x{length}"), &|r| {
-        r.direct.as_ref().and_then(|d| d.kink.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
+        r.direct.as_ref().and_then(|d| d.slope_jump.filter(|k| !noise(k.jump(), d))).map(|k| short(k.x))
     });
     rows.add(&format!("{slope}, pair"), &|r| {
         let d = r.direct.as_ref()?;
-        Some(jump(d.pair?.kink?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
+        Some(jump(d.pair?.slope_jump?.jump() * if found.load.is_some() { 2.0 } else { 1.0 }, d))
     });
     rows.add(&format!("  first wheel at{length}"), &|r| {
         let d = r.direct.as_ref()?;
-        d.pair?.kink.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
+        d.pair?.slope_jump.filter(|k| !noise(k.jump(), d)).map(|k| short(k.x))
     });
 }
 
@@ -249,7 +254,8 @@ fn beyond(out: &mut String, found: &TableQuality, units: Words) {
     for row in found.beyond.iter().filter(|row| row.spread() > 1e-9 * scale) {
         let _ = writeln!(
             out,
-            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} {flexibility}: {} % of the largest entry apart",
+            "  beyond the table, at x = {} on the row z = {}: parabola {}, cubic {}, tangent {}, line {} \
+             {flexibility}; they differ by {} % of the largest entry",
             short(row.x),
             short(row.z),
             sharp(row.parabola),
@@ -266,24 +272,25 @@ fn sentence(verdict: &TableVerdict, Words(units): Words) -> String {
     let unit = units.map(|units| units.label(Dimension::FLEXIBILITY)).unwrap_or_default();
     match verdict {
         TableVerdict::Asymmetric(worst) => format!(
-            "not symmetric: T(x = {}, z = {}) and its opposite differ by {} {unit}; take their mean, or find out which is wrong",
+            "not symmetric: T(x = {}, z = {}) and the value with x and z exchanged differ by {} {unit}; use their \
+             mean, or determine which one is wrong",
             short(worst.x),
             short(worst.z),
             short(worst.value)
         ),
         TableVerdict::Indefinite(spectrum) => format!(
-            "not positive semi-definite: smallest eigenvalue {} {unit}, largest {}; no structure gives such a table",
+            "not positive semi-definite: smallest eigenvalue {} {unit}, largest {}; no structure has such a table",
             short(spectrum.smallest),
             short(spectrum.largest)
         ),
-        TableVerdict::Error(manner, error, tolerance) => format!(
-            "{} errs by {} %, {} % are allowed: more stations, or another reading",
-            manner.word(),
+        TableVerdict::Error(method, error, tolerance) => format!(
+            "{} errs by {} %, the tolerance is {} %: use more stations or another reading",
+            method.word(),
             short(100.0 * error),
             short(100.0 * tolerance)
         ),
-        TableVerdict::Unknown(manner) => {
-            format!("the error of {} is not known: nothing says what is exact", manner.word())
+        TableVerdict::Unknown(method) => {
+            format!("the error of {} is unknown, because no exact values are available", method.word())
         }
     }
 }

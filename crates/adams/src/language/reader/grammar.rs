@@ -240,7 +240,7 @@ pub(super) fn has_no_id(keyword: &Keyword) -> bool {
 }
 
 /// The keyword that a word names or abbreviates, and its arguments. A word that is unknown or ambiguous
-/// stands for itself.
+/// is a keyword of its own.
 pub(super) fn keyword(word: &str) -> (Keyword, Option<Arguments>) {
     let keyword = lookup(Keyword::ALL, word).unwrap_or_else(|| Keyword::Other(word.to_ascii_uppercase()));
     let arguments = arguments(&keyword);

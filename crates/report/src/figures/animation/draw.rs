@@ -52,13 +52,15 @@ impl PlanDrawing {
     pub fn line(&mut self, [from, to]: [[f64; 2]; 2], colour: &str, width: f64) {
         let [[x1, y1], [x2, y2]] = [from, to];
         self.add(&format!(
-            "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+            "<line x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" \
+             stroke-width=\"{width}\"/>"
         ));
     }
 
     pub fn rectangle(&mut self, [left, top, width, height]: [f64; 4], fill: &str) {
         self.add(&format!(
-            "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1\"/>"
+            "<rect x=\"{left:.2}\" y=\"{top:.2}\" width=\"{width:.2}\" height=\"{height:.2}\" fill=\"{fill}\" \
+             stroke=\"{INK}\" stroke-width=\"1\"/>"
         ));
     }
 
@@ -72,7 +74,8 @@ impl PlanDrawing {
 
     pub fn disc(&mut self, [x, y]: [f64; 2], radius: f64, fill: &str) {
         self.add(&format!(
-            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{fill}\" stroke=\"{INK}\" stroke-width=\"1\"/>"
+            "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{radius:.2}\" fill=\"{fill}\" stroke=\"{INK}\" \
+             stroke-width=\"1\"/>"
         ));
     }
 
@@ -90,7 +93,8 @@ impl PlanDrawing {
         let mark = self.element([AnimationTrack::Attribute(end, values)]);
         let (colour, width) = style;
         self.add(&format!(
-            "<line {mark} x1=\"{x:.2}\" y1=\"{y:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" stroke-width=\"{width}\"/>"
+            "<line {mark} x1=\"{x:.2}\" y1=\"{y:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{colour}\" \
+             stroke-width=\"{width}\"/>"
         ));
     }
 
@@ -107,7 +111,8 @@ impl PlanDrawing {
         let mark = self.element(tracks);
         let [[x1, y1], [x2, y2]] = now;
         self.add(&format!(
-            "<line {mark} x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{INK}\" stroke-width=\"1.2\"/>"
+            "<line {mark} x1=\"{x1:.2}\" y1=\"{y1:.2}\" x2=\"{x2:.2}\" y2=\"{y2:.2}\" stroke=\"{INK}\" \
+             stroke-width=\"1.2\"/>"
         ));
     }
 
@@ -115,7 +120,8 @@ impl PlanDrawing {
         let (colour, size) = style;
         let text = escaped(text);
         self.add(&format!(
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{colour}\" font-size=\"{size}\" text-anchor=\"{anchor}\">{text}</text>"
+            "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{colour}\" font-size=\"{size}\" \
+             text-anchor=\"{anchor}\">{text}</text>"
         ));
     }
 
@@ -138,7 +144,8 @@ impl PlanDrawing {
         let end = x + 196.0;
         self.add(&format!(
             "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{GREY}\" font-size=\"12\">{name}</text>\
-             <text x=\"{end:.2}\" y=\"{y:.2}\" fill=\"{INK}\" font-size=\"12\" text-anchor=\"end\"><tspan {mark}>{now:.digits$}</tspan> {unit}</text>"
+             <text x=\"{end:.2}\" y=\"{y:.2}\" fill=\"{INK}\" font-size=\"12\" text-anchor=\"end\"><tspan \
+             {mark}>{now:.digits$}</tspan> {unit}</text>"
         ));
     }
 

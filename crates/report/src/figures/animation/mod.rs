@@ -10,7 +10,7 @@ mod view;
 
 use crate::document::animated::Animation;
 
-use crate::figures::pictures::{LabelledRun, RunFigure};
+use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::{Picture, number};
 use draw::{PlanDrawing, WIDTH};
 use formats::scene::motion::SimulationInput;
@@ -29,19 +29,19 @@ const FRAMES: usize = 400;
 ///
 /// # Errors
 /// A structure of which no model can be built.
-pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Option<RunFigure>, Error> {
+pub fn animation_figure(run: &LabelledRun, input: &SimulationInput) -> Result<Option<RunFigure>, Error> {
     let scene = run.scene;
-    let rides = scene.structures.iter().any(|structure| structure.carrier.is_some());
-    let hangs = scene.bodies.iter().any(|body| body.in_space);
+    let is_carrying = scene.structures.iter().any(|structure| structure.carrier.is_some());
+    let has_suspended = scene.bodies.iter().any(|body| body.in_space);
     let time = run.record.values("time");
-    if !(rides || hangs) || time.len() < 2 {
+    if !(is_carrying || has_suspended) || time.len() < 2 {
         return Ok(None);
     }
     let every = time.len().div_ceil(FRAMES);
     let rows: Vec<usize> = (0..time.len()).step_by(every).collect();
     let layout = ScenePositions::new(scene)?;
     let largest = |row: &usize| {
-        let grounded = cast.wheels.iter().filter(|wheel| layout.rail_line(wheel.rail).is_none());
+        let grounded = input.wheels.iter().filter(|wheel| layout.rail_line(wheel.rail).is_none());
         let forces = grounded.map(|wheel| run.record.part(&wheel.name, "vertical")[*row]);
         forces.fold(0.0, f64::max)
     };
@@ -52,21 +52,26 @@ pub fn animation_figure(run: &LabelledRun, cast: &SimulationInput) -> Result<Opt
         }
     }
     let force = if most > 0.0 { BAR / most } else { 0.0 };
-    let view = AnimationView { scene, cast, layout, run, rows, still, force };
+    let view = AnimationView { scene, input, layout, run, rows, still, force };
     let mut drawing = PlanDrawing::new();
     let top = plan::draw(&view, &mut drawing, 46.0);
     let bottom = section::draw(&view, &mut drawing, top + 34.0);
     let unit = scene.units.label(Dimension::FORCE);
     let caption = format!(
-        "The crane from above and along its runway at t = {:.2} s, when a wheel of the runway presses hardest: \
-         {} {unit} ({}). Black bars: vertical forces of its wheels, orange: lateral ones; blue: those of wheels on the bridge, at half the \
-         scale; below: the sums of each rail. It moves where scripts run.",
+        "The crane from above and along its runway at t = {:.2} s, when the vertical force of a wheel on the runway \
+         is largest: {} {unit} ({}). Black bars: vertical forces of wheels on the runway; orange: their lateral \
+         forces; blue: vertical forces of wheels on the bridge, at half the scale; lower view: sums for each rail. \
+         The animation requires scripts.",
         time[view.rows[view.still]],
         number(most, 4).unwrap_or_default(),
         run.label,
     );
     let times: Vec<f64> = view.rows.iter().map(|row| time[*row]).collect();
     let (svg, tracks) = drawing.finish(WIDTH, bottom);
-    let film = Animation { svg, still_time: times[view.still], times, tracks };
-    Ok(Some(RunFigure { name: "crane".to_owned(), caption, picture: Picture::Animation(Box::new(film)) }))
+    let animation = Animation { svg, still_time: times[view.still], times, tracks };
+    Ok(Some(RunFigure {
+        name: "crane".to_owned(),
+        caption,
+        picture: Picture::Animation(Box::new(animation)),
+    }))
 }

@@ -1,6 +1,6 @@
 //! Data of one run that both views of the animation use.
 
-use crate::figures::pictures::LabelledRun;
+use crate::figures::run_figure::LabelledRun;
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use results::layout::ScenePositions;
@@ -11,7 +11,7 @@ pub(super) const BAR: f64 = 48.0;
 /// One run with the frames of its animation.
 pub(super) struct AnimationView<'v> {
     pub scene: &'v Scene,
-    pub cast: &'v SimulationInput,
+    pub input: &'v SimulationInput,
     pub layout: ScenePositions<'v>,
     pub run: &'v LabelledRun<'v>,
     /// Rows of the record that are drawn as frames.
@@ -25,7 +25,7 @@ pub(super) struct AnimationView<'v> {
 impl AnimationView<'_> {
     /// A quantity of a wheel in each frame.
     pub fn wheel(&self, wheel: usize, part: &str) -> Vec<f64> {
-        let values = self.run.record.part(&self.cast.wheels[wheel].name, part);
+        let values = self.run.record.part(&self.input.wheels[wheel].name, part);
         self.rows.iter().map(|row| values.get(*row).copied().unwrap_or_default()).collect()
     }
 

@@ -1,4 +1,4 @@
-//! Report content on reactions, internal forces, sag and uplift.
+//! Report content on reactions, internal forces, deflections of rails and uplift of wheels.
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;
@@ -7,22 +7,22 @@ use formats::units::Dimension;
 use results::columns::NamedColumns;
 use results::response::{Response, RunComparison};
 
-/// Largest number of rows of a table.
+/// Largest number of rows of a table; summary.json has all.
 const ROWS: usize = 60;
 /// Fraction of the range of a column below which a value is considered as rounding error.
 const ROUNDING: f64 = 1e-12;
 
-/// The section of the first run.
+/// The section on the first run.
 #[must_use]
 pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection {
-    let mut section = ReportSection::new("Reactions, sag and uplift");
+    let mut section = ReportSection::new("Reactions, deflections and uplift");
     if !response.columns.is_empty() {
         let weight = if scene.output.dead_load { "with" } else { "without" };
         section = section
             .paragraph(format!(
-                "Reactions of the ground on the structures, positive along their global axes, and internal forces at \
-                 named sections: influence lines times wheel forces, less the inertia of the structure; {weight} the \
-                 structures' own weight, which stands in a column of its own."
+                "Reactions of the ground on the structures, positive along the global axes, and internal forces at \
+                 named sections: influence lines times wheel forces, minus the inertia forces of the structure, \
+                 {weight} the dead load of the structures. The last column shows the dead load alone."
             ))
             .table(envelopes(scene, label, response));
     }
@@ -34,11 +34,11 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
     }
     if !response.uplifts.is_empty() {
         let mut table = ReportTable {
-            caption: format!("Wheels off their rails in the run \"{label}\"."),
+            caption: format!("Uplift: wheels that leave their rails in the run \"{label}\"."),
             columns: vec![
                 TableColumn::new("wheel", ""),
                 TableColumn::new("from", "s"),
-                TableColumn::new("for", "s"),
+                TableColumn::new("duration", "s"),
             ],
             rows: Vec::new(),
         };
@@ -63,11 +63,11 @@ pub fn section(scene: &Scene, label: &str, response: &Response) -> ReportSection
     section
 }
 
-/// Comparison of runs in numbers; `None` where there is a single run or nothing to compare.
+/// Statistics of the columns in all runs; `None` where there is a single run or nothing to compare.
 ///
 /// `labels`: labels of the compared runs; `record`: columns of the first of them.
 #[must_use]
-pub fn beside(
+pub fn comparison(
     scene: &Scene,
     labels: &[&str],
     record: &NamedColumns,
@@ -100,22 +100,23 @@ pub fn beside(
         ("quantity", ""),
         ("unit", ""),
         ("run", ""),
-        ("settled mean", ""),
-        ("peak", ""),
+        ("mean of last quarter", ""),
+        ("largest", ""),
         ("at time", "s"),
-        ("least", ""),
+        ("smallest", ""),
         ("at time", "s"),
         ("excursions", ""),
         ("frequency", "Hz"),
     ];
     let caption = format!(
-        "Settled mean over the last quarter of each run, extremes, how often 5 % about the mean are left, and the strongest \
-         frequency in that quarter.{rest}"
+        "Mean over the last quarter of each run, extremes, number of excursions from the band of 5 % about this \
+         mean, and the frequency of largest amplitude in that quarter.{rest}"
     );
     let columns = columns.map(|(name, unit)| TableColumn::new(name, unit)).into();
-    Some(ReportSection::new("Run against run").table(ReportTable { caption, columns, rows }))
+    Some(ReportSection::new("Comparison of the runs").table(ReportTable { caption, columns, rows }))
 }
 
+/// Extremes of reactions and internal forces.
 fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let more = response.envelopes.len().saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
@@ -124,7 +125,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         .map(|(n, u)| TableColumn::new(n, u))
         .to_vec();
     columns.extend(scene.bodies.iter().map(|body| TableColumn::new(body.name.as_str(), &length)));
-    columns.push(TableColumn::new("own weight", ""));
+    columns.push(TableColumn::new("dead load", ""));
     let mut rows = Vec::new();
     let own = response.columns.iter().zip(&response.dead_load);
     for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
@@ -142,7 +143,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         }
     }
     let caption = format!(
-        "Envelopes of the run \"{label}\", with the time and the places of the bodies that govern.{rest}"
+        "Envelopes of the run \"{label}\", with the governing times and positions of the bodies.{rest}"
     );
     ReportTable { caption, columns, rows }
 }
@@ -162,6 +163,7 @@ fn place(at: &[f64]) -> String {
     at.iter().map(|x| crate::number(*x, 4).unwrap_or_default()).collect::<Vec<_>>().join("; ")
 }
 
+/// Lateral displacements of rails at columns, with the limits of codes.
 fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
     let columns = [
@@ -170,13 +172,13 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         "height",
         "displacement",
         "at time",
-        "height over it",
+        "height over displacement",
         "code",
-        "accepts",
-        "keeps",
+        "limit",
+        "within limit",
     ];
     let unit_of = |name: &str| match name {
-        "column at" | "height" | "displacement" | "accepts" => unit.as_str(),
+        "column at" | "height" | "displacement" | "limit" => unit.as_str(),
         "at time" => "s",
         _ => "",
     };
@@ -198,28 +200,30 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         }
     }
     ReportTable {
-        caption: format!("Largest displacement sideways of each rail over a column in the run \"{label}\"."),
+        caption: format!("Largest lateral displacement of each rail at a column in the run \"{label}\"."),
         columns: columns.map(|name| TableColumn::new(name, unit_of(name))).into(),
         rows,
     }
 }
 
+/// Deflections of the rails within each span.
 fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
     let mut table = ReportTable {
         caption: format!(
-            "Sag of the rails between the ends of each span in the run \"{label}\", and the span over it."
+            "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and \
+             span-to-deflection ratios."
         ),
         columns: vec![
             TableColumn::new("rail", ""),
             TableColumn::new("direction", ""),
             TableColumn::new("from", &unit),
             TableColumn::new("to", &unit),
-            TableColumn::new("sag", &unit),
+            TableColumn::new("deflection", &unit),
             TableColumn::new("at", &unit),
             TableColumn::new("at time", "s"),
-            TableColumn::new("span over sag", ""),
-            TableColumn::new("keeps", ""),
+            TableColumn::new("span over deflection", ""),
+            TableColumn::new("within", ""),
         ],
         rows: Vec::new(),
     };

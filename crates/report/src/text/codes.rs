@@ -5,26 +5,35 @@ use formats::scene::Scene;
 use formats::text::number::rounded;
 use results::codes::{CodeCheck, CodeComparison};
 
-/// Significant digits of code values; codes give no more.
+/// Significant digits of values of codes; the codes themselves state no more.
 const DIGITS: usize = 5;
 
-/// The section on code values, with those of all runs that have any; `None` where the scene does not ask for them.
+/// The section on values of codes, with those of all runs that have any; `None` where the scene does not ask for
+/// them.
 #[must_use]
 pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<ReportSection> {
     let all: Vec<(&str, &CodeCheck)> =
         runs.iter().filter_map(|(label, codes)| Some((*label, (*codes)?))).collect();
     let (_, first) = *all.first()?;
-    let mut section = ReportSection::new("Beside the codes").paragraph(
-        "What the runs have beside values of codes for the same crane. Forces found include what moves alone. CodeCheck give \
-         values for design, with their own partial factors on top: a run that stays below one is no proof, a run above \
-         one is a question.",
+    let mut section = ReportSection::new("Comparison with design codes").paragraph(
+        "Quantities of the runs compared with values of design codes for the same crane. The forces of the runs are \
+         those of the moving loads, without the dead load of the structures. The codes state values for design, to \
+         which their own partial factors apply: a run below a value is no proof of safety, and a run above it needs \
+         an explanation.",
     );
     for (name, value, dimension) in first.crane.list() {
         section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
     }
     if first.crane.approach_is_from_run {
-        section = section.paragraph("The hook's approach is the least that the run has; practice.approach in the scene gives another.");
+        section = section.paragraph(
+            "The approach of the hook is the smallest in the run, because practice.approach is not set in the scene.",
+        );
     }
+    Some(section.table(comparisons(scene, &all, first)).table(factors(scene, first)))
+}
+
+/// Quantities of the runs, each with the values of codes: one line for each value.
+fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> ReportTable {
     let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
     columns.extend(all.iter().map(|(label, _)| TableColumn::new(*label, "")));
     columns.extend(["code", "clause", "formula"].map(|name| TableColumn::new(name, "")));
@@ -52,9 +61,12 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
             rows.push(line);
         }
     }
-    let caption = "Found, and by the codes.".to_owned();
-    let table = ReportTable { caption, columns, rows };
-    let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("of", "")];
+    ReportTable { caption: "Values of the runs and values of codes.".to_owned(), columns, rows }
+}
+
+/// Factors of the codes, and their loads of one wheel.
+fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
+    let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("formula", "")];
     let factors = first.factors.iter().map(|given| {
         let value = &given.value;
         vec![
@@ -66,10 +78,9 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
             TableCell::from(value.formula.clone()),
         ]
     });
-    let factors = ReportTable {
-        caption: "Factors of the codes, and loads of one wheel by them.".to_owned(),
+    ReportTable {
+        caption: "Factors of the codes, and their loads of one wheel.".to_owned(),
         columns: heads.map(|(name, unit)| TableColumn::new(name, unit)).into(),
         rows: factors.collect(),
-    };
-    Some(section.table(table).table(factors))
+    }
 }

@@ -4,9 +4,9 @@ use splines::Error;
 use splines::quality::{CouplingBlock, sample_places};
 
 use super::digits::short;
-use super::findings::{TableQuality, Truth, UP, reading};
+use super::findings::{ExactValues, TableQuality, UP, reading};
 use super::reading_method::TableReadingMethod;
-use super::readings::{map, strip};
+use super::readings::{coupling_block, map};
 use super::subject::TableSource;
 use formats::units::Dimension;
 use report::chart::{self, Chart, ChartAxis, Series, Style, SurfacePlot, Svg};
@@ -48,10 +48,10 @@ pub fn figures(
     found: &TableQuality,
 ) -> Result<Vec<TableFigure>, Box<dyn std::error::Error>> {
     let mut out = Vec::new();
-    let Some(ways) = found.item.paths else { return Ok(out) };
-    let exact = match (&found.truth, &subject.surface) {
-        (Truth::Surface, Some(surface)) => strip(surface, ways),
-        (Truth::Lifted(lift), _) => strip(&lift.surface, UP),
+    let Some(paths) = found.item.paths else { return Ok(out) };
+    let exact = match (&found.exact_values, &subject.surface) {
+        (ExactValues::Surface, Some(surface)) => coupling_block(surface, paths),
+        (ExactValues::Beam(beam), _) => coupling_block(&beam.surface, UP),
         _ => return Ok(out),
     };
     let table = &found.item.table;
@@ -90,22 +90,22 @@ fn error_map(
     title: &str,
     length: &str,
 ) -> Result<Option<TableFigure>, Box<dyn std::error::Error>> {
-    let Some(ways) = found.item.paths else { return Ok(None) };
+    let Some(paths) = found.item.paths else { return Ok(None) };
     let table = &found.item.table;
     let worst = found
         .readings
         .iter()
         .filter_map(|r| Some((r.method, found.relative(&r.error?))))
         .max_by(|a, b| a.1.total_cmp(&b.1));
-    let Some((manner, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(None) };
-    let Some(reading) = reading(subject, &found.item, manner) else { return Ok(None) };
+    let Some((method, error)) = worst.filter(|(_, error)| *error > 0.0) else { return Ok(None) };
+    let Some(reading) = reading(subject, &found.item, method) else { return Ok(None) };
     let (x, z) = (sample_places(table.x(), x, MAP), sample_places(table.z(), z, MAP));
     let scale = scale(found);
-    let mut values = map(&strip(reading.as_ref(), ways), exact, &z, &x)?;
+    let mut values = map(&coupling_block(reading.as_ref(), paths), exact, &z, &x)?;
     values.iter_mut().flatten().for_each(|value| *value *= 100.0 / scale);
     let plot = SurfacePlot {
-        title: format!("{title}: {} less exact", manner.word()),
-        label: "error, of the largest coefficient".to_owned(),
+        title: format!("{title}: {} minus exact", method.word()),
+        label: "error relative to the largest coefficient".to_owned(),
         unit: "%".to_owned(),
         length_unit: length.to_owned(),
         at: z,
@@ -115,8 +115,8 @@ fn error_map(
         note: String::new(),
     };
     let caption = format!(
-        "Error of {} over all places of load and deflection, at most {} percent. Lines mark supports.",
-        manner.word(),
+        "Error of {} over all positions of load and deflection, at most {} percent. Lines mark supports.",
+        method.word(),
         short(100.0 * error)
     );
     Ok(Some(TableFigure { picture: plot.svg()?.into(), caption }))
@@ -137,19 +137,19 @@ fn diagonal(
     title: &str,
     length: &str,
 ) -> Result<Option<TableFigure>, Error> {
-    let Some(ways) = found.item.paths else { return Ok(None) };
+    let Some(paths) = found.item.paths else { return Ok(None) };
     let x = sample_places(found.item.table.x(), range, ACROSS);
     let scale = scale(found);
     let mut chart = Chart::new(
         format!("{title}: error under one moving wheel"),
-        ChartAxis::new("place of the wheel", length),
-        ChartAxis::new("error, of the largest coefficient", "%"),
+        ChartAxis::new("position of the wheel", length),
+        ChartAxis::new("error relative to the largest coefficient", "%"),
     );
     for (index, one) in
         found.readings.iter().enumerate().filter(|(_, r)| r.method != TableReadingMethod::Exact)
     {
         let Some(reading) = reading(subject, &found.item, one.method) else { continue };
-        let own = strip(reading.as_ref(), ways);
+        let own = coupling_block(reading.as_ref(), paths);
         let mut points = Vec::with_capacity(x.len());
         for &x in &x {
             points.push([x, 100.0 * (own.at(x, x)? - exact.at(x, x)?) / scale]);
@@ -164,7 +164,9 @@ fn diagonal(
         chart = chart.mark(*support, "support");
     }
     let caption =
-        "Error of G(x, x), the give under a wheel that moves along the rail: reading less exact.".to_owned();
+        "Error of G(x, x), the compliance under a wheel that moves along the rail: reading minus exact \
+         value."
+            .to_owned();
     Ok(Some(TableFigure { picture: chart.into(), caption }))
 }
 
@@ -174,15 +176,15 @@ fn diagonal(
 /// As [`figures`], and as [`Report::html`].
 pub fn page(subject: &TableSource, all: &[TableQuality]) -> Result<String, Box<dyn std::error::Error>> {
     let mut report = Report {
-        title: "What readings of these tables cost".to_owned(),
+        title: "Quality of influence tables".to_owned(),
         subtitle: subject.file.clone(),
         sections: Vec::new(),
     };
     for found in all {
         let mut section =
             ReportSection::new(format!("SPLINE/{} {}", found.item.id, found.item.name).trim_end());
-        for hazard in &found.risks {
-            section = section.paragraph(format!("Note: {hazard}."));
+        for risk in &found.risks {
+            section = section.paragraph(format!("Note: {risk}."));
         }
         if !found.readings.is_empty() {
             section = section.table(readings(subject, found));
@@ -201,7 +203,7 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
     let column = |name: &str, unit: &str| report::TableColumn::new(name, unit);
     let (length, stiffness) = (unit(Dimension::LENGTH), unit(Dimension::STIFFNESS));
     let mut table = report::ReportTable {
-        caption: "Readings, errors of the largest coefficient".to_owned(),
+        caption: "Readings; errors and asymmetry relative to the largest coefficient.".to_owned(),
         columns: vec![
             column("reading", ""),
             column("largest error", "%"),
@@ -209,7 +211,7 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
             column("deflection at", &length),
             column("asymmetry", "%"),
             column("8 wheels indefinite from k", &stiffness),
-            column("slope jumps by", &unit(Dimension::of(0, -1, 0))),
+            column("jump of slope", &unit(Dimension::of(0, -1, 0))),
         ],
         rows: Vec::new(),
     };
@@ -225,7 +227,7 @@ fn readings(subject: &TableSource, found: &TableQuality) -> report::ReportTable 
             direct.and_then(|d| d.layouts.last()).map_or(report::TableCell::Empty, |layout| {
                 layout.stiffness.map_or_else(|| "never".into(), report::TableCell::Number)
             }),
-            number(direct.and_then(|d| d.kink).map(|k| k.jump())),
+            number(direct.and_then(|d| d.slope_jump).map(|k| k.jump())),
         ]);
     }
     table

@@ -1,7 +1,7 @@
 //! Sums of wheel forces on each rail, compared between runs.
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
-use crate::figures::pictures::{LabelledRun, RunFigure};
+use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::number;
 use formats::scene::Scene;
 use formats::units::Dimension;
@@ -17,18 +17,19 @@ const SMALL: f64 = 0.1;
 /// Charts of the vertical and lateral force sums of each rail on the ground over time, with their statistics as
 /// notes; none for a single run. `comparison` contains the statistics of these runs.
 #[must_use]
-pub fn rails(runs: &[LabelledRun], comparison: &RunComparison) -> Vec<RunFigure> {
+pub fn rail_sum_charts(runs: &[LabelledRun], comparison: &RunComparison) -> Vec<RunFigure> {
     let [first, _, ..] = runs else { return Vec::new() };
     let grounded = |name: &String| {
         let rail = name.rsplit_once('.').map_or("", |(rail, _)| rail);
-        let known = first.scene.rails.iter().find(|known| known.name == rail);
-        known.is_some_and(|rail| first.scene.structures[rail.structure].carrier.is_none())
+        let own = first.scene.rails.iter().find(|own| own.name == rail);
+        own.is_some_and(|rail| first.scene.structures[rail.structure].carrier.is_none())
     };
     let sums = rail_sums(first.record).into_iter().filter(|sums| sums.iter().all(grounded)).take(RAILS);
-    sums.flatten().filter_map(|column| plate(first.scene, &column, runs, comparison)).collect()
+    sums.flatten().filter_map(|column| chart(first.scene, &column, runs, comparison)).collect()
 }
 
-fn plate(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComparison) -> Option<RunFigure> {
+/// Chart of one sum in all runs; `None` if it is zero in all of them.
+fn chart(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComparison) -> Option<RunFigure> {
     let (rail, part) = column.rsplit_once('.')?;
     let word = if part == "lateral" { "lateral" } else { "vertical" };
     let zero = |record: &NamedColumns| record.values(column).iter().all(|value| *value == 0.0);
@@ -36,22 +37,22 @@ fn plate(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
         return None;
     }
     let unit = scene.units.label(Dimension::FORCE);
-    let title = format!("Wheels on {rail} together, {word}");
+    let title = format!("Sum of {word} wheel forces on {rail}");
     let mut chart =
         Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(format!("{word} force"), &unit));
-    let mut told = Vec::new();
+    let mut notes = Vec::new();
     let figures = comparison.of(column).unwrap_or_default();
     for (index, run) in runs.iter().enumerate() {
         let style = if index == 0 { Style::Line } else { Style::Dashed };
         chart = chart.with(Series::new(&run.label, style, run.record.points("time", column)));
         let Some(found) = figures.get(index).and_then(Option::as_ref) else { continue };
         chart = chart.mark(found.peak.time, format!("peak, {}", run.label));
-        told.push(line(&run.label, found, &unit));
+        notes.push(line(&run.label, found, &unit));
     }
-    chart.note = told.join(" ");
+    chart.note = notes.join(" ");
     let caption = format!(
-        "Sum of the {word} forces of all wheels on {rail}, run against run. Settled means and frequencies are those of the \
-         last quarter; excursions leave 5 % about the mean."
+        "Sum of the {word} forces of all wheels on {rail} in every run. Means and frequencies are those of the last \
+         quarter; an excursion leaves the band of 5 % about the mean."
     );
     Some(RunFigure::chart(format!("rail-{rail}-{word}"), caption, chart))
 }
@@ -60,11 +61,11 @@ fn plate(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
 fn line(label: &str, found: &ColumnStatistics, unit: &str) -> String {
     let text = |value: f64| number(value, 4).unwrap_or_default();
     let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
-    // relative to a mean of zero, an excursion has no percentage
+    // a band of 5 % about a mean of zero has no width
     let swings = found.settled.abs() > SMALL * (found.peak.value - found.least.value);
     let times = if swings { format!(", {} excursions", found.excursions) } else { String::new() };
     format!(
-        "{label}: settled mean {} {unit}, peak {} at {} s, least {} at {} s{times}{hertz}.",
+        "{label}: mean {} {unit}, largest {} at {} s, smallest {} at {} s{times}{hertz}.",
         text(found.settled),
         text(found.peak.value),
         text(found.peak.time),

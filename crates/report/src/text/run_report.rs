@@ -1,6 +1,7 @@
 //! The report of a run: input, results and warnings, figures, structures, energy audit.
 
-use crate::figures::pictures::RunFigure;
+use crate::figures::run_figure::RunFigure;
+use crate::text::{codes, fatigue, responses};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use formats::grid::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
@@ -11,40 +12,42 @@ use results::columns::peak;
 use results::response::RunComparison;
 use results::run_error;
 use results::warning;
+use sim::Method;
 
-/// Assembles the report.
+/// Assembles the report of a document: `outcomes` has one result for each of its cases, `solved` the solved model of
+/// each structure, and `figures` those of the run.
 #[must_use]
 pub fn report(
     document: &Document,
     outcomes: &[CaseResult],
     solved: &[Option<&SolvedModel>],
     comparison: &RunComparison,
-    plates: Vec<RunFigure>,
+    figures: Vec<RunFigure>,
 ) -> Report {
     let scene = document.scene();
     let mut sections = vec![results(document, outcomes), structures(scene, solved, &outcomes[0].choices)];
     let (mut motion, mut influence) =
-        (ReportSection::new("Pictures of the motion"), ReportSection::new("Pictures of the structures"));
-    for plate in plates {
+        (ReportSection::new("Figures of the motion"), ReportSection::new("Figures of the structures"));
+    for figure in figures {
         let of_structure =
-            ["grid-", "influence-", "girder-"].iter().any(|start| plate.name.starts_with(start));
+            ["grid-", "influence-", "girder-"].iter().any(|start| figure.name.starts_with(start));
         let target = if of_structure { &mut influence } else { &mut motion };
         let section = std::mem::take(target);
-        *target = section.figure(plate.picture, plate.caption);
+        *target = section.figure(figure.picture, figure.caption);
     }
     // figures follow the results; tables of the structures follow the figures
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
-    sections.push(crate::text::response_story::section(scene, &outcomes[0].label, &outcomes[0].response));
+    sections.push(responses::section(scene, &outcomes[0].label, &outcomes[0].response));
     let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
-    sections.extend(crate::text::response_story::beside(scene, &labels, &outcomes[0].columns, comparison));
-    let codes: Vec<_> =
+    sections.extend(responses::comparison(scene, &labels, &outcomes[0].columns, comparison));
+    let checks: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
-    sections.extend(crate::text::codes_story::section(scene, &codes));
-    let fatigue: Vec<_> =
+    sections.extend(codes::section(scene, &checks));
+    let damages: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
-    sections.extend(crate::text::fatigue_story::section(scene, &fatigue));
+    sections.extend(fatigue::section(scene, &damages));
     sections.push(audit(document, outcomes));
     Report {
         title: scene.name.clone(),
@@ -53,19 +56,19 @@ pub fn report(
     }
 }
 
-/// Peaks of every body in every run.
+/// The largest deflection of every body in every run, and how the scene was computed.
 fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let scene = document.scene();
     let length = scene.units.label(Dimension::LENGTH);
     let mut table = ReportTable {
-        caption: "Largest deflection of every body, below the unloaded rail.".to_owned(),
+        caption: "Largest deflection of every body below the unloaded rail.".to_owned(),
         columns: vec![
             TableColumn::new("run", ""),
             TableColumn::new("body", ""),
             TableColumn::new("deflection", &length),
             TableColumn::new("at x", &length),
             TableColumn::new("at time", "s"),
-            TableColumn::new("against the first run", "%"),
+            TableColumn::new("relative to the first run", "%"),
             TableColumn::new("status", ""),
         ],
         rows: Vec::new(),
@@ -90,18 +93,47 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
             ]);
         }
     }
-    let how = match scene.analysis {
-        Analysis::Dynamic => {
-            "the equations of motion, integrated in contact-force form by a method of order four with adaptive steps; wheels that leave or meet the rail are located in time"
-        }
-        Analysis::QuasiStatic => "a sequence of static equilibria over the prescribed motion",
-    };
-    ReportSection::new("Results")
-        .paragraph(format!("The scene was computed as {how}. Deflections are positive downwards; forces on the rail are positive pressing."))
+    let mut section = ReportSection::new("Results");
+    for text in analyses(document, outcomes) {
+        section = section.paragraph(text);
+    }
+    section
+        .paragraph("Deflections are positive downwards; forces on the rail are positive in compression.")
         .table(table)
 }
 
-/// The foundation of every structure, with the reason of its choice and its properties.
+/// How the runs were computed: one sentence if all were computed alike, otherwise one for each run.
+fn analyses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
+    let cases = document.cases.iter().zip(outcomes);
+    let all: Vec<String> = cases.map(|(case, outcome)| analysis(&case.scene, outcome.run.method)).collect();
+    if all.windows(2).all(|pair| pair[0] == pair[1]) {
+        return all.first().map(|how| format!("The scene was computed {how}.")).into_iter().collect();
+    }
+    let runs = outcomes.iter().zip(all);
+    runs.map(|(outcome, how)| format!("The run \"{}\" was computed {how}.", outcome.label)).collect()
+}
+
+/// How a scene was computed; `method` is the method of integration that its run took.
+fn analysis(scene: &Scene, method: Option<Method>) -> String {
+    if scene.analysis == Analysis::QuasiStatic {
+        return "as a sequence of static equilibria over the prescribed motion".to_owned();
+    }
+    let method = match method.unwrap_or(scene.stepping.method) {
+        Method::Auto => "a method chosen by the program",
+        Method::Sdirk4 => "SDIRK, a method of order 4,",
+        Method::Radau => "Radau IIA collocation, a method of order 5,",
+        Method::Gauss2 => "Gauss collocation, a method of order 4,",
+        Method::Gauss3 => "Gauss collocation, a method of order 6,",
+        Method::Series => "power series in time, whose order increases with the accuracy,",
+    };
+    let steps = if scene.stepping.step.is_some() { "equal steps" } else { "adaptive steps" };
+    format!(
+        "from the equations of motion in contact-force form, integrated by {method} with {steps}; the times at which \
+         wheels leave or meet the rail are located"
+    )
+}
+
+/// The foundation of every structure, the reason of its choice, and properties of the structure.
 fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Choice]) -> ReportSection {
     let mut section = ReportSection::new("Structures");
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
@@ -122,8 +154,12 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
         let Some(solved) = solved else { continue };
         if let Some(certificate) = &solved.grid.certificate {
             section = section
-                .fact(format!("{name}: condition of the stiffness"), certificate.condition, "")
-                .fact(format!("{name}: guaranteed relative error of the grid"), certificate.error_bound, "");
+                .fact(format!("{name}: condition number of the stiffness matrix"), certificate.condition, "")
+                .fact(
+                    format!("{name}: bound of the relative error of the grid"),
+                    certificate.error_bound,
+                    "",
+                );
         }
         if let Some(girder) = solved.girder.as_ref().filter(|girder| girder.spans.len() == 1) {
             let span = girder.spans[0];
@@ -145,7 +181,7 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
     section
 }
 
-/// Extremes of the forces of every wheel in the first run.
+/// Extreme forces of every wheel in the first run.
 fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     let unit = scene.units.label(Dimension::FORCE);
     let mut table = ReportTable {
@@ -179,12 +215,15 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
 fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let energy = document.scene().units.label(Dimension::MOMENT);
     let mut table = ReportTable {
-        caption: "Energy audit: what was lost and put in, and what does not add up, relative to the peak of the stored elastic energy.".to_owned(),
+        caption:
+            "Energy audit: largest stored elastic energy, energy lost and supplied, and residual relative to \
+                  the largest stored energy."
+                .to_owned(),
         columns: vec![
             TableColumn::new("run", ""),
-            TableColumn::new("peak stored", &energy),
+            TableColumn::new("largest stored", &energy),
             TableColumn::new("lost", &energy),
-            TableColumn::new("put in", &energy),
+            TableColumn::new("supplied", &energy),
             TableColumn::new("residual", ""),
             TableColumn::new("steps", ""),
         ],
@@ -211,7 +250,7 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         }
     }
     if table.rows.is_empty() {
-        section.paragraph("No run of this scene is dynamic: there is no energy to audit.")
+        section.paragraph("No dynamic run reached its end, so there is no energy audit.")
     } else {
         section.table(table)
     }

@@ -7,9 +7,9 @@ use crate::runs::point::{PointOutcome, StudyPoint};
 use crate::settings::setting::{ReferenceKind, SettingFamily};
 use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
 
-/// A picture of a study.
+/// A figure of a study.
 #[derive(Clone, Debug)]
-pub struct StudyPicture {
+pub struct StudyFigure {
     /// Its file name in the folder `plots`, without extension.
     pub name: String,
     /// The SVG file.
@@ -28,7 +28,7 @@ enum Cost {
     /// Memory of foundations and run, kB.
     Memory,
     /// The parameter that varies along each curve.
-    Knob,
+    Parameter,
 }
 
 /// Whether a chart shows a family.
@@ -36,13 +36,13 @@ type Filter = fn(SettingFamily) -> bool;
 
 /// Families that vary the foundation.
 fn is_foundation(family: SettingFamily) -> bool {
-    family.against() == ReferenceKind::Whole
+    family.reference_kind() == ReferenceKind::Whole
         && !matches!(family, SettingFamily::Written | SettingFamily::Auto)
 }
 
 /// Families that vary the method of integration.
 fn is_method(family: SettingFamily) -> bool {
-    family.against() == ReferenceKind::Own
+    family.reference_kind() == ReferenceKind::Own
 }
 
 /// Families that read tables.
@@ -50,11 +50,11 @@ fn is_table(family: SettingFamily) -> bool {
     matches!(family, SettingFamily::Table(_))
 }
 
-/// All pictures of a study: each has one chart for each group of columns, below each other.
+/// All figures of a study: each has one chart for each group of columns, below each other.
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
-pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
+pub fn figures(study: &Study, name: &str) -> Result<Vec<StudyFigure>, Error> {
     let all: [(&str, &str, Filter, Cost); 10] = [
         ("foundations-time", "foundations", is_foundation, Cost::Time),
         ("foundations-stages", "foundations", is_foundation, Cost::Stages),
@@ -62,15 +62,15 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
         ("methods-time", "methods of integration", is_method, Cost::Time),
         ("methods-stages", "methods of integration", is_method, Cost::Stages),
         ("tables-time", "readings of tables", is_table, Cost::Time),
-        ("stations", "readings of tables", is_table, Cost::Knob),
+        ("stations", "readings of tables", is_table, Cost::Parameter),
         (
             "modes",
             "modes",
             |own| matches!(own, SettingFamily::Modal | SettingFamily::ModalWithoutResidual),
-            Cost::Knob,
+            Cost::Parameter,
         ),
-        ("parts", "rigid parts", |own| own == SettingFamily::Parts, Cost::Knob),
-        ("elements", "elements", |own| own == SettingFamily::Mesh, Cost::Knob),
+        ("parts", "rigid parts", |own| own == SettingFamily::Parts, Cost::Parameter),
+        ("elements", "elements", |own| own == SettingFamily::Mesh, Cost::Parameter),
     ];
     let mut out = Vec::new();
     for (file, what, is_shown, cost) in all {
@@ -82,7 +82,7 @@ pub fn pictures(study: &Study, name: &str) -> Result<Vec<StudyPicture>, Error> {
         }
         if !charts.is_empty() {
             let svg = stack(&charts).file();
-            out.push(StudyPicture { name: file.to_owned(), svg, varies: cost == Cost::Time });
+            out.push(StudyFigure { name: file.to_owned(), svg, varies: cost == Cost::Time });
         }
     }
     Ok(out)
@@ -95,7 +95,7 @@ fn cost_of(point: &StudyPoint, cost: Cost) -> Option<f64> {
         Cost::Time => 1e3 * measured.time?.median,
         Cost::Stages => measured.counts.stages as f64,
         Cost::Memory => 1e-3 * measured.memory?.total() as f64,
-        Cost::Knob => point.setting.value,
+        Cost::Parameter => point.setting.value,
     };
     (value > 0.0).then_some(value)
 }
@@ -112,9 +112,9 @@ fn chart(
     let shown: Vec<&StudyPoint> =
         study.points.iter().filter(|point| is_shown(point.setting.family)).collect();
     let first = &shown.first()?.setting;
-    let against = first.family.against();
-    let reference = study.reference(against)?;
-    let least = reference.resolution_of(quantity)?;
+    let kind = first.family.reference_kind();
+    let reference = study.reference(kind)?;
+    let least = reference.usable_resolution(quantity)?;
     // errors below the resolution of the reference are drawn at this resolution
     let place = |point: &StudyPoint| Some([cost_of(point, cost)?, point.error(quantity)?.max(least)]);
     let title = title(study, name, what, cost, first.parameter, quantity);
@@ -124,54 +124,54 @@ fn chart(
     if all.iter().all(|own| own[1] <= least) {
         return None;
     }
-    if cost != Cost::Knob {
-        marks(study, &mut chart, &mut all, cost, against, &place);
+    if cost != Cost::Parameter {
+        marks(study, &mut chart, &mut all, cost, kind, &place);
         // first: below the points, and in the darkest colour
         chart.series.insert(0, Series::new("Pareto front", Style::Step, front(&all)));
     }
     let low = all.iter().map(|own| own[0]).fold(f64::INFINITY, f64::min);
     let high = all.iter().map(|own| own[0]).fold(0.0, f64::max);
     chart.series.push(Series::new(
-        "what the reference tells",
+        "resolution of the reference",
         Style::Limit,
         vec![[low, least], [high, least]],
     ));
     let unfinished = shown.iter().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
     chart.note = format!(
-        "Largest difference at an output time by the largest value there is; points on the dashed line err by no more than that. \
-         Reference: {}; beside it {}: {:.1e} apart.",
-        reference.words[0],
-        reference.words[1],
+        "Largest difference at an output time relative to the largest value of the reference. Errors of points on \
+         the dashed line are not resolved. Reference: {}; second run: {}; difference of the two: {:.1e}.",
+        reference.descriptions[0],
+        reference.descriptions[1],
         least / crate::runs::reference::RESOLUTION_FACTOR
     );
     if unfinished > 0 {
-        chart.note += &format!(" {unfinished} settings refused or stopped: see study.json.");
+        chart.note += &format!(" Settings refused or stopped, listed in study.json: {unfinished}.");
     }
     Some(chart)
 }
 
 /// The axis of a cost.
-fn cost_axis(cost: Cost, knob: &str) -> ChartAxis {
+fn cost_axis(cost: Cost, parameter: &str) -> ChartAxis {
     match cost {
-        Cost::Time => ChartAxis::new("time of a run (median; bar: least to most)", "ms"),
+        Cost::Time => ChartAxis::new("time of a run (median; bar: smallest to largest)", "ms"),
         Cost::Stages => ChartAxis::new("contact solutions", ""),
         Cost::Memory => ChartAxis::new("memory of foundations and run", "kB"),
-        Cost::Knob if knob == "stations" => ChartAxis::new("stations a rail", ""),
-        Cost::Knob if knob == "elements" => ChartAxis::new("elements a member", ""),
-        Cost::Knob => ChartAxis::new(knob, ""),
+        Cost::Parameter if parameter == "stations" => ChartAxis::new("stations per rail", ""),
+        Cost::Parameter if parameter == "elements" => ChartAxis::new("elements per member", ""),
+        Cost::Parameter => ChartAxis::new(parameter, ""),
     }
 }
 
 /// The title of a chart.
-fn title(study: &Study, name: &str, what: &str, cost: Cost, knob: &str, quantity: ErrorGroup) -> String {
+fn title(study: &Study, name: &str, what: &str, cost: Cost, parameter: &str, quantity: ErrorGroup) -> String {
     let mut title = format!("{name}: error of the {} against ", quantity.name());
     title += match cost {
         Cost::Time => "time",
         Cost::Stages => "work",
         Cost::Memory => "memory",
-        Cost::Knob => knob,
+        Cost::Parameter => parameter,
     };
-    if cost != Cost::Knob || what != knob {
+    if cost != Cost::Parameter || what != parameter {
         title += &format!(", {what}");
     }
     if let Some(time) = study.until {
@@ -219,13 +219,13 @@ fn marks(
     chart: &mut Chart,
     all: &mut Vec<[f64; 2]>,
     cost: Cost,
-    against: ReferenceKind,
+    kind: ReferenceKind,
     place: &dyn Fn(&StudyPoint) -> Option<[f64; 2]>,
 ) {
-    if against != ReferenceKind::Whole {
+    if kind != ReferenceKind::Whole {
         return;
     }
-    for (family, label) in [(SettingFamily::Written, "as written"), (SettingFamily::Auto, "auto's choice")] {
+    for (family, label) in [(SettingFamily::Written, "as written"), (SettingFamily::Auto, "choice of auto")] {
         let own = study.points.iter().find(|point| point.setting.family == family).and_then(place);
         let Some(own) = own else { continue };
         chart.series.push(Series::new(label, Style::Points, vec![own]));
@@ -234,7 +234,7 @@ fn marks(
         if let (SettingFamily::Auto, Cost::Time, Some(trials)) = (family, cost, trials) {
             let at = vec![[1e3 * trials.median, own[1]]];
             let spread = vec![[1e3 * trials.min, 1e3 * trials.max]];
-            chart.series.push(Series::new("auto with its trials", Style::Points, at).spread(spread));
+            chart.series.push(Series::new("auto with its trial runs", Style::Points, at).spread(spread));
         }
     }
 }

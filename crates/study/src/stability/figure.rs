@@ -1,4 +1,4 @@
-//! Maps as pictures: one chart for each method, up to four below each other.
+//! Maps as figures: one chart for each method, up to four below each other.
 
 use super::map::{MapScale, MapVerdict, StabilityMap};
 use report::chart::{Chart, ChartAxis, Error, Series, Style, stack};
@@ -16,20 +16,21 @@ fn axis(scale: &MapScale, range: [f64; 2]) -> ChartAxis {
     }
 }
 
-/// Largest number of charts on a picture.
+/// Largest number of charts in a figure.
 const CHARTS: usize = 4;
 
-/// The pictures of a map as SVG files, with as many methods each as fit a page.
+/// The figures of a map as SVG files, each with as many methods as fit on a page.
 ///
 /// # Errors
 /// None in practice: all values are finite, and positive where an axis is logarithmic.
-pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
+pub fn figures(map: &StabilityMap) -> Result<Vec<String>, Error> {
     let is_drawable = |at: &[f64; 2]| {
         let fits = |k: usize| at[k].is_finite() && (!map.axes[k].log || at[k] > 0.0);
         fits(0) && fits(1)
     };
-    let points =
-        || map.layers.iter().flat_map(|layer| &layer.points).map(|cell| cell.at).filter(|at| is_drawable(at));
+    let points = || {
+        map.layers.iter().flat_map(|layer| &layer.points).map(|point| point.at).filter(|at| is_drawable(at))
+    };
     let range = |k: usize| {
         let low = points().map(|at| at[k]).fold(f64::INFINITY, f64::min);
         [low, points().map(|at| at[k]).fold(f64::MIN, f64::max)]
@@ -44,7 +45,7 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
         let (x, y) = (axis(&map.axes[0], ranges[0]), axis(&map.axes[1], ranges[1]));
         let mut chart = Chart::new(title, x, y);
         for word in MapVerdict::WORDS {
-            let own = layer.points.iter().filter(|cell| cell.verdict.word() == word).map(|cell| cell.at);
+            let own = layer.points.iter().filter(|point| point.verdict.word() == word).map(|point| point.at);
             chart.series.push(Series::new(word, Style::Points, own.filter(|at| is_drawable(at)).collect()));
         }
         for line in &layer.lines {
@@ -59,7 +60,7 @@ pub fn pictures(map: &StabilityMap) -> Result<Vec<String>, Error> {
             .map(|(word, count)| format!("{count} {word}"))
             .collect();
         chart.note = format!("{} Points: {}.", map.note, summary.join(", "));
-        if layer.points.iter().any(|cell| is_drawable(&cell.at)) {
+        if layer.points.iter().any(|point| is_drawable(&point.at)) {
             charts.push(chart.svg()?);
         }
     }

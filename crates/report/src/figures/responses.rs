@@ -1,9 +1,9 @@
-//! Figures of reactions and internal forces.
+//! Figures of reactions of the ground, bending moments and influence lines.
 
 use splines::{Axis as Direction, Probe};
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
-use crate::figures::pictures::{LabelledRun, RunFigure};
+use crate::figures::run_figure::{LabelledRun, RunFigure};
 use formats::scene::columns::{Column, Direction as Toward, Kind};
 use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
@@ -13,20 +13,23 @@ use results::response::{ColumnInfluence, Response};
 const CURVES: usize = 8;
 /// Largest number of reactions of one direction that are compared between runs.
 const SHOWN: usize = 2;
-/// Fraction of the largest reaction below which a reaction is considered as rounding error.
-const STILL: f64 = 1e-9;
+/// Fraction of the largest reaction below which a reaction is treated as rounding error.
+const NEGLIGIBLE: f64 = 1e-9;
+/// Fraction of the largest reaction of a direction below which a reaction is not compared between runs.
+const COMPARED: f64 = 1e-3;
 /// Number of points at which an influence line is evaluated.
 const SAMPLES: usize = 241;
 
-/// Reactions of the first run over time, the largest of them in all runs, and influence lines of named sections.
+/// Reactions of the first run over time, the largest of them in all runs, envelopes of bending moments, and influence
+/// lines of named sections.
 #[must_use]
-pub fn pictures(
+pub fn response_charts(
     runs: &[LabelledRun],
     responses: &[&Response],
     lines: &[Option<ColumnInfluence>],
 ) -> Vec<RunFigure> {
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
-    let mut plates = reactions(runs, run, response);
+    let mut figures = reactions(runs, run, response);
     for bending in &response.bending {
         let rail = &run.scene.rails[bending.rail];
         let supports = match &run.scene.structures[rail.structure].origin {
@@ -36,40 +39,40 @@ pub fn pictures(
             ),
             Origin::Tables { .. } => Vec::new(),
         };
-        plates.push(moments(run, &rail.name, &bending.rows, &supports));
+        figures.push(moments(run, &rail.name, &bending.rows, &supports));
     }
-    plates.extend(influences(run.scene, response, lines));
-    plates
+    figures.extend(influences(run.scene, response, lines));
+    figures
 }
 
-/// Reactions of the ground in each direction, over time and run against run.
+/// Reactions of the ground in each direction over time: the largest ones of the first run, and a few in all runs.
 fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Vec<RunFigure> {
     let scene = run.scene;
-    let mut plates = Vec::new();
-    // reactions on a body are not reactions of the ground
-    let ridden: Vec<String> = scene
+    let mut figures = Vec::new();
+    // reactions of structures on a body are not reactions of the ground
+    let carried: Vec<String> = scene
         .structures
         .iter()
         .filter(|structure| structure.carrier.is_some())
         .map(|structure| format!("{}.", structure.name))
         .collect();
     let is_ground = |column: &&Column| {
-        column.kind == Kind::Reaction && !ridden.iter().any(|structure| column.name.starts_with(structure))
+        column.kind == Kind::Reaction && !carried.iter().any(|structure| column.name.starts_with(structure))
     };
     let forces = response.columns.iter().filter(is_ground).filter(|column| column.direction.is_some());
-    let most = forces.map(|column| reach(run.record.values(&column.name))).fold(0.0, f64::max);
+    let most = forces.map(|column| largest_magnitude(run.record.values(&column.name))).fold(0.0, f64::max);
     for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
         let mut own: Vec<(f64, &Column)> = response
             .columns
             .iter()
             .filter(is_ground)
             .filter(|column| column.direction == Some(toward))
-            .map(|column| (reach(run.record.values(&column.name)), column))
-            .filter(|(reach, _)| *reach > STILL * most)
+            .map(|column| (largest_magnitude(run.record.values(&column.name)), column))
+            .filter(|(magnitude, _)| *magnitude > NEGLIGIBLE * most)
             .collect();
         // largest first, in a stable order
         own.sort_by(|a, b| b.0.total_cmp(&a.0));
-        let largest = own.first().map_or(0.0, |(reach, _)| *reach);
+        let largest = own.first().map_or(0.0, |(magnitude, _)| *magnitude);
         let mut shown: Vec<&Column> = own.iter().take(CURVES).map(|(_, column)| *column).collect();
         shown.sort_by_key(|column| response.columns.iter().position(|known| known == *column));
         if !shown.is_empty() {
@@ -78,18 +81,19 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
             } else {
                 String::new()
             };
-            plates.push(together(run, &shown, word, &few));
+            figures.push(largest_reactions(run, &shown, word, &few));
         }
         if runs.len() > 1 {
-            let hardest = own.iter().filter(|(reach, _)| *reach > 1e-3 * largest).take(SHOWN);
-            plates.extend(hardest.map(|(_, column)| compared(runs, scene, column)));
+            let compared_columns =
+                own.iter().filter(|(magnitude, _)| *magnitude > COMPARED * largest).take(SHOWN);
+            figures.extend(compared_columns.map(|(_, column)| compared(runs, scene, column)));
         }
     }
-    plates
+    figures
 }
 
-/// Reactions of one direction over time.
-fn together(run: &LabelledRun, shown: &[&Column], word: &str, few: &str) -> RunFigure {
+/// The largest reactions of one direction over time.
+fn largest_reactions(run: &LabelledRun, shown: &[&Column], word: &str, few: &str) -> RunFigure {
     let title = format!("Reactions of the ground, {word}");
     let mut chart = over_time(run.scene, &title, Dimension::FORCE);
     for (index, column) in shown.iter().enumerate() {
@@ -102,7 +106,7 @@ fn together(run: &LabelledRun, shown: &[&Column], word: &str, few: &str) -> RunF
 
 /// One reaction over time in every run.
 fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
-    let mut chart = over_time(scene, &format!("{}, run against run", column.name), column.dimension);
+    let mut chart = over_time(scene, &format!("{} in all runs", column.name), column.dimension);
     for (index, other) in runs.iter().enumerate() {
         let points = other.record.points("time", &column.name);
         if points.is_empty() {
@@ -111,13 +115,13 @@ fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
         let style = if index == 0 { Style::Line } else { Style::Dashed };
         chart = chart.with(Series::new(&other.label, style, points));
     }
-    let caption = format!("The reaction {} in every run.", column.name);
+    let caption = format!("The reaction {} over time in every run.", column.name);
     RunFigure::chart(format!("reaction-{}", column.name), caption, chart)
 }
 
-/// Influence lines of the named sections on every rail that moves them.
+/// Influence lines of the named sections for every rail whose loads affect them.
 fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluence>]) -> Vec<RunFigure> {
-    let mut plates = Vec::new();
+    let mut figures = Vec::new();
     for (structure, lines) in scene.structures.iter().zip(lines) {
         let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
         let Ok((model, rails)) = spec.model() else { continue };
@@ -138,11 +142,11 @@ fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluenc
                 if largest < 1e-9 {
                     continue;
                 }
-                plates.push(influence(scene, response, column, &outline.name, points, &supports));
+                figures.push(influence(scene, response, column, &outline.name, points, &supports));
             }
         }
     }
-    plates
+    figures
 }
 
 /// Extremes of the bending moment over the girder.
@@ -151,7 +155,7 @@ fn moments(run: &LabelledRun, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -
     let ends = [rows.first(), rows.last()].map(|row| row.map_or([0.0; 2], |row| [row[0], 0.0]));
     let chart = Chart::new(
         format!("Bending moments under {rail}"),
-        ChartAxis::new("place along the rail", units.label(Dimension::LENGTH)),
+        ChartAxis::new("position along the rail", units.label(Dimension::LENGTH)),
         ChartAxis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
     )
     .with(Series::new("girder", Style::Dashed, ends.to_vec()))
@@ -159,7 +163,7 @@ fn moments(run: &LabelledRun, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -
     .with(Series::new("smallest", Style::Line, rows.iter().map(|row| [row[0], row[2]]).collect()))
     .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
     let caption = format!(
-        "Envelope of the bending moments of the members under {rail} over the run, without own weight ({}).",
+        "Envelope of the bending moments of the members under {rail} over the run, without dead load ({}).",
         run.label
     );
     RunFigure::chart(format!("moments-{rail}"), caption, chart)
@@ -182,34 +186,35 @@ fn influence(
     let ends = [points.first(), points.last()].map(|point| point.map_or([0.0; 2], |p| [p[0], 0.0]));
     let mut chart = Chart::new(
         format!("Influence line of {} for wheels on {rail}", column.name),
-        ChartAxis::new("place of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
-        ChartAxis::new("per wheel load", own).downwards(),
+        ChartAxis::new("position of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
+        ChartAxis::new("per unit wheel load", own).downwards(),
     )
     .with(Series::new("girder", Style::Dashed, ends.to_vec()))
     .with(Series::new("influence line", Style::Line, points))
     .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
     let mut caption =
-        format!("{} per unit of a wheel's load on {rail}, over the place of the wheel.", column.name);
+        format!("{} per unit load of a wheel on {rail}, over the position of the wheel.", column.name);
     if let Some(envelope) = response.envelopes.iter().find(|envelope| envelope.column == column.name) {
         let unit = scene.units.label(column.dimension);
-        let told = |extreme: &results::response::ColumnExtreme| {
+        let text = |extreme: &results::response::ColumnExtreme| {
             format!(
                 "{} {unit} at t = {:.3} s",
                 crate::number(extreme.value, 5).unwrap_or_default(),
                 extreme.time
             )
         };
-        chart.note = format!("In this run: max {}; min {}.", told(&envelope.max), told(&envelope.min));
-        caption.push_str(" The extremes of the run stand below it.");
+        chart.note = format!("In this run: max {}; min {}.", text(&envelope.max), text(&envelope.min));
+        caption.push_str(" The extremes of the run are stated below the chart.");
     }
     RunFigure::chart(format!("influence-{}-{rail}", column.name), caption, chart)
 }
 
+/// An empty chart over time.
 fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> Chart {
     let what = if dimension == Dimension::MOMENT { "moment" } else { "force" };
     Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(what, scene.units.label(dimension)))
 }
 
-fn reach(values: &[f64]) -> f64 {
+fn largest_magnitude(values: &[f64]) -> f64 {
     values.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
 }

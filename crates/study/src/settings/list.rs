@@ -119,8 +119,8 @@ struct List<'d> {
 }
 
 impl List<'_> {
-    fn add(&mut self, family: SettingFamily, knob: &'static str, value: f64, scene: Scene) {
-        self.all.push(Setting { family, parameter: knob, value, scene, stations: None });
+    fn add(&mut self, family: SettingFamily, parameter: &'static str, value: f64, scene: Scene) {
+        self.all.push(Setting { family, parameter, value, scene, stations: None });
     }
 
     /// One setting for each accuracy.

@@ -1,5 +1,5 @@
-// Pictures that move: a button, a slider, and the frames between the recorded times. Without scripts they stand still.
-for (const source of document.querySelectorAll(".film > script")) {
+// Animations: a button, a slider, and interpolation between the recorded times. Without scripts one frame is shown.
+for (const source of document.querySelectorAll(".animation > script")) {
   const box = source.parentElement;
   const svg = box.querySelector("svg");
   const data = JSON.parse(source.textContent);
@@ -23,8 +23,8 @@ for (const source of document.querySelectorAll(".film > script")) {
       const middle = (low + high) >> 1;
       if (time[middle] <= now) low = middle; else high = middle;
     }
-    const share = Math.min(1, Math.max(0, (now - time[low]) / (time[high] - time[low])));
-    const mix = (values) => values[low] + share * (values[high] - values[low]);
+    const fraction = Math.min(1, Math.max(0, (now - time[low]) / (time[high] - time[low])));
+    const mix = (values) => values[low] + fraction * (values[high] - values[low]);
     tracks.forEach((track, index) => {
       const node = nodes[index];
       if (track.a === "transform") node.setAttribute("transform", `translate(${mix(track.x)} ${mix(track.y)})`);
