@@ -36,7 +36,7 @@ pub enum Error {
         dof: Dof,
     },
     /// The structure can move without strain.
-    #[error("mechanism: nothing holds point {point} in {dof}")]
+    #[error("mechanism: point {point} is not restrained in {dof}")]
     Mechanism {
         /// Point that moves most, weighted by stiffness.
         point: usize,
@@ -45,7 +45,7 @@ pub enum Error {
     },
     /// The error bound that rounding allows is larger than the accuracy asked for.
     #[error(
-        "condition {condition:.1e} bounds the error by {bound:.1e}, asked {asked:.1e}; weakest is point {point} in {dof}"
+        "condition {condition:.1e} bounds the error by {bound:.1e}, but {asked:.1e} is required; the least stiff degree of freedom is {dof} of point {point}"
     )]
     IllConditioned {
         /// Estimate of the condition number of the scaled stiffness.

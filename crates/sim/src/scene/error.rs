@@ -15,7 +15,7 @@ pub enum Error {
         source: splines::Error,
     },
     /// The mass or inertia of a free degree of freedom that is not positive.
-    #[error("body {body}: freedom {dof:?} is free but nothing has inertia there")]
+    #[error("body {body}: degree of freedom {dof:?} is free but has no inertia")]
     NoInertia {
         /// Which body.
         body: usize,
@@ -62,13 +62,13 @@ pub enum Error {
     /// An unsupported arrangement of a body on a structure that another body carries: on several carriers, on rails
     /// of different directions, as the carrier of its own carrier, with a load, rope or stop, or on a structure with
     /// mass or parts of its own.
-    #[error("body {body}: not a way to ride on another body, or to carry a structure")]
+    #[error("body {body}: cannot ride on another body or carry a structure in this way")]
     Carried {
         /// Which body.
         body: usize,
     },
     /// A load, drive or brake on a degree of freedom that is fixed or prescribed.
-    #[error("body {body}: freedom {dof:?} is not free, nothing can push it")]
+    #[error("body {body}: degree of freedom {dof:?} is not free, so a load cannot act on it")]
     NotFree {
         /// Which body.
         body: usize,
@@ -82,7 +82,7 @@ pub enum Error {
         contact: usize,
     },
     /// No contact forces exist at the given state.
-    #[error("no contact forces at t = {time}: the penetrations given do not belong to the state")]
+    #[error("no contact forces at t = {time}: the given penetrations do not fit the state")]
     NoForces {
         /// Time of the state.
         time: f64,
