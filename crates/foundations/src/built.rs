@@ -16,7 +16,7 @@ use sim::Foundation;
 ///
 /// let rigid = BuiltFoundation::from(sim::Foundation::rigid());
 /// assert_eq!(rigid.foundation.dofs(), 0);
-/// assert!(rigid.motion.is_none(), "nothing moves");
+/// assert!(rigid.basis.is_none(), "nothing moves");
 /// ```
 pub struct BuiltFoundation {
     /// The foundation that carries the rails.

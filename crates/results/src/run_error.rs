@@ -68,7 +68,8 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             };
             format!(
                 "{error}  hint: the centre of mass of each body (`cg`), including loads that hang or stand on it, \
-                 must lie between its wheels: check `at` and `tree` of the trucks{carried}, or give the body a `start`"
+                 must lie between its wheels: check `at` and `tree` of the trucks{carried}, or give the body a \
+                 `start`"
             )
         }
         _ => error.to_string(),

@@ -10,7 +10,8 @@ length by itself; Adams View does not convert SPLINEs that have no_units.";
 
 /// At a rail's marker.
 pub(crate) const FRAME: &str = "Frame of a rail: x along the rail, y up, origin at rail coordinate 0. Tables are \
-evaluated at DX in this frame; a different origin would shift them.";
+evaluated at DX in this frame; with a different origin they would be \
+evaluated at shifted positions.";
 
 /// At the first displacement of a rail.
 pub(crate) const CROSS: &str = "Cross terms: the force of wheel j is multiplied by G(x_i, x_j), which depends on \
@@ -22,7 +23,7 @@ penetration of a whole radius, and the corresponding force, in the first iterati
 
 /// At the first state of a penetration.
 pub(crate) const GAP: &str = "Gap rate: the damper acts between wheel and rail, on the rate of penetration, DIF1. VY \
-would act relative to ground and neglect the velocity of the rail.";
+alone would act relative to ground and neglect the velocity of the rail.";
 
 /// Where velocities are taken.
 pub(crate) const VELOCITY: &str = "VX..VZ have all four markers: without the fourth marker the time derivative is \

@@ -125,7 +125,8 @@ fn axial_tension(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option<Str
     let growth = growth.filter(|growth| *growth > TENSION)?;
     Some(format!(
         "{} lies between supports that restrain it lengthwise: axial tension would increase the bending stiffness of \
-         its members by a fraction of about {growth:.2}, which is neglected; release one end lengthwise if it can slide",
+         its members by a fraction of about {growth:.2}, which is neglected; release one end \
+         lengthwise if it can slide",
         rail.name
     ))
 }
