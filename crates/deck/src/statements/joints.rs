@@ -84,7 +84,7 @@ fn restrain(plan: &DeckPlan<'_>, b: usize, restraints: &mut Restraints<'_>) {
         restraints.out.push(
             Statement::new("JOINT", id)
                 .named(plain(&format!("plane_{}", body.name)))
-                .remark(format!("{}: z, roll and yaw are restrained by its track", body.name))
+                .remark(format!("{}: z, roll and yaw are held by its track", body.name))
                 .flag("PLANAR")
                 .reference("I", own.origin)
                 .reference("J", own.track),

@@ -102,15 +102,26 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         .table(table)
 }
 
-/// How the runs were computed: one sentence if all were computed alike, otherwise one for each run.
+/// How the runs were computed: one sentence for all runs that were computed alike.
 fn analyses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     let cases = document.cases.iter().zip(outcomes);
     let all: Vec<String> = cases.map(|(case, outcome)| analysis(&case.scene, outcome.run.method)).collect();
     if all.windows(2).all(|pair| pair[0] == pair[1]) {
         return all.first().map(|how| format!("The scene was computed {how}.")).into_iter().collect();
     }
-    let runs = outcomes.iter().zip(all);
-    runs.map(|(outcome, how)| format!("The run \"{}\" was computed {how}.", outcome.label)).collect()
+    let mut groups: Vec<(String, Vec<String>)> = Vec::new();
+    for (outcome, how) in outcomes.iter().zip(all) {
+        let label = format!("\"{}\"", outcome.label);
+        match groups.iter_mut().find(|(known, _)| *known == how) {
+            Some((_, labels)) => labels.push(label),
+            None => groups.push((how, vec![label])),
+        }
+    }
+    let sentence = |(how, labels): (String, Vec<String>)| {
+        let (runs, were) = if labels.len() == 1 { ("run", "was") } else { ("runs", "were") };
+        format!("The {runs} {} {were} computed {how}.", labels.join(", "))
+    };
+    groups.into_iter().map(sentence).collect()
 }
 
 /// How a scene was computed; `method` is the method of integration that its run took.
