@@ -3,6 +3,7 @@
 mod drives;
 mod events;
 mod fatigue;
+mod figures;
 mod grids;
 mod init;
 mod modes;
