@@ -22,7 +22,10 @@ fn a_figure_that_cannot_be_drawn_is_omitted_and_the_results_are_written() {
     let output = girderway(&folder, &["run", "scene.json", "-o", "out"]);
     let told = text(&output.stderr);
     assert_eq!(output.status.code(), Some(0), "{told}");
-    assert!(told.contains("warning: the figure girder-runway is omitted because it cannot be drawn"), "{told}");
+    assert!(
+        told.contains("warning: the figure girder-runway is omitted because it cannot be drawn"),
+        "{told}"
+    );
     for name in ["history.csv", "summary.json", "report.html", "plots/wheel-forces.svg"] {
         assert!(folder.path().join("out").join(name).is_file(), "{name}");
     }

@@ -1,5 +1,6 @@
 //! The command line: help, exit status, what goes where.
 
+mod alternatives;
 mod drives;
 mod events;
 mod fatigue;

@@ -133,7 +133,8 @@ fn a_standing_body_has_the_drive_force_of_the_general_stepper() {
         let found = solved(Method::Series, &scene, girder());
         let wanted = solved(Method::Radau, &scene, girder());
         assert_eq!(found.method, Some(Method::Series));
-        let largest = wanted.history.column(Channel::Drive(0)).iter().fold(0.0_f64, |max, x| max.max(x.abs()));
+        let largest =
+            wanted.history.column(Channel::Drive(0)).iter().fold(0.0_f64, |max, x| max.max(x.abs()));
         assert!(largest > 1e-3 * WEIGHT, "{largest}");
         for channel in [Channel::Drive(0), Channel::Vertical(0), Channel::Displacement(0, BodyDof::Y)] {
             let off = apart(&found, &wanted, channel);
