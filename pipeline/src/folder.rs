@@ -208,7 +208,9 @@ impl OutputFolder {
         let staging = self.stage(manifest)?;
         let older = staging.path().join("older");
         fs::create_dir(&older).map_err(at(&older))?;
-        let entries: Vec<OutputEntry> = self.listed.iter().chain(&manifest.outputs).cloned().collect();
+        let all = self.listed.iter().chain(&manifest.outputs);
+        let entries: Vec<OutputEntry> =
+            all.filter(|entry| !self.journal.listed().contains(entry)).cloned().collect();
         self.journal.list(&entries).map_err(at(&self.path))?;
         let mut exchange = Exchange { older, steps: Vec::new() };
         let placed = self.place(&staging.path().join("new"), &mut exchange);

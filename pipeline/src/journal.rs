@@ -37,9 +37,8 @@ impl Journal {
             let is_locked = match file.try_lock() {
                 Ok(()) => true,
                 Err(TryLockError::WouldBlock) => return Ok(None),
-                // without locks of the file system, nothing of other runs is removed
-                Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => false,
-                Err(TryLockError::Error(error)) => return Err(error),
+                // where the file system has no locks, runs do not exclude each other, and nothing of others is removed
+                Err(TryLockError::Error(_)) => false,
             };
             // another run may have ended, and removed its journal, between the opening and the lock
             if is_locked && !is_at(&file, &path)? {
@@ -80,13 +79,13 @@ impl Journal {
     pub fn list(&mut self, files: &[OutputEntry]) -> io::Result<()> {
         let lines: Vec<String> = files.iter().map(|entry| format!("{}\n", json!(entry))).collect();
         self.append(&format!("\n{}", lines.concat()))?;
+        self.file.sync_all()?;
         self.listed.extend_from_slice(files);
         Ok(())
     }
 
     fn append(&mut self, text: &str) -> io::Result<()> {
-        self.file.write_all(text.as_bytes())?;
-        self.file.sync_all()
+        self.file.write_all(text.as_bytes())
     }
 
     /// Removes the journal. The lock is released when the value is dropped.

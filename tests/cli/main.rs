@@ -3,6 +3,7 @@
 mod drives;
 mod events;
 mod fatigue;
+mod folders;
 mod grids;
 mod init;
 mod modes;
