@@ -1,9 +1,11 @@
 //! The command line: help, exit status, what goes where.
 
+mod alternatives;
 mod drives;
 mod events;
 mod fatigue;
 mod folders;
+mod figures;
 mod grids;
 mod init;
 mod modes;

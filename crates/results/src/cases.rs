@@ -38,8 +38,8 @@ use foundations::{SolvedModel, SolvedStructure, solution_of};
 /// ```
 ///
 /// # Errors
-/// [`Error::Foundation`] for a foundation that cannot be built, [`Error::Run`] for a scene that cannot start, and the
-/// errors of [`Response::new`], [`CodeCheck::new`] and [`fatigue::fatigue_results`].
+/// [`Error::Foundation`] for a foundation that cannot be built, [`Error::Run`] for a scene that cannot start,
+/// [`Error::NotFinite`] for a column with a value that is not a finite number, and the errors of [`Response::new`], [`CodeCheck::new`] and [`fatigue::fatigue_results`].
 pub fn simulate(
     document: &Document,
     known: &[SolvedStructure],
@@ -106,6 +106,9 @@ fn run_case(
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let codes = CodeCheck::new(&scene, &input, &record)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
+    if let Some((column, time)) = record.first_not_finite() {
+        return Err(Error::NotFinite { label, column: column.to_owned(), time });
+    }
     Ok(CaseResult { label, input, run, columns: record, choices, lines, response, codes, fatigue })
 }
 

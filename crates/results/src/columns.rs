@@ -75,6 +75,15 @@ impl NamedColumns {
         self.values(x).iter().zip(self.values(y)).map(|(&x, &y)| [x, y]).collect()
     }
 
+    /// Name of the first column with a value that is not a finite number, and the time of that value.
+    #[must_use]
+    pub fn first_not_finite(&self) -> Option<(&str, f64)> {
+        self.columns.iter().find_map(|column| {
+            let row = column.values.iter().position(|value| !value.is_finite())?;
+            Some((column.name.as_str(), self.values("time").get(row).copied().unwrap_or_default()))
+        })
+    }
+
     /// The columns as comma-separated values with a header; every number reads back to the last bit.
     ///
     /// # Errors

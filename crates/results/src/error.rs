@@ -47,4 +47,14 @@ pub enum Error {
         /// The error of the cycle count.
         source: practice::Error,
     },
+    /// A result is not a number or infinite.
+    #[error("{label}: {column} is not a finite number at t = {time} s")]
+    NotFinite {
+        /// Label of the case.
+        label: String,
+        /// Name of the column.
+        column: String,
+        /// Time of the first such value.
+        time: f64,
+    },
 }

@@ -24,6 +24,12 @@ use crate::{Action, Analysis, Body, Error, Fired, Foundation, Method, Scene, Ste
 /// and 0.03 of it at 100 ft/s.
 const LOCAL_PER_GLOBAL: f64 = 3.0;
 
+/// Methods that repeat a run which cannot continue, in order, each with a factor on the accuracy of the scene. Runs fail
+/// in this way sporadically, where one-sided contacts with a damper between wheel and rail open and close; another
+/// sequence of steps passes the place.
+const ALTERNATIVES: [(Method, f64); 4] =
+    [(Method::Sdirk4, 1.0), (Method::Radau, 0.5), (Method::Sdirk4, 0.5), (Method::Radau, 0.25)];
+
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Status {
@@ -80,6 +86,8 @@ pub struct Run {
     pub counts: Counts,
     /// The method of integration; `None` for a quasi-static sweep.
     pub method: Option<Method>,
+    /// The method that could not continue, and the time at which it stopped, if the run was repeated with another.
+    pub abandoned: Option<(Method, f64)>,
 }
 
 /// Runs `scene` on `foundations`, one for each structure. `watch` receives the time reached and may stop the run.
@@ -103,6 +111,9 @@ pub fn run(
 /// Same as [`run`], by a given [`Method`] or with steps of a fixed length. A quasi-static run does not use the
 /// method.
 ///
+/// If [`Method::Auto`] cannot continue because no step is small enough, the whole run is repeated with other methods and
+/// down to a quarter of the accuracy until it reaches the end; [`Run::method`] is the method of the result.
+///
 /// # Errors
 /// Those of [`run`], [`Error::Method`] if the method does not suit the scene, and [`Error::Number`] if the step is
 /// not positive.
@@ -112,7 +123,32 @@ pub fn run_by(
     foundations: &[Foundation],
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Run, Error> {
-    let Stepping { method, step } = stepping.into();
+    let stepping = stepping.into();
+    let first = attempt(stepping, scene, foundations, watch)?;
+    let abandoned = match (stepping.method, &first.status, first.method) {
+        (Method::Auto, Status::StepTooSmall(t), Some(method)) => (method, *t),
+        _ => return Ok(first),
+    };
+    for (method, factor) in ALTERNATIVES {
+        let finer = Scene { accuracy: factor * scene.accuracy, ..scene.clone() };
+        match attempt(Stepping { method, ..stepping }, &finer, foundations, watch) {
+            Ok(run) if run.status.is_complete() || run.status == Status::Stopped => {
+                return Ok(Run { abandoned: Some(abandoned), ..run });
+            }
+            _ => {}
+        }
+    }
+    Ok(first)
+}
+
+/// Runs a scene once. See [`run_by`].
+fn attempt(
+    stepping: Stepping,
+    scene: &Scene,
+    foundations: &[Foundation],
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Run, Error> {
+    let Stepping { method, step } = stepping;
     let system = System::new(scene, foundations)?;
     method.check(&system)?;
     let method = method.chosen(&system);
@@ -135,6 +171,7 @@ pub fn run_by(
                 audit: crossed.audit,
                 counts: crossed.counts,
                 method: Some(Method::Series),
+                abandoned: None,
             });
         }
         method = Method::Radau;
@@ -190,6 +227,7 @@ fn integrate(
         audit: stepper.audit(),
         counts: stepper.counts(),
         method: Some(stepping.method),
+        abandoned: None,
     })
 }
 
@@ -298,5 +336,5 @@ fn sweep(
         }
     }
     let (history, audit) = (recorder.into_history(), Audit::default());
-    Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None })
+    Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None, abandoned: None })
 }

@@ -18,6 +18,7 @@ fn solved(method: Method, scene: &Scene, foundation: Foundation) -> Run {
 fn apart(a: &Run, b: &Run, channel: Channel) -> f64 {
     let (a, b) = (a.history.column(channel), b.history.column(channel));
     assert_eq!(a.len(), b.len());
+    assert!(a.iter().chain(&b).all(|value| value.is_finite()), "{channel:?}");
     let size = b.iter().fold(1e-3_f64, |max, x| max.max(x.abs()));
     a.iter().zip(&b).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs())) / size
 }
@@ -113,6 +114,31 @@ fn errors_stay_below_the_accuracy_asked() {
             let residual = run.audit.residual();
             assert!(residual < 0.1 * scene.accuracy, "{speed} ft/s: energy to {residual:.1e}");
             assert!(run.counts.steps < 150 && run.counts.rejected == 0, "{:?}", run.counts);
+        }
+    }
+}
+
+/// Independent: the same scene by Radau at accuracy 1e-10. The slope of the rail under a standing wheel is not a rate
+/// of its deflection divided by a speed.
+#[test]
+fn a_standing_body_has_the_drive_force_of_the_general_stepper() {
+    for damper in [Damper::Ground, Damper::Rail] {
+        let mut scene = bogie(20.0, 0.5, damper);
+        scene.wheels[0].normal.damping = if damper == Damper::Rail { 0.0 } else { 1e5 };
+        scene.bodies[0].start_speed[1] = -0.5;
+        let table = [[0.0, 0.0]];
+        scene.bodies[0].motion =
+            Some(sim::Profile::new(sim::MotionKind::Speed, &table, 17.0, 0.0).expect("a valid table"));
+        scene.accuracy = 1e-10;
+        let found = solved(Method::Series, &scene, girder());
+        let wanted = solved(Method::Radau, &scene, girder());
+        assert_eq!(found.method, Some(Method::Series));
+        let largest =
+            wanted.history.column(Channel::Drive(0)).iter().fold(0.0_f64, |max, x| max.max(x.abs()));
+        assert!(largest > 1e-3 * WEIGHT, "{largest}");
+        for channel in [Channel::Drive(0), Channel::Vertical(0), Channel::Displacement(0, BodyDof::Y)] {
+            let off = apart(&found, &wanted, channel);
+            assert!(off < 1e-7, "{damper:?} {channel:?}: {off:.1e}");
         }
     }
 }

@@ -18,8 +18,7 @@ use formats::scene::Document;
 use formats::spec::Spec;
 use formats::tables;
 use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, solve_specs};
-use report::figures::error::FigureError;
-use report::figures::run::figures;
+use report::figures::run::{OmittedFigure, figures};
 use report::text::run_report;
 use results::case_result::CaseResult;
 use results::cases::simulate;
@@ -85,23 +84,22 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
-    let figures = figures(&document, &outcomes, &known, &comparison).map_err(|error| match error {
-        FigureError::Positions(error) => Failure::untrusted(error),
-        other => unexpected(other),
-    })?;
-    let drawn = parallel_map(&figures, global.threads, |_, figure| figure.svg());
-    for (figure, svg) in figures.iter().zip(drawn) {
-        folder.add(&format!("plots/{}.svg", figure.name), svg.map_err(unexpected)?.file());
+    let mut figures = figures(&document, &outcomes, &known, &comparison);
+    for (name, svg) in figures.draw(global.threads) {
+        folder.add(&format!("plots/{name}.svg"), svg.file());
     }
     clock.lap("plots");
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(&known, &structure.origin)).collect();
-    let report = run_report::report(&document, &outcomes, &solved, &comparison, figures);
+    let report = run_report::report(&document, &outcomes, &solved, &comparison, figures.figures);
     folder.add("report.html", report.html(global.threads).map_err(unexpected)?);
     clock.lap("report");
     folder.add_varying("timing.json", output::json(&clock.json()));
     let settings = json!({ "accuracy": scene.accuracy, "analysis": format!("{:?}", scene.analysis) });
     let written = folder.commit(Manifest::new(name, &document.inputs, settings))?;
+    for OmittedFigure { name, why } in figures.omitted {
+        progress.say(&format!("warning: the figure {name} is omitted because it cannot be drawn: {why}"));
+    }
     finish(&outcomes, &summary, &written, &document, global, &progress)
 }
 

@@ -15,6 +15,7 @@ use sim::Run;
 use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
 use formats::scene::motion::SimulationInput;
+use formats::scene::stepper_word;
 use formats::scene::{Analysis, Foundation, Origin, Scene, SceneRail, TableInterpolation, root_body};
 use formats::spec::Form;
 
@@ -43,6 +44,13 @@ pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
 
 fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: &Run) -> Vec<String> {
     let mut all = Vec::new();
+    if let (Some((abandoned, t)), Some(method)) = (run.abandoned, run.method) {
+        all.push(format!(
+            "the method {} could not continue at t = {t:.6} s; the run was repeated with the method {}",
+            stepper_word(abandoned),
+            stepper_word(method)
+        ));
+    }
     let residual = run.audit.residual();
     if residual > RESIDUAL {
         all.push(format!(

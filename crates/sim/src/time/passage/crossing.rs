@@ -474,6 +474,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
         if self.travel.root.is_none() {
             return;
         }
+        if self.travel.speed == 0.0 {
+            // the slopes of G are still those of the last evaluation, at the same places
+            self.geometry.update_rail_slope(self.system, &self.state.q, &self.state.force);
+            return;
+        }
         // Half of dG/dx times the forces; its product with the forces is the longitudinal force of all wheels.
         let mut slope = [0.0; P];
         let mut power = -0.5 / (self.series.scale * self.travel.speed);
