@@ -126,6 +126,9 @@ pub struct StudyArgs {
     /// Output folder [default: girderway-out/NAME, the scene's name]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace files in the folder that girderway did not write, or that have been changed since
+    #[arg(long)]
+    pub force: bool,
     /// The comparison of the scene to study [default: the scene itself]
     #[arg(long, value_name = "LABEL")]
     pub case: Option<String>,
@@ -152,6 +155,9 @@ pub struct CrosscheckArgs {
     /// Folder for the result as text and JSON, with plots of the differences [default: console only]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace files in the folder that girderway did not write, or that have been changed since
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// Beam theory that replaces that of the spec
     #[arg(long)]
     pub theory: Option<TheoryArg>,
@@ -468,4 +474,7 @@ pub struct SceneArgs {
     /// Output folder [default: girderway-out/NAME, the scene's name]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
+    /// Replace files in the folder that girderway did not write, or that have been changed since
+    #[arg(long)]
+    pub force: bool,
 }

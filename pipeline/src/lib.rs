@@ -4,13 +4,15 @@
 //! The libraries perform the work itself: `formats` reads files, `foundations` and `results` compute, and `deck`,
 //! `report` and `study` produce the output.
 //!
-//! Wings, lowest first: cli, clock, exit, progress, manifest, output, crosscheck, commands
+//! Wings, lowest first: cli, clock, exit, progress, manifest, journal, output, folder, crosscheck, commands
 
 pub mod cli;
 pub mod clock;
 pub mod commands;
 pub mod crosscheck;
 pub mod exit;
+pub mod folder;
+pub mod journal;
 pub mod manifest;
 pub mod output;
 pub mod progress;

@@ -1,12 +1,14 @@
 //! `manifest.json`: inputs, settings and outputs of a run.
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use formats::text::inputs::Inputs;
 
 /// Name of the manifest in an output folder.
 pub const MANIFEST: &str = "manifest.json";
+
+const FORMAT: &str = "girderway-manifest/1";
 
 /// Inputs, settings and outputs of a run. The manifest is written after all other files.
 #[derive(Clone, Debug, Serialize)]
@@ -31,7 +33,7 @@ struct InputEntry {
 }
 
 /// A file written.
-#[derive(Clone, Debug, Serialize)]
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct OutputEntry {
     /// Its name in the folder.
     pub name: String,
@@ -53,7 +55,7 @@ impl Manifest {
             sha256: input.sha256.clone(),
         };
         Manifest {
-            format: "girderway-manifest/1",
+            format: FORMAT,
             program: "girderway",
             version: env!("CARGO_PKG_VERSION"),
             command: command.to_owned(),
@@ -71,4 +73,16 @@ impl Manifest {
         text.push('\n');
         text
     }
+}
+
+/// The files that a manifest lists; `None` if the text is not a manifest of this program.
+#[must_use]
+pub fn listed_files(text: &[u8]) -> Option<Vec<OutputEntry>> {
+    #[derive(Deserialize)]
+    struct Listed {
+        format: String,
+        outputs: Vec<OutputEntry>,
+    }
+    let manifest: Listed = serde_json::from_slice(text).ok()?;
+    (manifest.format == FORMAT).then_some(manifest.outputs)
 }

@@ -1,6 +1,6 @@
-//! Atomic writing of output files and output folders.
+//! Atomic writing of output files, and standard output.
 
-use std::fs;
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -8,17 +8,49 @@ use serde_json::Value;
 use tempfile::NamedTempFile;
 
 use crate::exit::Failure;
-use crate::manifest::{MANIFEST, Manifest, OutputEntry};
 use crate::progress::Progress;
 use formats::text::diagnostic::Diagnostic;
-use formats::text::inputs::sha256;
+
+/// Beginning of the names of temporary files and folders.
+pub(crate) const TEMPORARY: &str = ".girderway-";
+
+/// Length of the random part of the names of temporary files and folders.
+const RANDOM: usize = 6;
+
+/// Symbolic links that are followed one after the other before they are taken for a circle.
+const LINKS: usize = 40;
 
 /// Writes a file atomically: writes a temporary file in the same folder, flushes it to the disk and renames it.
+///
+/// Symbolic links are followed, and the file to which they lead is replaced. What is not a regular file, such as a
+/// device or a pipe, is opened and written.
 ///
 /// # Errors
 /// An operation of the file system fails; the error contains the name of the file.
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
-    put(path, bytes).map_err(|error| cannot_write(path, &error))
+    let written = match fs::metadata(path) {
+        Ok(there) if !there.is_file() && !there.is_dir() => write_through(path, bytes),
+        _ => target(path).and_then(|path| put_by(&path, bytes, |file| file.persist(&path))),
+    };
+    written.map_err(|error| cannot_write(path, &error))
+}
+
+/// Writes to a device, a pipe or a terminal.
+fn write_through(path: &Path, bytes: &[u8]) -> io::Result<()> {
+    let mut file = OpenOptions::new().write(true).open(path)?;
+    file.write_all(bytes).and_then(|()| file.flush())
+}
+
+/// The path to which symbolic links lead; a file need not exist there.
+fn target(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..LINKS {
+        if !path.symlink_metadata().is_ok_and(|there| there.is_symlink()) {
+            return Ok(path);
+        }
+        path = folder_of(&path).join(fs::read_link(&path)?);
+    }
+    Err(io::Error::other("its symbolic links lead in a circle"))
 }
 
 /// Writes a file atomically, but fails if it exists already.
@@ -38,17 +70,14 @@ pub fn make(folder: &Path) -> Result<(), Failure> {
     fs::create_dir_all(folder).map_err(|error| cannot_write(folder, &error))
 }
 
-fn put(path: &Path, bytes: &[u8]) -> io::Result<()> {
-    put_by(path, bytes, |file| file.persist(path))
-}
-
 fn put_by(
     path: &Path,
     bytes: &[u8],
-    persist: impl FnOnce(NamedTempFile) -> Result<fs::File, tempfile::PersistError>,
+    persist: impl FnOnce(NamedTempFile) -> Result<File, tempfile::PersistError>,
 ) -> io::Result<()> {
     let folder = folder_of(path);
-    let mut file = tempfile::Builder::new().prefix(".girderway-").tempfile_in(&folder)?;
+    clear_dead_files(&folder);
+    let mut file = temporary(&folder)?;
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
     let file = persist(file).map_err(|error| error.error)?;
@@ -56,34 +85,90 @@ fn put_by(
     sync(&folder)
 }
 
+/// Creates a temporary file that is locked until it is closed, so that other runs do not take it for one that a dead
+/// run has left.
+fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+    loop {
+        let file = tempfile::Builder::new().prefix(TEMPORARY).rand_bytes(RANDOM).tempfile_in(folder)?;
+        // without locks of the file system, nothing is cleared either
+        let _ = file.as_file().lock();
+        if has_name(file.as_file())? {
+            return Ok(file);
+        }
+    }
+}
+
+/// Removes the temporary files of runs that have died: those that nobody has locked.
+///
+/// What cannot be removed remains.
+pub(crate) fn clear_dead_files(folder: &Path) {
+    for (path, kind) in temporaries(folder) {
+        if kind.is_file()
+            && let Ok(file) = File::open(&path)
+            && file.try_lock().is_ok()
+        {
+            let _ = fs::remove_file(&path);
+        }
+    }
+}
+
+/// Temporary files and folders of the program in a folder.
+pub(crate) fn temporaries(folder: &Path) -> Vec<(PathBuf, fs::FileType)> {
+    let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+    let ours = entries.filter(|entry| {
+        let name = entry.file_name();
+        let random = name.to_str().and_then(|name| name.strip_prefix(TEMPORARY));
+        random.is_some_and(|random| {
+            random.len() == RANDOM && random.bytes().all(|byte| byte.is_ascii_alphanumeric())
+        })
+    });
+    ours.filter_map(|entry| Some((entry.path(), entry.file_type().ok()?))).collect()
+}
+
+/// Whether an open file still has a name.
+#[cfg(unix)]
+fn has_name(file: &File) -> io::Result<bool> {
+    use std::os::unix::fs::MetadataExt;
+    Ok(file.metadata()?.nlink() > 0)
+}
+
+#[cfg(not(unix))]
+fn has_name(_file: &File) -> io::Result<bool> {
+    Ok(true)
+}
+
 /// Makes a file readable for all users. Temporary files are created readable for their owner only.
 #[cfg(unix)]
-fn readable(file: &fs::File) -> io::Result<()> {
+fn readable(file: &File) -> io::Result<()> {
     use std::os::unix::fs::PermissionsExt;
     file.set_permissions(fs::Permissions::from_mode(0o644))
 }
 
 #[cfg(not(unix))]
-fn readable(_file: &fs::File) -> io::Result<()> {
+fn readable(_file: &File) -> io::Result<()> {
     Ok(())
 }
 
 /// Flushes renames in a folder to the disk, on systems that support it.
-fn sync(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) { fs::File::open(folder)?.sync_all() } else { Ok(()) }
+pub(crate) fn sync(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
 }
 
-fn folder_of(path: &Path) -> PathBuf {
+/// The folder of a file.
+pub(crate) fn folder_of(path: &Path) -> PathBuf {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent.to_path_buf(),
         _ => PathBuf::from("."),
     }
 }
 
-fn cannot_write(path: &Path, error: &io::Error) -> Failure {
+/// Creates the failure of a file that cannot be written.
+pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
     let why = match error.kind() {
         io::ErrorKind::NotFound => "its folder does not exist".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
+        io::ErrorKind::InvalidFilename => "its name is too long for the file system".to_owned(),
+        io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
         io::ErrorKind::NotADirectory => "part of its path is not a folder".to_owned(),
         _ => error.to_string(),
     };
@@ -133,145 +218,9 @@ pub fn deliver_bytes(path: Option<&Path>, bytes: &[u8], progress: &Progress) -> 
     Ok(())
 }
 
-/// Contents of an output folder, which are kept in memory until [`OutputFolder::commit`] writes them.
-#[derive(Debug)]
-pub struct OutputFolder {
-    path: PathBuf,
-    files: Vec<(String, Vec<u8>, bool)>,
-}
-
-impl OutputFolder {
-    /// Creates an empty output folder in memory for the path `path`.
-    ///
-    /// # Errors
-    /// No folder can be created at `path` because part of it is a file.
-    pub fn new(path: &Path) -> Result<OutputFolder, Failure> {
-        let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
-        if let Some(part) = there.filter(|part| !part.is_dir()) {
-            let expected = format!("cannot be an output folder: {} is a file", part.display());
-            return Err(Diagnostic::of_file(path.display().to_string(), expected).into());
-        }
-        Ok(OutputFolder { path: path.to_path_buf(), files: Vec::new() })
-    }
-
-    /// Adds a file under its name in the folder, such as `plots/path.svg`, and replaces an earlier one of this name.
-    pub fn add(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
-        self.put(name, bytes.into(), true);
-    }
-
-    /// Adds a file whose contents may differ between equal runs; the manifest does not contain its size and hash.
-    pub fn add_varying(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
-        self.put(name, bytes.into(), false);
-    }
-
-    fn put(&mut self, name: &str, bytes: Vec<u8>, fixed: bool) {
-        self.files.retain(|(known, ..)| known != name);
-        self.files.push((name.to_owned(), bytes, fixed));
-    }
-
-    /// Writes all files and then `manifest.json`, which lists them.
-    ///
-    /// All files are first written to the disk under temporary names. Then an older manifest is removed, the files
-    /// are renamed, and the new manifest is written, so that a manifest never lists files of another run. Files that
-    /// the older manifest lists are removed if this run does not write them and they have not been changed since.
-    ///
-    /// # Errors
-    /// An operation of the file system fails; the error contains the name of the file.
-    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Failure> {
-        self.files.sort_by(|a, b| a.0.cmp(&b.0));
-        for (name, bytes, fixed) in &self.files {
-            let sha256 = fixed.then(|| sha256(bytes));
-            manifest.outputs.push(OutputEntry {
-                name: name.clone(),
-                bytes: fixed.then_some(bytes.len()),
-                sha256,
-            });
-        }
-        let path = self.path.clone();
-        self.write(&manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
-        Ok(path)
-    }
-
-    fn write(&self, manifest: &Manifest) -> Result<(), (PathBuf, io::Error)> {
-        let fail = |file: &Path| {
-            let file = file.to_path_buf();
-            move |error: io::Error| (file, error)
-        };
-        fs::create_dir_all(&self.path).map_err(fail(&self.path))?;
-        let staging = tempfile::Builder::new()
-            .prefix(".girderway-")
-            .tempdir_in(&self.path)
-            .map_err(fail(&self.path))?;
-        let mut folders = vec![self.path.clone()];
-        for (index, (name, bytes, _)) in self.files.iter().enumerate() {
-            let target = self.path.join(name);
-            let folder = folder_of(&target);
-            if !folders.contains(&folder) {
-                fs::create_dir_all(&folder).map_err(fail(&folder))?;
-                folders.push(folder);
-            }
-            let mut file = fs::File::create(staging.path().join(index.to_string())).map_err(fail(&target))?;
-            file.write_all(bytes).and_then(|()| file.sync_all()).map_err(fail(&target))?;
-        }
-        let manifest_path = self.path.join(MANIFEST);
-        let older =
-            fs::read(&manifest_path).ok().and_then(|bytes| serde_json::from_slice::<Value>(&bytes).ok());
-        match fs::remove_file(&manifest_path) {
-            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err((manifest_path, error)),
-            _ => {}
-        }
-        self.clear(older.as_ref());
-        for (index, (name, ..)) in self.files.iter().enumerate() {
-            let target = self.path.join(name);
-            fs::rename(staging.path().join(index.to_string()), &target).map_err(fail(&target))?;
-        }
-        for folder in &folders {
-            sync(folder).map_err(fail(folder))?;
-        }
-        put(&manifest_path, manifest.text().as_bytes()).map_err(fail(&manifest_path))
-    }
-
-    /// Removes files of an older run that have not been changed since and that this run does not write.
-    fn clear(&self, older: Option<&Value>) {
-        let listed = older.and_then(|manifest| manifest.get("outputs")).and_then(Value::as_array);
-        for entry in listed.into_iter().flatten() {
-            let text = |key: &str| entry.get(key).and_then(Value::as_str);
-            let Some(name) = text("name") else { continue };
-            let inside =
-                Path::new(name).components().all(|part| matches!(part, std::path::Component::Normal(_)));
-            if !inside || self.files.iter().any(|(known, ..)| known == name) {
-                continue;
-            }
-            let path = self.path.join(name);
-            let unchanged =
-                fs::read(&path).is_ok_and(|bytes| Some(sha256(&bytes).as_str()) == text("sha256"));
-            if unchanged {
-                // a file that cannot be removed remains, but the new manifest does not list it
-                let _ = fs::remove_file(&path);
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use formats::text::inputs::Inputs;
-    use serde_json::json;
-
-    fn commit(path: &Path, files: &[(&str, &str)]) {
-        let mut folder = OutputFolder::new(path).expect("no file is in the way");
-        for (name, text) in files {
-            folder.add(name, *text);
-        }
-        folder.add_varying("timing.json", "0.1");
-        folder.commit(Manifest::new("run", &Inputs::default(), json!({}))).expect("a writable folder");
-    }
-
-    fn manifest(path: &Path) -> Value {
-        let text = fs::read(path.join(MANIFEST)).expect("a manifest");
-        serde_json::from_slice(&text).expect("JSON")
-    }
 
     fn names(path: &Path) -> Vec<String> {
         let entries = fs::read_dir(path).expect("a folder");
@@ -283,38 +232,6 @@ mod tests {
     }
 
     #[test]
-    fn a_folder_has_its_files_and_a_manifest_and_nothing_else() {
-        let temporary = tempfile::tempdir().expect("a temporary folder");
-        let path = temporary.path().join("deep/out");
-        commit(&path, &[("b.csv", "1,2"), ("plots/a.svg", "<svg/>")]);
-        assert_eq!(names(&path), ["b.csv", "manifest.json", "plots", "timing.json"]);
-        let outputs = manifest(&path)["outputs"].clone();
-        assert_eq!(outputs[0], json!({ "name": "b.csv", "bytes": 3, "sha256": sha256(b"1,2") }));
-        assert_eq!(outputs[2], json!({ "name": "timing.json" }));
-    }
-
-    #[test]
-    fn a_new_run_takes_away_what_the_old_one_left_but_not_what_a_user_changed() {
-        let temporary = tempfile::tempdir().expect("a temporary folder");
-        let path = temporary.path();
-        commit(path, &[("history.csv", "1"), ("history-old.csv", "2"), ("history-mine.csv", "3")]);
-        fs::write(path.join("history-mine.csv"), "edited").expect("writable");
-        fs::write(path.join("notes.txt"), "mine").expect("writable");
-        commit(path, &[("history.csv", "4")]);
-        let left = ["history-mine.csv", "history.csv", "manifest.json", "notes.txt", "timing.json"];
-        assert_eq!(names(path), left);
-        assert_eq!(fs::read(path.join("history.csv")).expect("written"), b"4");
-    }
-
-    #[test]
-    fn a_folder_under_a_file_is_refused_before_any_work() {
-        let temporary = tempfile::tempdir().expect("a temporary folder");
-        let file = temporary.path().join("file");
-        fs::write(&file, "x").expect("writable");
-        assert!(OutputFolder::new(&file.join("out")).is_err());
-    }
-
-    #[test]
     fn a_file_that_cannot_be_replaced_leaves_no_trace() {
         let temporary = tempfile::tempdir().expect("a temporary folder");
         let path = temporary.path().join("folder");
@@ -322,5 +239,40 @@ mod tests {
         assert!(write(&path, b"x").is_err());
         assert_eq!(names(temporary.path()), ["folder"]);
         assert!(names(&path).is_empty());
+    }
+
+    #[test]
+    fn temporary_files_of_dead_runs_are_removed_and_those_of_living_runs_remain() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let dead = folder.path().join(".girderway-Dead01");
+        fs::write(&dead, "half").expect("writable");
+        let mine = folder.path().join(".girderway-notes");
+        fs::write(&mine, "mine").expect("writable");
+        let living = temporary(folder.path()).expect("a temporary file");
+        write(&folder.path().join("grid.json"), b"{}").expect("writable");
+        assert!(!dead.exists() && mine.exists() && living.path().exists());
+        drop(living);
+        assert_eq!(names(folder.path()), [".girderway-notes", "grid.json"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_link_stays_and_the_file_behind_it_is_replaced() {
+        use std::os::unix::fs::symlink;
+        let temporary = tempfile::tempdir().expect("a temporary folder");
+        let folder = temporary.path();
+        fs::create_dir(folder.join("deep")).expect("writable");
+        fs::write(folder.join("deep/old.json"), "old").expect("writable");
+        for (link, target) in [("one", "deep/two"), ("deep/two", "old.json"), ("new", "deep/new.json")] {
+            symlink(target, folder.join(link)).expect("a link");
+        }
+        write(&folder.join("one"), b"first").expect("writable");
+        write(&folder.join("new"), b"second").expect("writable");
+        let is_link = |name: &str| folder.join(name).symlink_metadata().is_ok_and(|there| there.is_symlink());
+        assert!(is_link("one") && is_link("deep/two") && is_link("new"));
+        assert_eq!(fs::read(folder.join("deep/old.json")).expect("written"), b"first");
+        assert_eq!(fs::read(folder.join("deep/new.json")).expect("written"), b"second");
+        symlink("circle", folder.join("circle")).expect("a link");
+        assert!(write(&folder.join("circle"), b"x").is_err());
     }
 }

@@ -5,6 +5,7 @@ mod drives;
 mod events;
 mod fatigue;
 mod figures;
+mod folders;
 mod grids;
 mod init;
 mod modes;

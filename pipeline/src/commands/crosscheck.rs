@@ -8,8 +8,9 @@ use crate::crosscheck::{
     self, Environment, Error, Peer, PeerComparison, PeerOutcome, PlainGrid, Station, plot,
 };
 use crate::exit::{Exit, Failure};
+use crate::folder::{OutputFolder, PlannedFiles};
 use crate::manifest::Manifest;
-use crate::output::{self, OutputFolder};
+use crate::output;
 use crate::progress::Progress;
 use formats::grid::block::GridBlock;
 use formats::spec::{Form, Spec, theory_word};
@@ -33,7 +34,12 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     if let Some(theory) = args.theory {
         spec = spec.with_theory(theory.into());
     }
-    let folder = args.output.as_deref().map(OutputFolder::new).transpose()?;
+    let planned = PlannedFiles {
+        names: vec!["crosscheck.json".to_owned(), "crosscheck.txt".to_owned()],
+        plots: vec!["difference-".to_owned()],
+    };
+    let open = |path| OutputFolder::open(path, "crosscheck", args.force, &planned);
+    let folder = args.output.as_deref().map(open).transpose()?;
     let mut check = Check::new(&source, spec)?;
     let mut result = PeerComparison { rails: check.rails(), ..PeerComparison::default() };
     for peer in Peer::ALL {

@@ -6,6 +6,7 @@ use serde_json::json;
 
 use crate::cli::{Global, InitArgs, Starter};
 use crate::exit::{Exit, Failure};
+use crate::folder::check_path;
 use crate::output;
 use crate::progress::Progress;
 use formats::text::diagnostic::Diagnostic;
@@ -43,7 +44,7 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let folder = args.folder.clone().unwrap_or_else(|| PathBuf::from("."));
     // a folder that cannot be created is reported before any file is written
-    output::OutputFolder::new(&folder)?;
+    check_path(&folder)?;
     let files: Vec<(PathBuf, &str)> =
         files(args.what).iter().map(|(name, text)| (place(&folder, name), *text)).collect();
     let taken: Vec<Diagnostic> = files

@@ -8,6 +8,7 @@ pub mod fea;
 mod fewest;
 pub mod import;
 pub mod init;
+mod planned;
 pub mod run;
 pub mod schema;
 pub mod sim;

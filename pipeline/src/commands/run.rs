@@ -5,11 +5,13 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
+use super::planned::{check_names, planned_files};
 use crate::cli::{Global, SceneArgs as Arguments};
 use crate::clock::StageClock;
 use crate::exit::{Exit, Failure};
+use crate::folder::OutputFolder;
 use crate::manifest::Manifest;
-use crate::output::{self, OutputFolder};
+use crate::output;
 use crate::progress::Progress;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
@@ -44,7 +46,8 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&scene.name));
-    let mut folder = OutputFolder::new(&path)?;
+    check_names(&document, &path)?;
+    let mut folder = OutputFolder::open(&path, name, args.force, &planned_files(name, &document))?;
     clock.lap("read");
 
     let known = structures(&document, &path, &progress)?;

@@ -8,7 +8,7 @@ use serde_json::Value;
 use super::run::job;
 use crate::cli::{Global, SceneArgs as Arguments};
 use crate::exit::{Exit, Failure};
-use crate::manifest::MANIFEST;
+use crate::manifest::{MANIFEST, OutputEntry, listed_files};
 use crate::progress::Progress;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
@@ -17,6 +17,9 @@ use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use foundations::SolvedModel;
 use foundations::{SolvedStructure, distinct_specs};
+
+/// Hint of errors of the tables.
+const HINT: &str = "`girderway run` makes the tables";
 
 /// Simulates with the grids of the output folder, and rewrites the folder.
 ///
@@ -36,36 +39,45 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedSt
             known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved });
             continue;
         }
-        unchanged(document, folder, file)?;
-        let path = folder.join(format!("grid-{name}.json"));
-        known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved(spec, &path)? });
+        let manifest = folder.join(MANIFEST);
+        let entries = unchanged(document, &manifest, file)?;
+        let grid = format!("grid-{name}.json");
+        let listed =
+            entries.iter().find(|entry| entry.name == grid).and_then(|entry| entry.sha256.as_deref());
+        let path = folder.join(&grid);
+        known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved(spec, &path, listed)? });
     }
     Ok(known)
 }
 
-/// Checks by its hash in the manifest that the spec is the one from which the tables were computed.
-fn unchanged(document: &Document, folder: &Path, file: &str) -> Result<(), Failure> {
-    let path = folder.join(MANIFEST);
+/// Checks by its hash in the manifest that the spec is the one from which the tables were computed. Returns the files
+/// that the manifest lists.
+fn unchanged(document: &Document, path: &Path, file: &str) -> Result<Vec<OutputEntry>, Failure> {
     let refuse = |why: &str| {
         let mut wrong = Diagnostic::of_file(path.display().to_string(), why.to_owned());
-        wrong.hint = Some("`girderway run` makes the tables".to_owned());
+        wrong.hint = Some(HINT.to_owned());
         Failure::Input(vec![wrong])
     };
-    let text = std::fs::read(&path).map_err(|_| refuse("there are no tables yet"))?;
+    let text = std::fs::read(path).map_err(|_| refuse("there are no tables yet"))?;
+    let outputs = listed_files(&text).ok_or_else(|| refuse("is not a manifest"))?;
     let manifest: Value = serde_json::from_slice(&text).map_err(|_| refuse("is not a manifest"))?;
     let entries = manifest["inputs"].as_array().map(Vec::as_slice).unwrap_or_default();
     let then = entries.iter().find(|entry| entry["name"] == file).and_then(|entry| entry["sha256"].as_str());
     let now = document.inputs.find(file).map(|input| input.sha256.as_str());
     if then.is_some() && then == now {
-        Ok(())
+        Ok(outputs)
     } else {
         Err(refuse(&format!("its tables were not made from {file} as it is now")))
     }
 }
 
-/// Reads grid and exact surface from a grid file.
-fn solved(spec: &Spec, path: &Path) -> Result<SolvedModel, Failure> {
-    let (_, source) = Inputs::open(path)?;
+/// Reads grid and exact surface from a grid file, which must have the hash that the manifest lists.
+fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel, Failure> {
+    let (inputs, source) = Inputs::open(path)?;
+    if listed != Some(inputs.all()[0].sha256.as_str()) {
+        let wrong = Diagnostic::of_file(&source.name, format!("is not the grid that {MANIFEST} lists"));
+        return Err(wrong.hint(HINT).into());
+    }
     let (grid, surface) = grid_file::read(&source)?;
     let wrong = |why: &str| Failure::Input(vec![Diagnostic::of_file(source.name.clone(), why.to_owned())]);
     if grid.units != spec.units {

@@ -7,8 +7,9 @@ use serde_json::json;
 
 use crate::cli::{Global, StudyArgs as Arguments};
 use crate::exit::{Exit, Failure};
+use crate::folder::{OutputFolder, PlannedFiles};
 use crate::manifest::Manifest;
-use crate::output::{self, OutputFolder};
+use crate::output;
 use crate::progress::Progress;
 use formats::scene::{Case, Document};
 use formats::text::diagnostic::Diagnostic;
@@ -28,7 +29,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     document.cases = vec![case(&document, args)?];
     let scene = document.scene().clone();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&name));
-    let mut folder = OutputFolder::new(&path)?;
+    let mut folder = OutputFolder::open(&path, "study", args.force, &planned(args.stability))?;
     let mut budget = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
     budget.limit = args.limit.unwrap_or(budget.limit);
     budget.resolution = args.resolution.unwrap_or(budget.resolution);
@@ -76,6 +77,17 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         output::print(&output::json(&all))?;
     }
     judge(&study, &budget)
+}
+
+/// Files that the command writes. Names of charts are known only at the end.
+fn planned(stability: bool) -> PlannedFiles {
+    let names: &[&str] = if stability {
+        &["stability.json", "stability.csv"]
+    } else {
+        &["study.json", "study.csv", "timing.json", "timing.csv"]
+    };
+    let plots = if stability { vec!["stability-".to_owned()] } else { Vec::new() };
+    PlannedFiles { names: names.iter().map(|name| (*name).to_owned()).collect(), plots }
 }
 
 /// Computes and writes maps of the parameters for which methods fail.
