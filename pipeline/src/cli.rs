@@ -123,7 +123,7 @@ pub enum Starter {
 pub struct StudyArgs {
     /// Scene file
     pub scene: PathBuf,
-    /// Output folder [default: girderway-out/NAME, the scene's name]
+    /// Output folder [default: girderway-out/NAME-study, after the scene's name]
     #[arg(short, long, value_name = "DIR")]
     pub output: Option<PathBuf>,
     /// Replace files in the folder that girderway did not write, or that have been changed since

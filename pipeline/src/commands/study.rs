@@ -28,7 +28,8 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let name = document.scene().name.clone();
     document.cases = vec![case(&document, args)?];
     let scene = document.scene().clone();
-    let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&name));
+    let folder = || PathBuf::from("girderway-out").join(format!("{name}-study"));
+    let path = args.output.clone().unwrap_or_else(folder);
     let mut folder = OutputFolder::open(&path, "study", args.force, &planned(args.stability))?;
     let mut budget = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
     budget.limit = args.limit.unwrap_or(budget.limit);
