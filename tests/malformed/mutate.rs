@@ -73,7 +73,7 @@ fn damaged_specs_are_refused_or_give_finite_grids() {
     let mut solved = 0;
     for name in ["spec.json", "frame.json"] {
         let text = text_of(name);
-        for _ in 0..4000 {
+        for _ in 0..5000 {
             let damaged = source(name, damaged(&text, &mut dice));
             let Ok(spec) = Spec::read(&damaged, None) else { continue };
             let grid = spec

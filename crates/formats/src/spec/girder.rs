@@ -5,6 +5,7 @@ use fea::{BeamTheory, Girder};
 use super::raw::RawGirder;
 use super::structure::range;
 use crate::check::Check;
+use crate::limits::{SPANS, STATIONS};
 use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -74,6 +75,7 @@ fn read_lengths(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> (Vec<
         if given.is_empty() {
             check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
         }
+        check.items(given.len(), &SPANS, &place);
         for (index, span) in given.iter().enumerate() {
             let hint = "spans are lengths, first support to last";
             spans.push(check.positive(*span, &place.index(index), Dimension::LENGTH, hint));
@@ -106,6 +108,7 @@ fn read_stations(
     if given.is_empty() {
         check.faults.add(Fault::new(&place, "must have at least one station").got("an empty list"));
     }
+    check.items(given.len(), &STATIONS, &place);
     check.faults.increasing(given, &place);
     let mut stations = Vec::new();
     for (index, station) in given.iter().enumerate() {

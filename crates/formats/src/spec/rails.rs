@@ -5,6 +5,7 @@ use fea::{Model, Rail, RailSegment};
 use super::members::Cells;
 use super::raw::{RawRail, RawSpec};
 use crate::check::Check;
+use crate::limits::STATIONS;
 use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -66,6 +67,7 @@ fn read_rail(
     if raw.stations.is_some() && stations.is_empty() {
         check.faults.add(Fault::new(&line, "must have at least one station").got("an empty list"));
     }
+    check.items(stations.len(), &STATIONS, &line);
     check.faults.increasing(stations, &line);
     let mut rail = Rail { origin, axis, segments, stations: Vec::new() };
     for (index, station) in stations.iter().enumerate() {

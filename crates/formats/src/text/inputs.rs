@@ -1,11 +1,14 @@
 //! Input files: each is read once and stored with its hash.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
 use super::diagnostic::Diagnostic;
 use super::source::Source;
+use crate::limits::FILE_BYTES;
 
 /// One input file of a job.
 #[derive(Clone, Debug)]
@@ -22,7 +25,7 @@ pub struct Input {
 
 impl Input {
     fn read(name: String, path: &Path) -> Result<Input, String> {
-        let bytes = std::fs::read(path).map_err(|error| read_error_message(&error))?;
+        let bytes = read_limited(path, FILE_BYTES)?;
         Ok(Input { name, display_name: path.display().to_string(), sha256: sha256(&bytes), bytes })
     }
 
@@ -93,6 +96,35 @@ impl Inputs {
     }
 }
 
+/// Reads a regular file or a pipe of at most `most` bytes. Devices are refused, because they may have no end.
+fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, String> {
+    let message = |error: std::io::Error| read_error_message(&error);
+    let kind = std::fs::metadata(path).map_err(message)?;
+    if !(kind.is_file() || kind.is_dir() || is_pipe(&kind)) {
+        return Err("cannot be read: it is neither a file nor a pipe".to_owned());
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(message)?;
+    file.take(most + 1).read_to_end(&mut bytes).map_err(message)?;
+    if bytes.len() as u64 > most {
+        return Err(format!(
+            "cannot be read: it has more than {} MB, the largest size of an input",
+            most >> 20
+        ));
+    }
+    Ok(bytes)
+}
+
+#[cfg(unix)]
+fn is_pipe(kind: &std::fs::Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&kind.file_type())
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: &std::fs::Metadata) -> bool {
+    false
+}
+
 /// Message of an error of the file system.
 pub fn read_error_message(error: &std::io::Error) -> String {
     let why = match error.kind() {
@@ -108,4 +140,18 @@ pub fn read_error_message(error: &std::io::Error) -> String {
 #[must_use]
 pub fn sha256(bytes: &[u8]) -> String {
     Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_is_read_up_to_its_limit_and_refused_beyond() {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("Cargo.toml");
+        let size = std::fs::metadata(&path).expect("the manifest of this crate").len();
+        assert_eq!(read_limited(&path, size).map(|bytes| bytes.len() as u64), Ok(size));
+        let why = read_limited(&path, size - 1).expect_err("one byte too long");
+        assert!(why.starts_with("cannot be read: it has more than"), "{why}");
+    }
 }

@@ -33,7 +33,14 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
         return;
     }
     let Ok(cast) = simulation_input(scene) else { return };
-    let rigid: Vec<sim::Foundation> = scene.structures.iter().map(|_| sim::Foundation::rigid()).collect();
+    let rigid: Vec<sim::Foundation> = scene
+        .structures
+        .iter()
+        .map(|structure| sim::Foundation {
+            irregularities: structure.irregularities.clone(),
+            ..sim::Foundation::rigid()
+        })
+        .collect();
     let wanted = match method.suits(&cast.scene, &rigid) {
         Err(sim::Error::Method { wanted, .. }) => Some(wanted),
         _ => scene.structures.iter().find_map(|structure| match structure.foundation {

@@ -6,6 +6,7 @@ mod body;
 mod event;
 mod files;
 mod gauge;
+mod inertia;
 mod irregularity;
 mod method;
 mod mount;

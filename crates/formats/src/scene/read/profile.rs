@@ -2,6 +2,7 @@
 
 use super::files::Files;
 use crate::check::Check;
+use crate::limits::{MAGNITUDES, ROWS};
 use crate::scene::raw::RawIrregularity;
 use crate::tables::{CsvColumns, disorder};
 use crate::text::fault::{Fault, nearest, number};
@@ -36,8 +37,11 @@ pub(super) fn profile(
     let length = check.scale.factor(Dimension::LENGTH);
     let scaled = |[x, value]: [f64; 2]| [x * length, value * length * scale];
     let rows: Vec<[f64; 2]> = rows.into_iter().map(scaled).collect();
-    if rows.iter().flatten().any(|number| !number.is_finite()) {
-        check.faults.add(Fault::new(&place, "must stay within double precision after `scale`"));
+    check.items(rows.len(), &ROWS, &place);
+    let [_, largest] = MAGNITUDES;
+    if rows.iter().flatten().any(|number| number.is_nan() || number.abs() > largest) {
+        let expected = format!("must have numbers of at most {} after `scale`", number(largest));
+        check.faults.add(Fault::new(&place, expected));
     }
     Some(rows)
 }

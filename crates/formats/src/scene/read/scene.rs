@@ -3,10 +3,11 @@
 use super::files::Files;
 use super::rail::rail_named;
 use super::{
-    actuator, body, event, method, mount, output, pin, practice, rope, spin, stop, structure, truck,
+    actuator, body, event, inertia, method, mount, output, pin, practice, rope, spin, stop, structure, truck,
     truck_spacing, wheel,
 };
 use crate::check::Check;
+use crate::limits::{BODIES, HISTORY_BYTES, ROW_NUMBERS, WHEELS};
 use crate::scene::raw::RawScene;
 use crate::scene::values::body::{Body, BodyMotion, SPACE, is_carried, root_of};
 use crate::scene::values::scene::{Analysis, FORMAT, Scene, SceneRail};
@@ -23,9 +24,6 @@ const ACCURACY: f64 = 1e-4;
 
 /// Default number of rows of a history.
 const ROWS: f64 = 1000.0;
-
-/// Maximum number of rows of a history.
-const MOST_ROWS: f64 = 1e7;
 
 /// Checks a scene. Faults of the scene are added to `faults`, and faults of the files to which it refers to `files`.
 ///
@@ -92,6 +90,7 @@ pub(in crate::scene) fn read(
         stepping: method::read(raw, &root, check),
     };
     read_trucks(raw, &mut scene, &root, check);
+    check_rows(&scene, &root, check);
     read_actions(raw, &mut scene, &root, check);
     units.map(|_| scene)
 }
@@ -109,6 +108,7 @@ fn read_bodies(
     if raw.bodies.0.is_empty() {
         check.faults.add(Fault::new(root, "must have at least one body in `bodies`"));
     }
+    check.items(raw.bodies.0.len(), &BODIES, &place);
     for (name, raw) in &raw.bodies.0 {
         let at = place.key(name);
         check_name(name, &at, check.faults);
@@ -153,6 +153,7 @@ fn read_actions(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut
     if check.faults.0.is_empty() {
         mount::check(scene, check.faults);
         check_travel(raw, scene, root, check.faults);
+        inertia::check(raw, scene, root, check.faults);
         method::suits(scene, root, check.faults);
     }
 }
@@ -216,13 +217,31 @@ fn read_interval(raw: &RawScene, end: f64, root: &Place<'_>, check: &mut Check<'
     let Some(dt) = raw.output.as_ref().and_then(|output| output.dt) else { return end / ROWS };
     let output = root.key("output");
     let place = output.key("dt");
-    let dt = check.positive(dt, &place, Dimension::TIME, "time between two rows of the history");
-    if dt > 0.0 && end / dt > MOST_ROWS {
-        let fault =
-            Fault::new(&place, format!("must be at least {}", number(end / MOST_ROWS))).got(number(dt));
-        check.faults.add(fault.hint("a history has 10 million rows at most"));
+    check.positive(dt, &place, Dimension::TIME, "time between two rows of the history")
+}
+
+/// Checks the memory that the rows of the history need.
+fn check_rows(scene: &Scene, root: &Place<'_>, check: &mut Check<'_>) {
+    let wheels: usize = scene.trucks.iter().map(|truck| truck.wheel_offsets().len()).sum();
+    let [own, body, wheel] = ROW_NUMBERS;
+    let numbers = own + body * scene.bodies.len() as f64 + wheel * wheels as f64;
+    let most = HISTORY_BYTES / (8.0 * numbers);
+    if scene.dt > 0.0 && scene.end / scene.dt > most {
+        let output = root.key("output");
+        let expected = format!("must be at least {}", short(scene.end / most));
+        let fault = Fault::new(&output.key("dt"), expected).got(number(scene.dt));
+        check.faults.add(fault.hint(format!(
+            "the {} rows of this history would take more than {} GB",
+            format_args!("{:.1e}", scene.end / scene.dt),
+            number(HISTORY_BYTES / 1e9)
+        )));
     }
-    dt
+}
+
+/// A positive number rounded up to two digits.
+fn short(value: f64) -> String {
+    let unit = 10f64.powf(value.log10().floor() - 1.0);
+    format!("{:.1e}", (value / unit).ceil() * unit)
 }
 
 fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut Check<'_>) {
@@ -232,6 +251,12 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
             Fault::new(root, "must have at least one truck in `trucks`")
                 .hint("bodies run on their rails with trucks"),
         );
+    }
+    let wheels: usize = raw.trucks.iter().map(truck::count).sum();
+    if wheels > WHEELS.most {
+        let fault = Fault::new(&place, format!("must have at most {} wheels in all", WHEELS.most));
+        check.faults.add(fault.got(wheels).hint(WHEELS.reason));
+        return;
     }
     let mut counts = vec![0; scene.bodies.len()];
     let mut trucks: Vec<Truck> = Vec::new();

@@ -3,8 +3,9 @@
 use sim::{MotionKind, Profile, Schedule};
 
 use crate::check::Check;
+use crate::limits::{ROWS, TIME_RESOLUTION};
 use crate::scene::raw::RawMotion;
-use crate::text::fault::Fault;
+use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
@@ -31,12 +32,29 @@ pub(super) fn read_rows(
         return None;
     }
     let times: Vec<f64> = table.iter().map(|row| row[0]).collect();
-    let ordered = check.faults.increasing(&times, place);
+    let ordered = check.items(table.len(), &ROWS, place)
+        && check.faults.increasing(&times, place)
+        && are_apart(&times, place, check);
     let mut rows = Vec::new();
     for (index, [t, value]) in table.iter().enumerate() {
         rows.push([*t, check.number(*value, &place.index(index), unit)]);
     }
     ordered.then_some(rows)
+}
+
+/// Whether increasing times are far enough apart. If not, a fault is added for the first time that is too close to
+/// the one before it.
+fn are_apart(times: &[f64], place: &Place<'_>, check: &mut Check<'_>) -> bool {
+    let largest = times.iter().fold(1.0, |largest: f64, t| largest.max(t.abs()));
+    let least = TIME_RESOLUTION * largest;
+    let close = times.windows(2).position(|pair| pair[1] - pair[0] < least);
+    if let Some(first) = close {
+        let expected = format!("must be at least {} after the time before it", number(least));
+        let fault = Fault::new(&place.index(first + 1).index(0), expected).got(number(times[first + 1]));
+        let hint = format!("the time before it is {}; for a jump take a short ramp", number(times[first]));
+        check.faults.add(fault.hint(hint));
+    }
+    close.is_none()
 }
 
 /// A table of a motion: its key, its kind, its rows as written, and the dimension of its values.

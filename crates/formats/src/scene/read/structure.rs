@@ -2,18 +2,20 @@
 
 use std::sync::Arc;
 
+use sim::PartChain;
 use splines::Couplings;
 
 use super::files::Files;
 use super::{gauge, irregularity, tables, ties};
 use crate::check::Check;
+use crate::limits::{ELEMENTS as MOST_ELEMENTS, MODES as MOST_MODES, PARTS};
 use crate::scene::raw::{RawStructure, RawTables};
 use crate::scene::values::structure::{
     DEFAULT_PARTS, ELEMENTS, Foundation, Handover, MODES, Origin, Structure, TOLERANCE, TableInterpolation,
 };
 use crate::spec::ties::Ties;
 use crate::spec::{RailOutline, Spec};
-use crate::text::fault::{Fault, nearest};
+use crate::text::fault::{Fault, nearest, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
 
@@ -64,6 +66,11 @@ pub(super) fn read(
     {
         let fault = Fault::new(&at.key("foundation"), "\"parts\" needs a straight girder");
         check.faults.add(fault.hint("the short form of a spec, with `girder`"));
+    }
+    if let (Foundation::Parts { count, handover, .. }, Origin::Spec { spec, .. }) = (foundation, &origin)
+        && let Some(girder) = spec.girder()
+    {
+        windows_fit(girder, count, handover, at, check);
     }
     let rails = origin.rails();
     if interpolation != TableInterpolation::Exact {
@@ -133,7 +140,7 @@ fn read_count(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> usiz
         let fault = Fault::new(&at.key("count"), "must be at least 2").got(count);
         check.faults.add(fault.hint("number of rigid parts of the chain"));
     }
-    count
+    if check.count(count, &PARTS, &at.key("count")) { count } else { DEFAULT_PARTS }
 }
 
 fn read_interpolation(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> TableInterpolation {
@@ -221,10 +228,12 @@ fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> 
 
 /// Reads the damping ratio of the natural modes. The numbers of modes and elements must not be 0.
 fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
-    for (key, count) in [("modes", raw.modes), ("elements", raw.elements)] {
+    for (key, count, limit) in [("modes", raw.modes, &MOST_MODES), ("elements", raw.elements, &MOST_ELEMENTS)]
+    {
         if count == Some(0) {
             check.faults.add(Fault::new(&at.key(key), "must be at least 1").got(0));
         }
+        check.count(count.unwrap_or(0), limit, &at.key(key));
     }
     let (place, given) = (at.key("damping"), raw.damping.unwrap_or(0.0));
     let damping =
@@ -245,6 +254,28 @@ fn read_handover(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> H
     let hint = "length over which a wheel passes from one part to the next";
     let length = check.optional_positive(raw.blend, &at.key("blend"), Dimension::LENGTH, hint);
     if per_part { Handover::PerPart { length } } else { Handover::Blend { length } }
+}
+
+/// Checks that the windows in which wheels pass from part to part do not overlap.
+fn windows_fit(
+    girder: &fea::Girder,
+    count: usize,
+    handover: Handover,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    let (Handover::Blend { length: Some(length) } | Handover::PerPart { length: Some(length) }) = handover
+    else {
+        return;
+    };
+    let (from, to) = (-girder.overhangs[0], girder.spans.iter().sum::<f64>() + girder.overhangs[1]);
+    let ends: Vec<f64> = (0..=count).map(|j| from + (to - from) * j as f64 / count as f64).collect();
+    if check.faults.0.is_empty() && PartChain::new(ends, 0, Some(length)).is_none() {
+        let expected =
+            format!("must be at most {}, the length of a part", number((to - from) / count as f64));
+        let fault = Fault::new(&at.key("blend"), expected).got(number(length));
+        check.faults.add(fault.hint("the windows about neighbouring joints must not overlap"));
+    }
 }
 
 fn read_spec(file: &str, at: &Place<'_>, files: &mut Files<'_>, check: &mut Check<'_>) -> Option<Origin> {

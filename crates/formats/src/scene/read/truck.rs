@@ -37,6 +37,17 @@ pub(super) fn read(
     Some(Truck { name, body, rail: rail?, wheel: wheel?, at: position, tree })
 }
 
+/// Number of wheels of a truck as written.
+pub(super) fn count(raw: &RawTruck) -> usize {
+    fn below(node: &RawNode) -> usize {
+        match node {
+            RawNode::Wheel(_) => 1,
+            RawNode::Equaliser(ends) => ends.iter().map(below).sum(),
+        }
+    }
+    raw.tree.as_ref().map_or(1, |tree| tree.iter().map(below).sum())
+}
+
 /// Index of the item that the truck names under a key or, if it names none, of the only existing item.
 fn named_or_only(
     name: &Option<String>,
