@@ -19,7 +19,7 @@ const DOUBTFUL_PIVOT: f64 = 1e-12;
 /// Such a pivot, in double-doubles, at which nothing stiffens the rotation: that of a mechanism.
 const NO_PIVOT: f64 = 1e-27;
 /// Largest such pivot that the rounding of coordinates can explain.
-const LARGEST_NO_PIVOT: f64 = 1e-20;
+const LARGEST_NO_PIVOT: f64 = 1e-24;
 
 /// The scaled stiffness S K S of the unknowns; S is diagonal, its entries are powers of two.
 #[derive(Debug)]
