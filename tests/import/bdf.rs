@@ -334,7 +334,7 @@ fn numbers_keep_their_bits() {
 }
 
 #[test]
-fn what_has_no_stiffness_is_released() {
+fn what_has_no_stiffness_gets_none() {
     // a cantilever of PBAR without J beside one with; a rod with J in place of the bar
     let common = "MAT1,1,2.+11,,.25\nGRID,1,,0.,0.,0.,,123456\nGRID,2,,2.,0.,0.\nGRID,3,,4.,0.,0.\nGRID,4,,4.,1.,0.,,123456\n";
     let bars = "CBAR,1,5,1,2,0.,1.,0.\nCBAR,2,5,2,3,0.,1.,0.\nPROD,6,1,.01,.001\nCROD,3,6,3,4\n";
@@ -351,10 +351,16 @@ fn what_has_no_stiffness_is_released() {
         assert!((stiff[freedom] - soft[freedom]).abs() <= 1e-12 * stiff.amax(), "{freedom}");
     }
     let data = &json(&imported)["cell_data"];
-    assert_eq!(data["release_a"], value!([[["rx"], ["rx"], ["ry", "rz"]]]));
-    assert_eq!(data["release_b"], value!([[[], [], ["ry", "rz"]]]));
+    assert_eq!(data["kind"], value!([["beam", "beam", "rod"]]));
+    assert_eq!((&data["release_a"], &data["release_b"]), (&value!(null), &value!(null)));
+    let sections = &json(&imported)["sections"];
+    assert_eq!(
+        sections[0],
+        value!({ "name": "PBAR 5", "material": "MAT1 1", "A": 0.02, "Iy": 2e-4, "Iz": 1e-4, "J": 0.0 })
+    );
+    assert_eq!(sections[1], value!({ "name": "PROD 6", "material": "MAT1 1", "A": 0.01, "J": 0.001 }));
     let warned: Vec<&str> = imported.warnings.iter().map(|warning| warning.path.as_str()).collect();
-    assert_eq!(warned, ["PROD 6", "PBAR 5"]);
+    assert_eq!(warned, ["PBAR 5"]);
     // the rod resists rotation about its axis with G J / L
     let turned = displacements(&frame(&of("1.-3").1), &["GRID 3"], [0.0, 0.0, 0.0, 0.0, 1e3, 0.0]);
     let (ei, gj, length) = (2e11 * 2e-4, 8e10 * 1e-3, 4.0f64);
@@ -478,4 +484,52 @@ fn rails_lie_on_the_elements_named() {
         let wrong = deck(&text("decks/mill.bdf"), &options).expect_err("no rail can lie there");
         assert!(told(&wrong).contains(part), "{rail}: {}", told(&wrong));
     }
+}
+
+/// Natural frequencies of an imported deck, Hz, as `fea --modes` computes them.
+fn frequencies(deck_text: &str, rail: &str, count: usize) -> Vec<f64> {
+    let imported = deck(deck_text, &with_rail(rail, [0.0, 0.0, 1.0])).expect("a deck");
+    let frame = frame(&imported);
+    let found = fea::refined_modes(&frame.model, &[], count, 1e-3).expect("solvable").modes.modes;
+    found.iter().map(|mode| mode.omega / std::f64::consts::TAU).collect()
+}
+
+#[test]
+fn rods_with_and_without_j_have_the_same_frequencies() {
+    // a mass on three rods; a girder on a hanger
+    let tripod = "GRID,1,,0.,0.,0.,,123456\nGRID,2,,0.,0.,3.,,456\nGRID,3,,4.,0.,0.,,123456\n\
+        GRID,4,,0.,4.,0.,,123456\nCROD,1,1,1,2\nCROD,2,1,3,2\nCROD,3,1,4,2\nMAT1,1,2.1+11,,.3,7850.\n\
+        CONM2,9,2,,1000.\n";
+    let hung = "GRID,1,,0.,0.,0.,,123456\nGRID,2,,6.,0.,0.\nGRID,3,,12.,0.,0.,,23456\n\
+        GRID,4,,6.,0.,6.,,123456\nCBAR,1,2,1,2,0.,0.,1.\nCBAR,2,2,2,3,0.,0.,1.\nCROD,3,1,2,4\n\
+        PBAR,2,1,.02,4.-4,1.-4,1.-5\nMAT1,1,2.1+11,,.3,7850.\n";
+    for (cards, rail, lowest, tolerance) in
+        [(tripod, "r=2/axis=-1,0,0", 20.47, 1e-12), (hung, "r=1,2", 8.95, 1e-2)]
+    {
+        let with = frequencies(&format!("{cards}PROD,1,1,.001,1.-7\n"), rail, 3);
+        let without = frequencies(&format!("{cards}PROD,1,1,.001\n"), rail, 3);
+        assert!((with[0] / lowest - 1.0).abs() < 1e-3, "{with:?}");
+        for (a, b) in with.iter().zip(&without) {
+            assert!((a / b - 1.0).abs() < tolerance, "{with:?} {without:?}");
+        }
+    }
+}
+
+#[test]
+fn bars_without_j_deflect_alike_along_an_axis_and_at_45_degrees() {
+    let of = |points: [[f64; 2]; 3]| {
+        let grids: String =
+            (1..=3).zip(points).map(|(id, [x, y])| format!("GRID,{id},,{x:?},{y:?},0.\n")).collect();
+        let cards = "CBAR,1,1,1,2,0.,0.,1.\nCBAR,2,1,2,3,0.,0.,1.\nPBAR,1,1,.01,1.-4,2.-4\n\
+            MAT1,1,2.1+11,,.3,7850.\nSPC1,1,123456,1,3\n";
+        let imported =
+            deck(&format!("{grids}{cards}"), &with_rail("r=1,2", [0.0, 0.0, 1.0])).expect("a deck");
+        displacements(&frame(&imported), &["GRID 2"], [0.0, 0.0, 1.0, 0.0, 0.0, 0.0])[2]
+    };
+    let side = 50.0f64.sqrt();
+    let along = of([[0.0, 0.0], [side, 0.0], [2.0 * side, 0.0]]);
+    let skew = of([[0.0, 0.0], [5.0, 5.0], [10.0, 10.0]]);
+    let exact = 200.0 * 2f64.sqrt() * 10.0 / (192.0 * 2.1e11 * 1e-4);
+    assert!((along / exact - 1.0).abs() < 1e-12, "{along} {exact}");
+    assert!((skew / along - 1.0).abs() < 1e-12, "{skew} {along}");
 }

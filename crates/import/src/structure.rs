@@ -2,6 +2,7 @@
 
 use std::collections::BTreeMap;
 
+use fea::MemberKind;
 use formats::units::Units;
 
 /// A point with its name in the file of the model.
@@ -54,8 +55,8 @@ pub struct ImportedMember {
     pub id: u64,
     /// Indices of its points.
     pub points: [usize; 2],
-    /// Whether it has axial stiffness only.
-    pub truss: bool,
+    /// Which deformations it resists.
+    pub kind: MemberKind,
     /// Index of its section; for a tapered member, of the section at end a.
     pub section: usize,
     /// Index of the section at end b of a tapered member; `None` if the member is uniform.

@@ -1,5 +1,6 @@
 //! Writes a structure as the text of a beam spec.
 
+use fea::MemberKind;
 use serde_json::{Map, Value, json};
 
 use super::structure::{ImportedRail, ImportedSection, ImportedStructure};
@@ -82,11 +83,15 @@ fn cell_data(structure: &ImportedStructure) -> Value {
             data.insert(key.to_owned(), json!([column]));
         }
     };
-    let kind = |truss: bool| if truss { "truss" } else { "beam" };
+    let kind = |kind: MemberKind| match kind {
+        MemberKind::Beam => "beam",
+        MemberKind::Truss => "truss",
+        MemberKind::Rod => "rod",
+    };
     put(
         "kind",
-        members.iter().any(|member| member.truss),
-        members.iter().map(|member| json!(kind(member.truss))).collect(),
+        members.iter().any(|member| member.kind != MemberKind::Beam),
+        members.iter().map(|member| json!(kind(member.kind))).collect(),
     );
     put("section", true, members.iter().map(|member| json!(member.section)).collect());
     put(

@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use crate::assembly::combination::Combination;
 use crate::assembly::element::{Matrix6, vector};
 use crate::assembly::precision::Real;
+use crate::assembly::turning::TurnedAxes;
 use crate::dof::DofSet;
 use crate::model::Model;
 
@@ -20,6 +21,8 @@ pub(crate) struct Body<T: Real = f64> {
     pub basis: Matrix6<T>,
     /// Columns that the supports leave free.
     pub free: DofSet,
+    /// Columns that are rotations about axes about which nothing stiffens the body, see [`Bodies::turn`].
+    pub unstiffened: DofSet,
     /// The independent constraints that act on the body, as (point, degree of freedom): each has a reaction.
     pub constraints: Vec<(usize, usize)>,
 }
@@ -59,6 +62,22 @@ impl<T: Real> Bodies<T> {
         let mut arms = vec![Vector3::zeros(); n];
         let list = groups.iter().map(|group| Body::new(m, group, &fixed, &mut arms)).collect();
         Bodies { list, of_point, arms }
+    }
+
+    /// Makes the rotational columns of some bodies those about other axes.
+    pub fn turn(&mut self, turned: &[TurnedAxes]) {
+        for own in turned {
+            let body = &mut self.list[own.body];
+            let old = body.basis;
+            for k in 0..3 {
+                let mut column = old.column(3).into_owned() * T::from(own.axes[(0, k)]);
+                for other in 1..3 {
+                    column += old.column(3 + other) * T::from(own.axes[(other, k)]);
+                }
+                body.basis.set_column(3 + k, &column);
+                body.unstiffened[3 + k] = own.unstiffened[k];
+            }
+        }
     }
 
     /// Bodies of a pair of points.
@@ -162,7 +181,7 @@ impl<T: Real> Body<T> {
             basis.column_mut(pivot).fill(T::zero());
         }
         let constraints = pivots.iter().map(|&(row, _)| names[row]).collect();
-        Body { reference, basis, free, constraints }
+        Body { reference, basis, free, unstiffened: [false; 6], constraints }
     }
 }
 

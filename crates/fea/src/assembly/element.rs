@@ -92,7 +92,11 @@ impl<T: Real> Element<T> {
         (0..m.members.len()).map(|index| Element::new(m, index)).collect()
     }
 
-    fn new(m: &Model, index: usize) -> Result<Element<T>, Error> {
+    /// The element of one member.
+    ///
+    /// # Errors
+    /// As [`Element::all`].
+    pub fn new(m: &Model, index: usize) -> Result<Element<T>, Error> {
         let member = &m.members[index];
         let invalid = |fault| Error::Invalid { entry: ModelEntry::Member(index), fault };
         let offsets = member.offsets.map(vector);
@@ -108,8 +112,10 @@ impl<T: Real> Element<T> {
         let axes = local_axes(along / length, vector(member.orientation), member.kind)
             .ok_or(invalid(EntryFault::Orientation))?;
         let mut flexibility = m.sections[member.section].flexibility(m.theory);
-        if member.kind == MemberKind::Truss {
-            flexibility = axial_only(flexibility);
+        match member.kind {
+            MemberKind::Beam => {}
+            MemberKind::Truss => flexibility = without_bending(f64::INFINITY, flexibility),
+            MemberKind::Rod => flexibility = without_bending(flexibility.torsion, flexibility),
         }
         let mut stiffness: Matrix12<T> = stiffness(&flexibility, length);
         let unreleased_diagonal = std::array::from_fn(|k| stiffness[(k, k)].double());
@@ -180,17 +186,17 @@ pub(crate) fn triad<T: Real>(x: Vector3<T>, y: Vector3<T>) -> Option<Matrix3<T>>
     Some(Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]))
 }
 
-/// Local axes of a member. A truss does not use its y axis: without an orientation any normal will do.
+/// Local axes of a member. Trusses and rods do not use their y axis: without an orientation any normal will do.
 fn local_axes<T: Real>(x: Vector3<T>, orientation: Vector3<T>, kind: MemberKind) -> Option<Matrix3<T>> {
     let least = (0..3).fold(0, |a, b| if x[b].magnitude() < x[a].magnitude() { b } else { a });
     let any = || triad(x, Matrix3::identity().column(least).into());
-    triad(x, orientation).or_else(|| if kind == MemberKind::Truss { any() } else { None })
+    triad(x, orientation).or_else(|| if kind == MemberKind::Beam { None } else { any() })
 }
 
-/// The flexibility of a truss: it resists its change of length alone.
-fn axial_only(f: Flexibility) -> Flexibility {
+/// The flexibility of a member that resists its change of length, twist with the flexibility `torsion`, and no bending.
+fn without_bending(torsion: f64, f: Flexibility) -> Flexibility {
     let none = f64::INFINITY;
-    Flexibility { axial: f.axial, torsion: none, bending_y: none, bending_z: none, ..Flexibility::default() }
+    Flexibility { axial: f.axial, torsion, bending_y: none, bending_z: none, ..Flexibility::default() }
 }
 
 /// Exact stiffness of a uniform member in local axes, degrees of freedom ux uy uz rx ry rz at each end.

@@ -8,7 +8,8 @@
 //!
 //! All of it is written for one number type, so that it can be repeated in double-doubles.
 //!
-//! Order of the files: `precision`, `sparse`, `ordering`, `element`, `combination`, `bodies`, `stiffness`.
+//! Order of the files: `precision`, `sparse`, `ordering`, `element`, `combination`, `turning`, `bodies`,
+//! `stiffness`.
 
 mod bodies;
 mod combination;
@@ -17,6 +18,7 @@ mod ordering;
 mod precision;
 mod sparse;
 mod stiffness;
+mod turning;
 
 pub(crate) use bodies::{Bodies, arm};
 pub(crate) use combination::Combination;

@@ -3,16 +3,23 @@
 use nalgebra::{SMatrix, Vector3};
 use sprs::CsMat;
 
-use crate::assembly::bodies::Bodies;
+use crate::assembly::bodies::{Bodies, Body};
 use crate::assembly::element::{Element, Matrix12};
 use crate::assembly::ordering::{Graph, order};
-use crate::assembly::precision::Real;
+use crate::assembly::precision::{Extended, Real};
 use crate::assembly::sparse::{Triplets, column_norm};
+use crate::assembly::turning::{TurnedAxes, unstiffened_axes};
 use crate::error::Error;
 use crate::model::{GroundSpring, Model};
 
 /// Size of an entry of a transformation, in roundings of the magnitudes behind it, at which it counts as zero.
 const CANCELLED: f64 = 8.0;
+/// Pivot of the scaled rotational stiffness of a body, in doubles, below which it is formed again in double-doubles.
+const DOUBTFUL_PIVOT: f64 = 1e-12;
+/// Such a pivot, in double-doubles, at which nothing stiffens the rotation: that of a mechanism.
+const NO_PIVOT: f64 = 1e-27;
+/// Largest such pivot that the rounding of coordinates can explain.
+const LARGEST_NO_PIVOT: f64 = 1e-24;
 
 /// The scaled stiffness S K S of the unknowns; S is diagonal, its entries are powers of two.
 #[derive(Debug)]
@@ -31,6 +38,8 @@ pub(crate) struct Numbering {
     pub unknown: Vec<Option<usize>>,
     /// Column of each unknown.
     pub column: Vec<usize>,
+    /// Bodies whose rotational columns are not about the global axes.
+    pub turned: Vec<TurnedAxes>,
     /// Diagonal of S, by unknown.
     pub scale: Vec<f64>,
     /// Predicted operations of the factor, at most.
@@ -202,6 +211,28 @@ impl<T: Real> Contributions<T> {
         triplets.sum()
     }
 
+    /// Stiffness of the three rotational columns of each body.
+    fn rotational_blocks(&self, bodies: usize) -> Vec<[[T; 3]; 3]> {
+        let mut blocks = vec![[[T::zero(); 3]; 3]; bodies];
+        for (pair, k) in &self.members {
+            for (end, &body) in pair.iter().enumerate() {
+                for (i, row) in blocks[body].iter_mut().enumerate() {
+                    for (j, entry) in row.iter_mut().enumerate() {
+                        *entry += k[(6 * end + 3 + i, 6 * end + 3 + j)];
+                    }
+                }
+            }
+        }
+        for &(body, row, stiffness) in &self.springs {
+            for (i, entries) in blocks[body].iter_mut().enumerate() {
+                for (j, entry) in entries.iter_mut().enumerate() {
+                    *entry += stiffness * row[3 + i] * row[3 + j];
+                }
+            }
+        }
+        blocks
+    }
+
     fn cancellation(&self, numbering: &Numbering) -> f64 {
         numbering.column.iter().map(|&c| self.bulk[c] / self.diagonal[c]).fold(1.0, f64::max)
     }
@@ -214,23 +245,34 @@ impl<T: Real> Contributions<T> {
 
 impl ScaledStiffness {
     /// Numbers the unknowns and adds up their stiffness. A column with a diagonal of exactly zero is left
-    /// out: nothing stiffens it.
-    pub fn new(m: &Model, elements: &[Element], bodies: &Bodies) -> ScaledStiffness {
-        let parts = Contributions::new(m, elements, bodies);
+    /// out: nothing stiffens it. So is a rotation about any other axis about which nothing stiffens a body: its
+    /// rotational columns are turned.
+    ///
+    /// # Errors
+    /// As [`Element::all`].
+    pub fn new(m: &Model, elements: &[Element], bodies: &mut Bodies) -> Result<ScaledStiffness, Error> {
+        let mut parts = Contributions::new(m, elements, bodies);
+        let turned = turned_axes(m, elements, bodies, &parts)?;
+        if !turned.is_empty() {
+            bodies.turn(&turned);
+            parts = Contributions::new(m, elements, bodies);
+        }
         let edges: Vec<[usize; 2]> = parts.members.iter().map(|part| part.0).collect();
         let at: Vec<[f64; 3]> = bodies.list.iter().map(|body| m.points[body.reference]).collect();
         let mut unknown = vec![None; parts.diagonal.len()];
         let mut column = Vec::new();
         let (order, operations) = order(&Graph::new(at.len(), &edges), &at);
         for body in order {
-            for k in (0..6).filter(|&k| bodies.list[body].free[k] && parts.diagonal[6 * body + k] > 0.0) {
+            let Body { free, unstiffened, .. } = &bodies.list[body];
+            let stiffened = |&k: &usize| free[k] && !unstiffened[k] && parts.diagonal[6 * body + k] > 0.0;
+            for k in (0..6).filter(stiffened) {
                 unknown[6 * body + k] = Some(column.len());
                 column.push(6 * body + k);
             }
         }
         // The scale comes from the doubles also where the stiffness is formed again in double-doubles.
         let scale = column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
-        parts.stiffness(Numbering { unknown, column, scale, operations })
+        Ok(parts.stiffness(Numbering { unknown, column, turned, scale, operations }))
     }
 
     /// Upper triangle of S K S + shift * identity.
@@ -245,7 +287,9 @@ impl<T: Real> ScaledStiffness<T> {
     /// # Errors
     /// As [`Element::all`].
     pub fn in_precision(m: &Model, numbering: &Numbering) -> Result<ScaledStiffness<T>, Error> {
-        let parts = Contributions::new(m, &Element::all(m)?, &Bodies::new(m));
+        let mut bodies = Bodies::new(m);
+        bodies.turn(&numbering.turned);
+        let parts = Contributions::new(m, &Element::all(m)?, &bodies);
         Ok(parts.stiffness(numbering.clone()))
     }
 
@@ -258,6 +302,51 @@ impl<T: Real> ScaledStiffness<T> {
     pub fn norm(&self) -> f64 {
         column_norm(&self.upper)
     }
+}
+
+/// Bodies that can rotate without strain about an axis that is not global, while all others are at rest.
+///
+/// The rotational stiffness of each body shows in doubles whether it may be singular; only where it may, it is formed
+/// again in double-doubles, as for a mechanism. Members that meet in a straight line do so within the rounding of their
+/// coordinates: the square of that angle is no stiffness.
+fn turned_axes(
+    m: &Model,
+    elements: &[Element],
+    bodies: &Bodies,
+    parts: &Contributions<f64>,
+) -> Result<Vec<TurnedAxes>, Error> {
+    let count = bodies.list.len();
+    let blocks = parts.rotational_blocks(count);
+    let doubtful: Vec<bool> =
+        blocks.iter().map(|block| !unstiffened_axes(block, DOUBTFUL_PIVOT).is_empty()).collect();
+    if !doubtful.contains(&true) {
+        return Ok(Vec::new());
+    }
+    let mut tolerances = vec![NO_PIVOT; count];
+    let mut adjacent = Vec::new();
+    for (index, element) in elements.iter().enumerate() {
+        let pair = bodies.pair(element.points);
+        if pair[0] == pair[1] || !pair.iter().any(|&body| doubtful[body]) {
+            continue;
+        }
+        adjacent.push(Element::<Extended>::new(m, index)?);
+        let far = element.ends.iter().fold(0.0_f64, |most, end| most.max(end.amax()));
+        let angle = 4.0 * f64::EPSILON * far / element.length;
+        for body in pair {
+            tolerances[body] = tolerances[body].max(angle * angle).min(LARGEST_NO_PIVOT);
+        }
+    }
+    let bodies = Bodies::<Extended>::new(m);
+    let blocks = Contributions::new(m, &adjacent, &bodies).rotational_blocks(count);
+    let mut turned = Vec::new();
+    for body in (0..count).filter(|&body| doubtful[body]) {
+        let axes = unstiffened_axes(&blocks[body], tolerances[body]);
+        if !axes.is_empty() {
+            let free = [0, 1, 2].map(|k| blocks[body][k][k].double() > 0.0);
+            turned.push(TurnedAxes::new(body, &axes, free));
+        }
+    }
+    Ok(turned)
 }
 
 /// The power of two nearest to 1/sqrt(x).

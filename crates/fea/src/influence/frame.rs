@@ -67,12 +67,12 @@ impl FactoredFrame {
     pub fn with_accuracy(m: &Model, rails: &[Rail], accuracy: f64) -> Result<FactoredFrame, Error> {
         m.check()?;
         let elements = Element::all(m)?;
-        let bodies = Bodies::new(m);
+        let mut bodies = Bodies::new(m);
         let layout = if rails.is_empty() { None } else { Some(Layout::new(m, rails, &elements, &bodies)?) };
         if let Some(layout) = &layout {
             check_coverage(&layout.line, rails)?;
         }
-        let stiffness = ScaledStiffness::new(m, &elements, &bodies);
+        let stiffness = ScaledStiffness::new(m, &elements, &mut bodies)?;
         let factored = Factored::new(m, &stiffness, &bodies, accuracy)?;
         let (line, states) = match layout {
             Some(layout) => (Some(Arc::new(layout.line)), layout.states),

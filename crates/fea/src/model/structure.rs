@@ -12,6 +12,9 @@ pub enum MemberKind {
     Beam,
     /// Its change of length alone; its ends transmit no moment.
     Truss,
+    /// Its change of length and its twist; its ends transmit no bending moment. The mass moves with the straight line
+    /// between the ends and has no inertia in twist.
+    Rod,
 }
 
 /// A straight uniform member between two points, with rigid offsets and releases.
@@ -35,7 +38,7 @@ pub struct Member {
     pub kind: MemberKind,
     /// Index of its section.
     pub section: usize,
-    /// Any global vector in the half plane of local x and +y. A truss may leave it zero.
+    /// Any global vector in the half plane of local x and +y. Trusses and rods may leave it zero.
     pub orientation: [f64; 3],
     /// Rigid offsets: global vectors from the points to the ends of the flexible part, length.
     pub offsets: [[f64; 3]; 2],

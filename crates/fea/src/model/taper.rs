@@ -59,17 +59,31 @@ impl Model {
     /// members that replaces it.
     ///
     /// `tapers` has one entry for each member, `None` where the member is uniform. New points and sections
-    /// are appended. Offsets and releases stay at the outer ends. A truss stays one member, with the
-    /// section that gives the elongation of the tapered one. A member with an index that does not exist is
+    /// are appended. Offsets and releases stay at the outer ends. A truss or a rod stays one member, with the
+    /// section that gives the elongation and the twist of the tapered one. A member with an index that does not exist is
     /// copied unchanged; [`Model::check`] reports it.
     #[must_use]
     pub fn tapered(&self, tapers: &[Option<Taper>]) -> (Model, Vec<Range<usize>>) {
+        self.tapered_by(tapers, |_, _| None)
+    }
+
+    /// [`Model::tapered`] for members of which some have properties that do not vary linearly.
+    ///
+    /// `section(member, [from, to])` is the uniform section that replaces the stretch `from`..`to` (fractions
+    /// of the length, 0 to 1) of a tapered member; `None` where its properties vary linearly, see
+    /// [`CrossSection::between`].
+    #[must_use]
+    pub fn tapered_by(
+        &self,
+        tapers: &[Option<Taper>],
+        section: impl Fn(usize, [f64; 2]) -> Option<CrossSection>,
+    ) -> (Model, Vec<Range<usize>>) {
         let mut out = Model { members: Vec::with_capacity(self.members.len()), ..self.clone() };
         let mut ranges = Vec::with_capacity(self.members.len());
         for (index, member) in self.members.iter().enumerate() {
             let first = out.members.len();
             match tapers.get(index).copied().flatten() {
-                Some(taper) => self.cut_tapered(member, taper, &mut out),
+                Some(taper) => self.cut_tapered(member, taper, |range| section(index, range), &mut out),
                 None => out.members.push(*member),
             }
             ranges.push(first..out.members.len());
@@ -77,7 +91,13 @@ impl Model {
         (out, ranges)
     }
 
-    fn cut_tapered(&self, member: &Member, taper: Taper, out: &mut Model) {
+    fn cut_tapered(
+        &self,
+        member: &Member,
+        taper: Taper,
+        section: impl Fn([f64; 2]) -> Option<CrossSection>,
+        out: &mut Model,
+    ) {
         let sections = self.sections.get(member.section).zip(self.sections.get(taper.section));
         let points = member.points.map(|point| self.points.get(point));
         let (Some((a, b)), [Some(p), Some(q)]) = (sections, points) else {
@@ -85,13 +105,13 @@ impl Model {
             return;
         };
         let ends = flexible_ends([*p, *q], member.offsets);
-        let parts = if member.kind == MemberKind::Truss { 1 } else { taper.parts.max(1) };
+        let parts = if member.kind == MemberKind::Beam { taper.parts.max(1) } else { 1 };
         cut_member(member, ends, parts, out, |part, out| {
             if taper.section == member.section {
                 return member.section;
             }
             let [from, to] = [part, part + 1].map(|k| k as f64 / parts as f64);
-            out.sections.push(a.between(b, from, to));
+            out.sections.push(section([from, to]).unwrap_or_else(|| a.between(b, from, to)));
             out.sections.len() - 1
         });
     }

@@ -207,7 +207,7 @@ impl DistributedMass<'_> {
         let linear = |k: usize| section.mass * ((1.0 - at) * ends[k] + at * ends[k + 6]);
         let mut out = [0.0; 6];
         out[0] = linear(0);
-        if self.kind != MemberKind::Truss {
+        if self.kind == MemberKind::Beam {
             out[3] = linear(3) * section.gyration_squared(section.iy + section.iz);
         }
         for (plane, second) in bending_planes(&self.element.flexibility).iter().zip([section.iz, section.iy])

@@ -29,7 +29,7 @@ pub(crate) struct ScaledMass {
 /// Mass of a member between the tips of its rigid offsets, local axes.
 #[derive(Debug)]
 struct MemberMass {
-    /// In the directions that the member resists; that of a truss in all directions.
+    /// In the directions that the member resists; that of a truss or rod in all directions.
     resisted: Matrix12,
     /// In the directions that a beam does not resist.
     unresisted: Matrix12,
@@ -61,8 +61,8 @@ impl ScaledMass {
 pub fn rigid_mass(m: &Model) -> Result<[[f64; 6]; 6], Error> {
     m.check()?;
     let elements = Element::all(m)?;
-    let bodies = Bodies::new(m);
-    let stiffness = ScaledStiffness::new(m, &elements, &bodies);
+    let mut bodies = Bodies::new(m);
+    let stiffness = ScaledStiffness::new(m, &elements, &mut bodies)?;
     Ok(rows(&MassSum::new(m, &elements, &bodies, &stiffness.numbering).symmetric_total()))
 }
 
@@ -195,7 +195,7 @@ fn integral_of_product(a: &Cubic, b: &Cubic) -> f64 {
 ///
 /// The shapes are cubic in bending, with the part of shear under Timoshenko's theory, and linear otherwise.
 /// The rotation of sections in bending has inertia under Timoshenko's theory alone; that of twist,
-/// m (Iy + Iz) / A, always. A released degree of freedom moves as without load.
+/// m (Iy + Iz) / A, always, but for rods, which have none. A released degree of freedom moves as without load.
 ///
 /// # Source
 /// Archer (1965), AIAA J. 3; Przemieniecki, Theory of Matrix Structural Analysis (1968), section 11.4.
@@ -244,15 +244,15 @@ fn member_mass(
     let (mass, length) = (section.mass, element.length);
     let mut out = MemberMass { resisted: Matrix12::zeros(), unresisted: Matrix12::zeros() };
     let f = &element.flexibility;
-    let truss = kind == MemberKind::Truss;
-    out.add_linear(0, mass, length, truss || f.axial.is_finite());
-    if !truss {
+    let straight = kind != MemberKind::Beam;
+    out.add_linear(0, mass, length, straight || f.axial.is_finite());
+    if !straight {
         let polar = section.gyration_squared(section.iy + section.iz);
         out.add_linear(3, mass * polar, length, f.torsion.is_finite());
     }
     let planes = bending_planes(f);
     for plane in planes.iter().filter(|plane| plane.bending.is_infinite()) {
-        out.add_linear(plane.deflection, mass, length, truss);
+        out.add_linear(plane.deflection, mass, length, straight);
     }
     for (plane, second) in planes.iter().zip([section.iz, section.iy]) {
         if plane.bending.is_infinite() {

@@ -57,8 +57,8 @@ impl RefinedModes {
 /// Between points the shapes are those of the member without load. In a part of length h this raises omega by
 /// the fraction (k h)^4 / 1440 in bending, with k^4 = m omega^2 / EI; m omega^2 h^2 / (24 G As) in shear; and
 /// m omega^2 h^2 / (24 EA), or the like for twist. Starting from a coarse mesh, whose frequencies are too high,
-/// members are cut until each term is below `accuracy` at the highest frequency asked for. Trusses are not cut,
-/// nor are beams without a stiffness that others have: their mass acts at their ends.
+/// members are cut until each term is below `accuracy` at the highest frequency asked for. Trusses and rods are
+/// not cut, nor are beams without an axial or bending stiffness that others have: their mass acts at their ends.
 ///
 /// # Errors
 /// As [`modes`].
@@ -114,13 +114,14 @@ fn first_parts(m: &Model, rails: &[Rail], count: usize) -> Result<Vec<usize>, Er
     Ok(m.members.iter().map(|member| if divisible(m, member) { count } else { 1 }).collect())
 }
 
-/// Whether a member may be cut: a beam with every stiffness that any beam has.
+/// Whether a member may be cut: a beam with every axial and bending stiffness that any beam has. Without torsional
+/// stiffness the points between its parts turn freely about its axis, a rotation that is left out.
 fn divisible(m: &Model, member: &Member) -> bool {
-    let sizes = |section: &CrossSection| [section.area, section.iy, section.iz, section.j];
+    let sizes = |section: &CrossSection| [section.area, section.iy, section.iz];
     let own = sizes(&m.sections[member.section]);
     let beams = || m.members.iter().filter(|other| other.kind == MemberKind::Beam);
     member.kind == MemberKind::Beam
-        && (0..4).all(|k| own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0))
+        && (0..3).all(|k| own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0))
 }
 
 /// Relative errors of a frequency with a member in one part; each with the power of the number of parts by

@@ -1,10 +1,11 @@
 //! The general form of a spec: points, members, supports and springs, links, masses, and rails.
 
-use fea::{BeamTheory, Dof, GroundSpring, Model, PointMass, RailSegment, RigidLink, Support, Taper};
+use fea::{BeamTheory, Dof, GroundSpring, Member, Model, PointMass, RailSegment, RigidLink, Support, Taper};
 
 use super::cuts::{self, Cut};
 use super::raw::RawSpec;
 use super::references::{Points, dofs, index_below};
+use super::shape::ShapeTaper;
 use super::stress::{self, StressPoint};
 use super::structure::FrameSpec;
 use super::words::DOF_WORDS;
@@ -73,16 +74,46 @@ pub(super) fn read(
         supports,
         pads: Vec::new(),
     };
-    if cells.complete { in_parts(frame, cuts, &cells.tapers) } else { (frame, cuts) }
+    if cells.complete {
+        let shapes = shapes(raw, &frame.model, &cells.tapers, check);
+        in_parts(frame, cuts, &cells.tapers, &shapes)
+    } else {
+        (frame, cuts)
+    }
+}
+
+/// The shapes of each tapered member whose sections have shapes of one kind.
+fn shapes(
+    raw: &RawSpec,
+    model: &Model,
+    tapers: &[Option<Taper>],
+    check: &Check<'_>,
+) -> Vec<Option<ShapeTaper>> {
+    let section = |index: usize| raw.sections.as_ref().and_then(|sections| sections.get(index));
+    let between = |(member, taper): (&Member, &Option<Taper>)| {
+        let (a, b) = section(member.section).zip(section((*taper)?.section))?;
+        ShapeTaper::between(a, b, &check.scale)
+    };
+    model.members.iter().zip(tapers).map(between).collect()
 }
 
 /// Replaces each tapered member by uniform parts. Rails are extended over all parts, and each cut is moved to the
 /// part that contains it.
-fn in_parts(frame: FrameSpec, mut cuts: Vec<Cut>, tapers: &[Option<Taper>]) -> (FrameSpec, Vec<Cut>) {
+fn in_parts(
+    frame: FrameSpec,
+    mut cuts: Vec<Cut>,
+    tapers: &[Option<Taper>],
+    shapes: &[Option<ShapeTaper>],
+) -> (FrameSpec, Vec<Cut>) {
     if tapers.iter().all(Option::is_none) {
         return (frame, cuts);
     }
-    let (model, parts) = frame.model.tapered(tapers);
+    let sections = &frame.model.sections;
+    let (model, parts) = frame.model.tapered_by(tapers, |member, range| {
+        let ends = [frame.model.members[member].section, tapers[member]?.section];
+        let [a, b] = ends.map(|section| &sections[section]);
+        shapes[member].as_ref()?.section(a, b, range)
+    });
     let mut rails = frame.rails;
     for (_, rail) in &mut rails {
         let segments = std::mem::take(&mut rail.segments);

@@ -138,7 +138,7 @@ impl<'r> Columns<'r> {
         for (end, point) in points.into_iter().enumerate() {
             ends_exist &= index_below(point, model.points.len(), "points", &cell.index(end), check);
         }
-        let kinds = [("beam", MemberKind::Beam), ("truss", MemberKind::Truss)];
+        let kinds = [("beam", MemberKind::Beam), ("truss", MemberKind::Truss), ("rod", MemberKind::Rod)];
         let kind = self
             .kind
             .get(block, index)

@@ -134,7 +134,7 @@ pub(crate) struct RawBlock {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
-    /// Kind of the member: "beam" (default) or "truss".
+    /// Kind of the member: "beam" (default), "truss" (axial force alone) or "rod" (axial force and torsion).
     pub kind: Option<Vec<Block<String>>>,
     /// Name or index of the section; may be left out if there is only one section.
     pub section: Option<Vec<Block<Reference>>>,

@@ -92,7 +92,10 @@ fn read_section(
         area,
         iy: plain(raw.iy, "Iy", Dimension::SECOND_MOMENT),
         iz: plain(raw.iz, "Iz", Dimension::SECOND_MOMENT),
-        j: plain(raw.j, "J", Dimension::SECOND_MOMENT),
+        j: raw.j.map_or(0.0, |j| {
+            let hint = "0 for a section without torsional stiffness";
+            check.not_negative(j, &at.key("J"), Dimension::SECOND_MOMENT, hint)
+        }),
         shear_y: check.optional_positive(
             raw.asy,
             &at.key("Asy"),
@@ -109,8 +112,8 @@ fn read_section(
     }
 }
 
-/// Checks that sections have the properties that their members require: an area, and for beams also the second
-/// moments of area and a torsion constant. Sections that no member uses are not checked.
+/// Checks that sections have the properties that their members require: an area, for rods also a torsion constant, and
+/// for beams the second moments of area and a torsion constant, which may be 0. Sections that no member uses are not checked.
 pub(super) fn check_complete(
     raw: &RawSpec,
     root: &Place<'_>,
@@ -123,14 +126,19 @@ pub(super) fn check_complete(
         let at = list.index(index);
         let ends = |taper: &Option<Taper>| taper.is_some_and(|taper| taper.section == index);
         let pairs = model.members.iter().zip(tapers);
-        let mut users = pairs.filter(|(member, taper)| member.section == index || ends(taper)).peekable();
-        if users.peek().is_none() {
+        let users = pairs.filter(|(member, taper)| member.section == index || ends(taper));
+        let kinds: Vec<MemberKind> = users.map(|(member, _)| member.kind).collect();
+        if kinds.is_empty() {
             continue;
         }
-        let beams = users.any(|(member, _)| member.kind == MemberKind::Beam);
+        let [beams, rods] = [MemberKind::Beam, MemberKind::Rod].map(|kind| kinds.contains(&kind));
         for (key, value) in [("A", raw.area), ("Iy", raw.iy), ("Iz", raw.iz), ("J", raw.j)] {
-            if value.is_none() && raw.shape.is_none() && (beams || key == "A") {
-                let user = if beams { "beams" } else { "members" };
+            if value.is_none() && raw.shape.is_none() && (beams || key == "A" || (rods && key == "J")) {
+                let user = match (beams, rods) {
+                    (true, _) => "beams",
+                    (false, true) => "rods",
+                    (false, false) => "members",
+                };
                 check.faults.add(
                     Fault::new(&at, format!("missing key `{key}`")).hint(format!("{user} use this section")),
                 );
@@ -138,9 +146,10 @@ pub(super) fn check_complete(
         }
         let sheared = model.theory == BeamTheory::Timoshenko
             && (section.shear_y.is_some() || section.shear_z.is_some());
-        if beams && section.g == 0.0 && (section.j > 0.0 || sheared) {
+        let needs = (beams && (section.j > 0.0 || sheared)) || (rods && section.j > 0.0);
+        if needs && section.g == 0.0 {
             let fault = Fault::new(&at, "its material needs `G`");
-            check.faults.add(fault.hint("torsion and shear of beams depend on the shear modulus"));
+            check.faults.add(fault.hint("torsion and shear depend on the shear modulus"));
         }
     }
 }

@@ -1,18 +1,20 @@
 //! Sections defined by the dimensions of their plates: the key `shape` of a section.
 
+use fea::CrossSection;
+
 use super::cross_section::{Properties, section_properties};
 use super::raw::{RawSection, RawShape};
 use crate::check::Check;
 use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
-use crate::units::{Dimension, Length};
+use crate::units::{Dimension, Length, Scale};
 
 /// Keys of dimensions, in the order in which [`read`] returns them.
 const KEYS: [&str; 8] =
     ["height", "width", "flange", "web", "lower_width", "lower_flange", "diameter", "wall"];
 
 /// Kinds of shapes in specs.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
     I,
     Box,
@@ -131,19 +133,124 @@ fn read_dimensions(raw: &RawShape, kind: Kind, at: &Place<'_>, check: &mut Check
     dimensions
 }
 
+/// Dimensions with the defaults of those that were left out, which are still 0.
+fn completed(mut dimensions: [f64; 8]) -> [f64; 8] {
+    for (optional, default) in [(4, 1), (5, 2)] {
+        if dimensions[optional] == 0.0 {
+            dimensions[optional] = dimensions[default];
+        }
+    }
+    dimensions
+}
+
 /// The properties of a shape in powers of the unit of its dimensions; `None` if no space is left between its plates.
 fn properties(kind: Kind, dimensions: [f64; 8]) -> Option<Properties> {
-    let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = dimensions;
-    // an optional dimension that is missing is still 0
-    let or = |own: f64, other: f64| if own > 0.0 { own } else { other };
+    let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = completed(dimensions);
     let found = match kind {
-        Kind::I => {
-            let lower = [or(lower_width, width), or(lower_flange, flange)];
-            section_properties("I", &[height, lower[0], width, web, lower[1], flange])
-        }
+        Kind::I => section_properties("I", &[height, lower_width, width, web, lower_flange, flange]),
         Kind::Box => section_properties("BOX", &[width, height, flange, web]),
         Kind::Tube => section_properties("TUBE2", &[0.5 * diameter, wall]),
         Kind::Bar => section_properties("BAR", &[width, height]),
     };
     found.ok()
+}
+
+/// Number of equal intervals of a part over which its properties are integrated.
+const INTERVALS: usize = 8;
+/// Positions and weights of Gauss's rule of eight points on -1 to 1: the positive half.
+const GAUSS: [(f64, f64); 4] = [
+    (0.183_434_642_495_649_8, 0.362_683_783_378_362),
+    (0.525_532_409_916_329, 0.313_706_645_877_887_3),
+    (0.796_666_477_413_626_7, 0.222_381_034_453_374_48),
+    (0.960_289_856_497_536_3, 0.101_228_536_290_376_26),
+];
+
+/// A tapered member with shapes of one kind at both ends: its dimensions vary linearly, and its properties are those
+/// of its dimensions.
+#[derive(Clone, Debug)]
+pub(super) struct ShapeTaper {
+    kind: Kind,
+    /// Dimensions at the ends a and b, in the unit of length of the model.
+    ends: [[f64; 8]; 2],
+    /// Which of A, Iy, Iz, J, Asy, Asz follow from the dimensions: those that neither section states as a number.
+    follows: [bool; 6],
+}
+
+impl ShapeTaper {
+    /// The taper between two sections that were read without a fault; `None` unless their shapes have one kind.
+    pub fn between(a: &RawSection, b: &RawSection, scale: &Scale) -> Option<ShapeTaper> {
+        let (kind, from) = in_model_units(a.shape.as_ref()?, scale)?;
+        let (other, to) = in_model_units(b.shape.as_ref()?, scale)?;
+        let stated =
+            |raw: &RawSection| [raw.area, raw.iy, raw.iz, raw.j, raw.asy, raw.asz].map(|q| q.is_some());
+        let stated = [stated(a), stated(b)];
+        let follows = std::array::from_fn(|k| !stated[0][k] && !stated[1][k]);
+        (kind == other).then_some(ShapeTaper { kind, ends: [from, to], follows })
+    }
+
+    /// The uniform section that replaces the stretch `from`..`to` (fractions of the length) of a member from section
+    /// `a` to section `b`.
+    ///
+    /// Each stiffness is the reciprocal of its mean reciprocal over the stretch, as for properties that vary linearly:
+    /// elongation and twist under end loads are exact, and deflections converge with the square of the number of
+    /// parts. The mass is the mean mass. `None` if dimensions in the stretch leave no space between the plates.
+    pub fn section(&self, a: &CrossSection, b: &CrossSection, [from, to]: [f64; 2]) -> Option<CrossSection> {
+        let mut reciprocals = [0.0; 6];
+        let mut mass = 0.0;
+        let densities = [a.mass / a.area, b.mass / b.area];
+        let half = 0.5 / INTERVALS as f64;
+        for interval in 0..INTERVALS {
+            let middle = (2 * interval + 1) as f64 * half;
+            for (place, weight) in GAUSS.iter().flat_map(|&(x, w)| [(-x, w), (x, w)]) {
+                let s = from + (to - from) * (middle + half * place);
+                let at = |p: f64, q: f64| p + (q - p) * s;
+                let found = self.properties(s)?;
+                for (sum, value) in reciprocals.iter_mut().zip(found) {
+                    *sum += half * weight / value;
+                }
+                mass += half * weight * found[0] * at(densities[0], densities[1]);
+            }
+        }
+        let linear = a.between(b, from, to);
+        let or = |k: usize, stated: f64| if self.follows[k] { 1.0 / reciprocals[k] } else { stated };
+        Some(CrossSection {
+            area: or(0, linear.area),
+            iy: or(1, linear.iy),
+            iz: or(2, linear.iz),
+            j: or(3, linear.j),
+            shear_y: linear.shear_y.map(|area| or(4, area)),
+            shear_z: linear.shear_z.map(|area| or(5, area)),
+            mass: if self.follows[0] { mass } else { linear.mass },
+            ..linear
+        })
+    }
+
+    /// A, Iy, Iz, J, Asy, Asz at the fraction `s` of the length.
+    fn properties(&self, s: f64) -> Option<[f64; 6]> {
+        let [from, to] = self.ends;
+        let found = properties(self.kind, std::array::from_fn(|k| from[k] + (to[k] - from[k]) * s))?;
+        Some([found.area, found.i2, found.i1, found.j, found.k1 * found.area, found.k2 * found.area])
+    }
+}
+
+/// Kind and dimensions of a shape that was read without a fault, in the unit of length of the model.
+fn in_model_units(raw: &RawShape, scale: &Scale) -> Option<(Kind, [f64; 8])> {
+    let word = raw.kind.as_deref()?;
+    let kind = Kind::WORDS.iter().find(|(known, _)| *known == word)?.1;
+    let unit = match &raw.length {
+        Some(word) => Length::of_word(word)?,
+        None => scale.from.length,
+    };
+    let given = [
+        raw.height,
+        raw.width,
+        raw.flange,
+        raw.web,
+        raw.lower_width,
+        raw.lower_flange,
+        raw.diameter,
+        raw.wall,
+    ];
+    let factor = unit.in_units_of(scale.to.length);
+    Some((kind, completed(given.map(|value| factor * value.unwrap_or_default()))))
 }

@@ -93,8 +93,8 @@ impl<'r> Tapers<'r> {
                 check.faults.add(fault.hint(hint));
             }
         }
-        // a tapered truss member remains a single bar unless the file specifies otherwise
-        let of_kind = (member.kind == MemberKind::Truss).then_some(1);
+        // a tapered truss or rod remains a single bar
+        let of_kind = (member.kind != MemberKind::Beam).then_some(1);
         let Some(parts) = own.or(self.default).or(of_kind) else {
             let hint = "a cell with `section_b` is solved in uniform parts: state their number in `parts` or \
                         `cell_data.parts`";
@@ -112,3 +112,6 @@ fn check_parts(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
         check.faults.add(fault.hint("errors fall with the square of the number of parts"));
     }
 }
+
+#[cfg(test)]
+mod tests;

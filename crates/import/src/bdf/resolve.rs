@@ -23,6 +23,7 @@ use super::section::SectionTable;
 use super::support;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
+use fea::{Dof, MemberKind};
 use formats::vector::{minus, parallel};
 
 /// A deck and the structure to which it is converted.
@@ -198,14 +199,14 @@ impl<'d> Resolver<'d, '_> {
         let mut member = ImportedMember {
             id,
             points: [a, b],
-            truss: false,
+            kind: MemberKind::Beam,
             section,
             section_b,
             orientation,
             offsets: element.offsets,
             releases: element.pins,
         };
-        release_missing_stiffness(&mut member, property, along);
+        use_kind_of(property, &mut member);
         Some(member)
     }
 
@@ -396,28 +397,24 @@ impl<'d> Resolver<'d, '_> {
     }
 }
 
-/// Represents missing bending or torsional stiffness of a property by releases, because a section of a beam spec must
-/// have positive stiffnesses. A member with neither becomes a truss; a member with torsional stiffness only has
-/// bending hinges at both ends; a member with bending stiffness only has a torsional release at end A.
-fn release_missing_stiffness(member: &mut ImportedMember, property: &Property, along: [f64; 3]) {
-    let bends = property.bending[0] > 0.0;
-    let twists = property.j > 0.0;
-    if !bends && !twists {
-        member.truss = true;
-        // in a truss, only the release of the axial force has an effect
-        member.releases.iter_mut().for_each(|pins| pins[1..].fill(false));
-        member.orientation = None;
-    } else if !bends {
-        for pins in &mut member.releases {
-            pins[4] = true;
-            pins[5] = true;
-        }
-        // bending is released, so that any orientation that is not along the member is equivalent
-        let least = (0..3).min_by(|a, b| along[*a].abs().total_cmp(&along[*b].abs())).unwrap_or(0);
-        let mut across = [0.0; 3];
-        across[least] = 1.0;
-        member.orientation = Some(across);
-    } else if !twists && !member.releases.iter().any(|pins| pins[3]) {
-        member.releases[0][3] = true;
+/// The kind of a member with the stiffnesses of its property: without bending stiffness it is a rod, and without
+/// torsional stiffness as well a truss. A member with bending stiffness only is a beam whose section has the J 0.
+fn use_kind_of(property: &Property, member: &mut ImportedMember) {
+    if property.bending[0] > 0.0 {
+        return;
     }
+    // releases of what the member does not resist have no effect
+    let resisted = if property.j > 0.0 {
+        member.kind = MemberKind::Rod;
+        [Dof::Ux, Dof::Rx].as_slice()
+    } else {
+        member.kind = MemberKind::Truss;
+        [Dof::Ux].as_slice()
+    };
+    for pins in &mut member.releases {
+        for dof in Dof::ALL.into_iter().filter(|dof| !resisted.contains(dof)) {
+            pins[dof as usize] = false;
+        }
+    }
+    member.orientation = None;
 }

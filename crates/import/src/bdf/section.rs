@@ -2,12 +2,10 @@
 //!
 //! A NASTRAN property is converted to one section (two if it is tapered), and its MAT1 to one material. A
 //! non-structural mass per length NSM is distributed over the area A: a separate material with the density
-//! rho + NSM / A is added for such a property. Stiffnesses cannot be zero in a beam spec. Where a property has none,
-//! the section has a placeholder (for second moments A^2 / (4 pi), that of a solid round bar; for J the sum I1 + I2),
-//! and the releases of the member make it ineffective.
+//! rho + NSM / A is added for such a property. A section has the properties of its card alone: the second moments of a
+//! rod are left out, and the J of a bar without torsional stiffness is 0.
 
 use std::collections::BTreeMap;
-use std::f64::consts::PI;
 
 use super::deck::BulkDeck;
 use super::material::MaterialCard;
@@ -46,7 +44,7 @@ impl SectionTable {
         }
         let name = format!("{} {number}", property.kind);
         let known = material_of(deck, property, &name, about, findings)?;
-        warn_of_placeholders(property, &name, findings);
+        warn_of_conversions(property, &name, findings);
         let wtmass = deck.wtmass.unwrap_or(1.0);
         let mut density = known.density * wtmass;
         let mut material = format!("MAT1 {}", property.material);
@@ -66,8 +64,9 @@ impl SectionTable {
             structure.materials.push(ImportedMaterial { name: material.clone(), e, g, density });
         }
         let section = section_of(property, format!("{name}{end}"), material);
-        let numbers = [section.iy, section.iz, section.j, section.shear_y, section.shear_z];
-        if numbers.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
+        let numbers = [section.iy, section.iz, section.shear_y, section.shear_z];
+        let positive = numbers.iter().flatten().all(|value| value.is_finite() && *value > 0.0);
+        if !positive || section.j.is_some_and(|j| !j.is_finite()) {
             let expected = "must have properties within double precision";
             findings.error(ImportFinding::new(property.card, &name, expected));
             return None;
@@ -106,19 +105,12 @@ fn material_of<'d>(
     Some(material)
 }
 
-/// Adds warnings for placeholders of missing stiffnesses and for a tapered property.
-fn warn_of_placeholders(property: &Property, name: &str, findings: &mut ImportFindings) {
-    let bends = property.bending[0] > 0.0;
-    if bends && property.j == 0.0 {
+/// Adds warnings for a missing torsional stiffness and for a tapered property.
+fn warn_of_conversions(property: &Property, name: &str, findings: &mut ImportFindings) {
+    if property.bending[0] > 0.0 && property.j == 0.0 {
         let expected = "has no J: its members have no torsional stiffness";
         let finding = ImportFinding::new(property.card, name, expected);
-        findings
-            .warn(finding.hint("its members get a release of rx, and the J in the spec is a placeholder"));
-    }
-    if !bends && property.j > 0.0 {
-        let expected = "has J: its rods become beams with hinges at both ends";
-        let finding = ImportFinding::new(property.card, name, expected);
-        findings.warn(finding.hint("the Iy and Iz in the spec are placeholders"));
+        findings.warn(finding.hint("state J if loads beside the axis of these members are to be carried"));
     }
     if property.end.is_some() {
         let expected = format!("is tapered, and each member is solved in {PARTS} uniform parts");
@@ -129,13 +121,11 @@ fn warn_of_placeholders(property: &Property, name: &str, findings: &mut ImportFi
     }
 }
 
-/// Converts a property to a section, with placeholders for missing stiffnesses.
+/// Converts a property to a section. Rods have no second moments; the J of a bar without torsional stiffness is 0.
 fn section_of(property: &Property, name: String, material: String) -> ImportedSection {
     let [i1, i2] = property.bending;
     let bends = i1 > 0.0;
-    let round = property.area * property.area / (4.0 * PI);
-    let bending = |i: f64| if bends { Some(i) } else { (property.j > 0.0).then_some(round) };
-    let torsion = if property.j > 0.0 { Some(property.j) } else { bends.then_some(i1 + i2) };
+    let bending = |i: f64| bends.then_some(i);
     let shear = |k: f64| (bends && k > 0.0).then_some(k * property.area);
     ImportedSection {
         name,
@@ -143,7 +133,7 @@ fn section_of(property: &Property, name: String, material: String) -> ImportedSe
         area: Some(property.area),
         iy: bending(i2),
         iz: bending(i1),
-        j: torsion,
+        j: (bends || property.j > 0.0).then_some(property.j),
         shear_y: shear(property.shear[0]),
         shear_z: shear(property.shear[1]),
     }

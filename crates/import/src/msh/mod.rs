@@ -74,7 +74,7 @@ pub fn read(
         structure.members.push(ImportedMember {
             id,
             points: [a, b],
-            truss: group.truss,
+            kind: if group.truss { fea::MemberKind::Truss } else { fea::MemberKind::Beam },
             section: group.section,
             section_b: None,
             orientation: if group.truss { None } else { group.orientation },
