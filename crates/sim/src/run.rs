@@ -27,8 +27,14 @@ const LOCAL_PER_GLOBAL: f64 = 3.0;
 /// Methods that repeat a run which cannot continue, in order, each with a factor on the accuracy of the scene. Runs fail
 /// in this way sporadically, where one-sided contacts with a damper between wheel and rail open and close; another
 /// sequence of steps passes the place.
-const ALTERNATIVES: [(Method, f64); 4] =
-    [(Method::Sdirk4, 1.0), (Method::Radau, 0.5), (Method::Sdirk4, 0.5), (Method::Radau, 0.25)];
+const ALTERNATIVES: [(Method, f64); 6] = [
+    (Method::Sdirk4, 1.0),
+    (Method::Radau, 0.5),
+    (Method::Sdirk4, 0.5),
+    (Method::Radau, 0.25),
+    (Method::Sdirk4, 0.25),
+    (Method::Sdirk4, 0.125),
+];
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -112,7 +118,7 @@ pub fn run(
 /// method.
 ///
 /// If [`Method::Auto`] cannot continue because no step is small enough, the whole run is repeated with other methods and
-/// down to a quarter of the accuracy until it reaches the end; [`Run::method`] is the method of the result.
+/// down to an eighth of the accuracy until it reaches the end; [`Run::method`] is the method of the result.
 ///
 /// # Errors
 /// Those of [`run`], [`Error::Method`] if the method does not suit the scene, and [`Error::Number`] if the step is
@@ -129,7 +135,8 @@ pub fn run_by(
         (Method::Auto, Status::StepTooSmall(t), Some(method)) => (method, *t),
         _ => return Ok(first),
     };
-    for (method, factor) in ALTERNATIVES {
+    let is_repetition = |&(method, factor): &(Method, f64)| factor == 1.0 && method == abandoned.0;
+    for (method, factor) in ALTERNATIVES.into_iter().filter(|alternative| !is_repetition(alternative)) {
         let finer = Scene { accuracy: factor * scene.accuracy, ..scene.clone() };
         match attempt(Stepping { method, ..stepping }, &finer, foundations, watch) {
             Ok(run) if run.status.is_complete() || run.status == Status::Stopped => {
