@@ -23,14 +23,14 @@
 //! assert!(first.starts_with("girder.json:3:27: girder.spans[1]: must be positive, got -60"), "{first}");
 //! ```
 //!
-//! The modules from low to high are `limits`, [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
+//! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
 //! [`scene`], [`schema`].
 //!
 //! Wings, lowest first: limits, text, vector, units, check, spec, grid, tables, scene, schema
 
 pub mod check;
 pub mod grid;
-mod limits;
+pub mod limits;
 pub mod scene;
 pub mod schema;
 pub mod spec;

@@ -18,7 +18,7 @@ pub(crate) const FILE_BYTES: u64 = 256 << 20;
 /// Smallest and largest magnitude of a number that must be positive, in the units of its file, and the largest
 /// magnitude of every other number. Between them lie all quantities of structures in every supported unit; products
 /// of a few of them stay within double precision.
-pub(crate) const MAGNITUDES: [f64; 2] = [1e-30, 1e30];
+pub const MAGNITUDES: [f64; 2] = [1e-30, 1e30];
 
 /// Smallest distance between two times of a table, in seconds and, where the times of the table exceed 1 s, relative
 /// to the largest of them. Slopes over shorter intervals are rounding errors.

@@ -3,6 +3,7 @@
 use super::card::{Card, CardField};
 use super::field::{Number, freedoms, number};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
+use formats::limits::MAGNITUDES;
 use formats::text::fault::number as written;
 
 /// Reads the fields of one card; field 1 is the first after the name.
@@ -102,7 +103,16 @@ impl CardFields<'_, '_> {
             return Some(None);
         }
         match number(self.text(index)) {
-            Some(Number::Real(value)) => return Some(Some(value)),
+            Some(Number::Real(value)) if value == 0.0 || is_within(value) => return Some(Some(value)),
+            Some(Number::Real(_)) => {
+                let [least, most] = MAGNITUDES;
+                self.refuse(
+                    index,
+                    name,
+                    &format!("must be 0, or between {least:e} and {most:e} in magnitude"),
+                    "",
+                );
+            }
             Some(Number::Integer(value)) => {
                 let hint = format!("write {value}. for {value}, and check the columns");
                 self.refuse(index, name, "must be a real number, with its decimal point", &hint);
@@ -186,4 +196,10 @@ impl CardFields<'_, '_> {
     pub fn last(&self) -> usize {
         (1..=self.card.fields.len()).rev().find(|index| !self.blank(*index)).unwrap_or(0)
     }
+}
+
+/// Whether a beam spec accepts the magnitude of a number.
+fn is_within(value: f64) -> bool {
+    let [least, most] = MAGNITUDES;
+    (least..=most).contains(&value.abs())
 }
