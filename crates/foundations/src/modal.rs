@@ -38,8 +38,6 @@ use formats::spec::ties::Pad;
 
 /// Largest relative error of a frequency due to the subdivision of members.
 const ACCURACY: f64 = 1e-6;
-/// Largest relative error of a frequency where modes are needed only to predict the error of omitting them.
-const COARSE: f64 = 1e-2;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
 /// are assumed not to excite the mode.
 const STILL: f64 = 1e-6;
@@ -185,28 +183,6 @@ fn search(
         }
         requested = (2 * requested).max(requested + 8);
     }
-}
-
-/// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh and without damping; `None` for a
-/// structure without mass.
-pub(super) fn coarse_modes(
-    name: &str,
-    solved: &SolvedModel,
-    count: usize,
-) -> Result<Option<sim::Structure>, Error> {
-    let (refined, mut excited, _) = match search(solved, count, COARSE, Excitation::VERTICAL) {
-        Ok(found) => found,
-        Err(fea::Error::NoMass) => return Ok(None),
-        Err(error) => return Err(Error::modes(name)(error)),
-    };
-    excited.truncate(count);
-    let frame_error = Error::frame(name);
-    let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
-    let own = shapes(frame.line().map_err(&frame_error)?, &excited, |_| 1.0).map_err(Error::rails(name))?;
-    let shapes = Box::new(ModeShapes(own));
-    let omega: Vec<f64> = excited.iter().map(|mode| mode.omega).collect();
-    let dynamics = Dynamics::Modes { ratio: vec![0.0; omega.len()], omega };
-    Ok(Some(sim::Structure { dynamics, shapes }))
 }
 
 /// Dampers of equal damping constant under the ties of a rail.
