@@ -48,7 +48,6 @@ const EQUAL: f64 = 1e-6;
 pub(super) struct MeshModes {
     refined: RefinedModes,
     excited: Vec<fea::Mode>,
-    frame: Arc<FactoredFrame>,
     compliance: StaticCompliance,
     /// Whether `excited` contains every mode of the mesh that wheels can excite.
     is_whole: bool,
@@ -83,7 +82,8 @@ impl MeshModes {
         elements: usize,
         excitation: Excitation,
     ) -> Result<MeshModes, Error> {
-        let refined = fea::full_modes(&solved.model, &solved.rails, elements).map_err(Error::modes(name))?;
+        let refined = fea::full_modes(&solved.model, &solved.rails, &excitation.forces(), elements)
+            .map_err(Error::modes(name))?;
         let excited = excited_by(&refined.modes, solved, excitation);
         MeshModes::new(name, refined, excited, None, true)
     }
@@ -95,13 +95,14 @@ impl MeshModes {
         given: Option<ExactSurface>,
         is_whole: bool,
     ) -> Result<MeshModes, Error> {
-        let frame_error = Error::frame(name);
-        let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
         let compliance = match given {
             Some(surface) => StaticCompliance::Given(surface),
-            None => StaticCompliance::Subdivided(frame.surface().map_err(&frame_error)?.surface),
+            None => {
+                let found = refined.frame.surface().map_err(Error::frame(name))?;
+                StaticCompliance::Subdivided(found.surface)
+            }
         };
-        Ok(MeshModes { refined, excited, frame: Arc::new(frame), compliance, is_whole })
+        Ok(MeshModes { refined, excited, compliance, is_whole })
     }
 
     /// Whether `count` modes, or all that exist, have been computed.
@@ -124,7 +125,7 @@ impl MeshModes {
         refined.modes.modes = self.excited.iter().take(count).cloned().collect();
         let kept = &refined.modes;
         let rail_error = Error::rails(name);
-        let line = Arc::clone(self.frame.line().map_err(&frame_error)?);
+        let line = Arc::clone(self.refined.frame.line().map_err(&frame_error)?);
         let residual: Box<dyn Compliance> = match &self.compliance {
             StaticCompliance::Given(exact) => {
                 let scaled = shapes(&line, &kept.modes, |mode| mode.omega).map_err(&rail_error)?;
@@ -149,7 +150,7 @@ impl MeshModes {
             carrier: excitation.carrier.map(|carrier| mount::inertia(kept, carrier)),
             ..Foundation::default()
         };
-        let motion = MotionBasis::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
+        let motion = MotionBasis::Modes { refined: Box::new(refined) };
         Ok(BuiltFoundation { foundation, basis: Some(motion) })
     }
 }
@@ -162,7 +163,8 @@ fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<ExactS
 /// Returns the mesh, at least the lowest `count` modes that wheels can excite, and whether these are all such modes.
 /// Frequencies have a relative error of at most `accuracy`.
 ///
-/// The function computes `count` modes and drops those that wheels cannot excite. While fewer than `count` remain, or
+/// The function computes the `count` lowest modes of the unknowns that wheels can move, and drops those that wheels
+/// excite by no more than rounding, such as modes with nodes at every rail. While fewer than `count` remain, or
 /// while the highest frequency equals that of the next mode, it computes twice as many modes (at least eight more).
 fn search(
     solved: &SolvedModel,
@@ -170,9 +172,10 @@ fn search(
     accuracy: f64,
     excitation: Excitation,
 ) -> Result<(RefinedModes, Vec<fea::Mode>, bool), fea::Error> {
+    let forces = excitation.forces();
     let mut requested = count;
     loop {
-        let refined = fea::refined_modes(&solved.model, &solved.rails, requested, accuracy)?;
+        let refined = fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
         let excited = excited_by(&refined.modes, solved, excitation);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();

@@ -91,9 +91,22 @@ impl<'a> ColumnObserver<'a> {
                 _ => FORCE,
             };
             let name = column.name.clone();
-            Quantity { name, kind, channel: None, is_position: false, least_scale: 0.0, values }
+            Quantity { name, kind, channel: None, is_position: false, group: String::new(), least_scale: 0.0, values }
         }));
         Ok(())
+    }
+
+    /// The group of a quantity at a wheel: its part and the body of the wheel.
+    fn group(&self, channel: Channel) -> String {
+        let (part, w) = match channel {
+            Channel::Vertical(w) => ("vertical", w),
+            Channel::Lateral(w) => ("lateral", w),
+            Channel::Traction(w) => ("traction", w),
+            Channel::Penetration(w) => ("penetration", w),
+            Channel::Deflection(w) => ("deflection", w),
+            _ => return String::new(),
+        };
+        format!("{part} of body {}", self.input.wheels[w].body)
     }
 
     /// Sets the least scales of moments and rotations, which may all be zero but for rounding: those that the largest
@@ -133,7 +146,16 @@ impl TrialObserver for ColumnObserver<'_> {
                 _ => None,
             };
             let values = (0..history.len()).map(sum).collect();
-            found.push(Quantity { name: quantity.name, kind, channel, is_position, least_scale: 0.0, values });
+            let group = channel.map_or_else(String::new, |channel| self.group(channel));
+            found.push(Quantity {
+                name: quantity.name,
+                kind,
+                channel,
+                is_position,
+                group,
+                least_scale: 0.0,
+                values,
+            });
         }
         for (s, basis) in bases.iter().enumerate() {
             self.columns(s, history, basis.as_ref(), &mut found)?;

@@ -95,7 +95,7 @@ pub use scene::structure::{Dynamics, Shapes, Structure};
 pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, LawValue, NormalLaw, Wheel};
 pub use select::choose::choose;
 pub use select::fidelity::Fidelity;
-pub use select::measure::{Difference, Measure, Quantity, Record, difference};
+pub use select::measure::{Bounces, Difference, Measure, Quantity, Record, difference};
 pub use select::replay::ModalBasis;
 pub use select::selection::{
     Check, Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, Selection, Tolerance,

@@ -8,6 +8,7 @@ use splines::{Axis, ExactSurface, Probe, Rails};
 use crate::assembly::{Combination, column_norm, symmetric_product};
 use crate::error::Error;
 use crate::influence::FactoredFrame;
+use crate::modes::decoupled::Part;
 use crate::modes::mass::{ScaledMass, rows};
 
 /// A natural mode with modal mass 1: phi^T M phi = 1, K phi = omega^2 M phi.
@@ -98,15 +99,22 @@ impl FactoredFrame {
         }
     }
 
-    /// A mode from its eigenvalue and its scaled unknowns with modal mass 1.
-    pub(super) fn mode(&self, mass: &ScaledMass, norms: [f64; 2], lambda: f64, phi: &DVector<f64>) -> Mode {
-        let stiffness = &self.stiffness().upper;
-        let force = symmetric_product(stiffness, phi.as_view());
-        let momentum = symmetric_product(&mass.upper, phi.as_view());
+    /// A mode from its eigenvalue and its scaled unknowns, those of `part`, with modal mass 1.
+    pub(super) fn mode(
+        &self,
+        part: &Part,
+        mass: &ScaledMass,
+        norms: [f64; 2],
+        lambda: f64,
+        phi: &DVector<f64>,
+    ) -> Mode {
+        let force = symmetric_product(&part.stiffness, phi.as_view());
+        let momentum = symmetric_product(&part.mass, phi.as_view());
         let size = (norms[0] + lambda * norms[1]) * phi.norm();
         let residual = (force - momentum * lambda).norm() / size;
+        let phi = part.expand(phi.as_slice());
         let coupling =
-            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(phi));
+            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(&phi));
         let motions = self.body_motions(phi.as_slice());
         let value = |row: &Combination| row.evaluate(&motions);
         let states = self.states().iter().map(|state| state.each_ref().map(value)).collect();

@@ -389,9 +389,9 @@ fn inertia(
 ) -> Result<DMatrix<f64>, fea::Error> {
     match basis {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
-        Some(MotionBasis::Modes { frame, refined }) => {
+        Some(MotionBasis::Modes { refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            Ok(frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
+            Ok(refined.frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),

@@ -16,8 +16,8 @@
 
 use std::ops::ControlFlow;
 
-use super::fidelity::{Fidelity, contact_frequency, slowest_bounce};
-use super::measure::{Measure, Record, difference};
+use super::fidelity::{Fidelity, fastest_bounce, slowest_bounce};
+use super::measure::{Bounces, Measure, Record, difference};
 use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
 use super::selection::{
     Check, Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, Selection, Tolerance,
@@ -27,7 +27,7 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 /// Number of modes that are computed first, and at the most.
 const MODES: [usize; 2] = [12, 96];
 /// Estimate for which a number of modes is chosen, relative to the tolerance.
-const AIM: f64 = 0.1;
+const AIM: f64 = 0.2;
 /// Fraction of the tolerance that an estimated error may reach.
 const SAFE: f64 = 0.8;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
@@ -130,8 +130,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             for tolerance in tolerances.iter().flatten() {
                 scene.accuracy = scene.accuracy.min(RUN_ACCURACY * tolerance.value);
             }
-            let period = 2.0 * std::f64::consts::PI / contact_frequency(&scene);
-            let wanted = scene.output_dt * SAMPLES[0] / period;
+            let wanted = scene.output_dt * SAMPLES[0] / fastest_bounce(&scene);
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
@@ -185,7 +184,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         if !first.run.status.is_complete() {
             return Ok(first);
         }
-        let period = slowest_bounce(&self.scene, &first.run.history);
+        let bounces = Bounces {
+            slowest: slowest_bounce(&self.scene, &first.run.history),
+            fastest: fastest_bounce(&self.scene),
+        };
         for own in &mut open {
             self.estimate(own, &first, &first.foundations);
         }
@@ -195,7 +197,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             for own in &open {
                 self.settle(own, Fidelity::Influence, Reason::Sufficient, own.tail(0).error, own.tail(0).quantity);
             }
-            return self.rigid_if_still(open, first, period);
+            return self.rigid_if_still(open, first, bounces);
         }
         let strictest = self.strictest(&open, &counts);
         let mut estimate = largest(&open, &vec![0; open.len()]);
@@ -207,14 +209,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             for own in &mut open {
                 self.estimate(own, &higher, compliances);
             }
-            let apart = difference(&lower.record, &higher.record, strictest.measure, period);
-            let pointwise = difference(&lower.record, &higher.record, Measure::History, period).largest;
+            let apart = difference(&lower.record, &higher.record, strictest.measure, bounces);
+            let pointwise = difference(&lower.record, &higher.record, Measure::History, bounces).largest;
             let factor = (pointwise / estimate.max(f64::MIN_POSITIVE)).clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
             estimate = largest(&open, &counts);
             let error = apart.largest + factor * estimate;
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
-            if error <= SAFE * strictest.value {
+            if error <= strictest.value {
                 let is_kept = lower.run.counts.stages as u64 > LONG && higher.cost() > COSTLY * lower.cost();
                 let (chosen, reason) =
                     if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
@@ -337,7 +339,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Where no rail deflects by more than what the tolerance leaves of the largest displacements, tries rigid rails.
-    fn rigid_if_still(&mut self, open: Vec<Open>, first: Trial, period: f64) -> Result<Trial, L::Error> {
+    fn rigid_if_still(&mut self, open: Vec<Open>, first: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
         let scales = first.record.scales();
         let moves = |own: &Open| {
             let quantities = first.record.quantities.iter().zip(&scales);
@@ -351,7 +353,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let rigid = vec![Fidelity::Rigid; self.tolerances.len()];
         let Ok(trial) = self.trial(&rigid) else { return Ok(first) };
         let strictest = self.strictest(&open, &vec![1; open.len()]);
-        let apart = difference(&trial.record, &first.record, strictest.measure, period);
+        let apart = difference(&trial.record, &first.record, strictest.measure, bounces);
         self.note_runs(&open, &trial, &first, apart.largest, &apart.quantity);
         if !(apart.largest <= SAFE * strictest.value) {
             return Ok(first);

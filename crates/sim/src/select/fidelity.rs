@@ -13,8 +13,9 @@ pub enum Fidelity {
     Modal(usize),
 }
 
-/// Highest frequency of a body on its contacts at rest on rigid rails: sqrt(sum k' / m), or 0 without contacts.
-pub(super) fn contact_frequency(scene: &Scene) -> f64 {
+/// Period of the fastest bounce of a body on its contacts on rigid rails, 2 pi sqrt(m / sum k'), with the stiffnesses k' of
+/// the contacts at rest; infinite without contacts.
+pub(super) fn fastest_bounce(scene: &Scene) -> f64 {
     let of = |b: usize| {
         let contacts = || scene.contacts.iter().filter(|contact| contact.body == b);
         let wheels: usize = contacts().map(|contact| contact.offsets.len()).sum();
@@ -28,7 +29,7 @@ pub(super) fn contact_frequency(scene: &Scene) -> f64 {
             .sum();
         (stiffness / body.mass).sqrt()
     };
-    (0..scene.bodies.len()).map(of).fold(0.0, f64::max)
+    2.0 * std::f64::consts::PI / (0..scene.bodies.len()).map(of).fold(0.0, f64::max)
 }
 
 /// Period of the slowest bounce of a wheel in a run on flexible rails: 2 pi sqrt(d/g), with d the largest sum of

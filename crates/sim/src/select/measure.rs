@@ -17,7 +17,10 @@
 //!    vice versa; minima likewise;
 //! 3. the mean over each window.
 //!
-//! Windows keep an error late in a run from hiding behind an early peak.
+//! Windows keep an error late in a run from hiding behind an early peak. In a run of more than [`MANY`] bounces the
+//! phases of bounces that nothing damps cannot be known: which wheel of a body is the more heavily loaded one at a
+//! given time is then a matter of chance. There the window is the whole run, and the extremes of a quantity are taken
+//! over all wheels of a body.
 
 use crate::{Channel, History};
 
@@ -25,6 +28,8 @@ use crate::{Channel, History};
 const FLOOR: f64 = 1e-3;
 /// Length of a window, in periods of the slowest bounce.
 const PERIODS: f64 = 3.0;
+/// Number of bounces up to which their phases count.
+const MANY: f64 = 100.0;
 
 /// Measure of the error of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -47,6 +52,8 @@ pub struct Quantity {
     pub channel: Option<Channel>,
     /// Whether its scale is its range without zero, as for positions, whose origin has no meaning.
     pub is_position: bool,
+    /// Quantities of equal group are one quantity at several wheels of a body; empty: it belongs to no wheel.
+    pub group: String,
     /// Least scale of the quantity, below which its values are rounding errors.
     pub least_scale: f64,
     /// One value for each time of the record.
@@ -79,7 +86,7 @@ impl Record {
                 _ => return None,
             };
             let (name, values) = (format!("{channel:?}"), history.column(*channel));
-            Some(Quantity { name, kind, channel: Some(*channel), is_position, least_scale: 0.0, values })
+            Some(Quantity { name, kind, channel: Some(*channel), is_position, group: String::new(), least_scale: 0.0, values })
         };
         let quantities = history.channels().iter().filter_map(quantity).collect();
         Record { time: history.column(Channel::Time), quantities }
@@ -118,11 +125,20 @@ pub struct Difference {
     pub quantity: String,
 }
 
-/// Difference of record `a` from record `b` of the same scene. `period` is the period of the slowest bounce of a wheel.
-/// Where the runs were ended by a rule at different times, the difference of these times, relative to the later one,
-/// counts as well, and values are compared as far as both runs reach.
+/// Periods of the bounces of wheels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounces {
+    /// Period of the slowest bounce, on flexible rails.
+    pub slowest: f64,
+    /// Period of the fastest bounce, on rigid rails.
+    pub fastest: f64,
+}
+
+/// Difference of record `a` from record `b` of the same scene. Where the runs were ended by a rule at different times,
+/// the difference of these times, relative to the later one, counts as well, and values are compared as far as both
+/// runs reach.
 #[must_use]
-pub fn difference(a: &Record, b: &Record, measure: Measure, period: f64) -> Difference {
+pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) -> Difference {
     let unknown = Difference { largest: f64::INFINITY, quantity: String::new() };
     if a.quantities.len() != b.quantities.len() || a.time.is_empty() || b.time.is_empty() {
         return unknown;
@@ -134,13 +150,18 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, period: f64) -> Diff
     if a.time.len() != b.time.len() && duration > 0.0 {
         found = Difference { largest: duration, quantity: "time of the end".to_owned() };
     }
-    let windows = Windows::new(&b.time[..count], period);
-    let scales = b.scales();
-    for ((one, other), scale) in a.quantities.iter().zip(&b.quantities).zip(scales) {
+    let is_long = ends[0] > MANY * bounces.fastest;
+    let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
+    for (index, scale) in b.scales().into_iter().enumerate() {
+        let [one, other] = [a, b].map(|record| &record.quantities[index]);
         let values = [&one.values[..count], &other.values[..count]];
         let largest = match measure {
-            Measure::Extremes => windows.difference(values),
             Measure::History => pointwise(values),
+            Measure::Extremes if is_long && !other.group.is_empty() => {
+                let [a, b] = [a, b].map(|record| group_extremes(record, &other.group, count));
+                (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
+            }
+            Measure::Extremes => windows.difference(values),
         };
         let relative = if largest == 0.0 { 0.0 } else { largest / scale };
         // also true where it is not a number
@@ -149,6 +170,13 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, period: f64) -> Diff
         }
     }
     if found.largest.is_nan() { unknown } else { found }
+}
+
+/// Smallest and largest value of the quantities of a group in the first `count` samples.
+fn group_extremes(record: &Record, group: &str, count: usize) -> [f64; 2] {
+    let own = record.quantities.iter().filter(|quantity| quantity.group == group);
+    let all = own.map(|quantity| extremes(quantity.values[..count].iter(), quantity.values[0]));
+    all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
 }
 
 /// Largest difference at equal times.
