@@ -38,6 +38,8 @@ use formats::spec::ties::Pad;
 
 /// Largest relative error of a frequency due to the subdivision of members.
 const ACCURACY: f64 = 1e-6;
+/// The same for modes that serve only to estimate the error of leaving them out.
+const COARSE: f64 = 1e-2;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
 /// are assumed not to excite the mode.
 const STILL: f64 = 1e-6;
@@ -62,15 +64,17 @@ enum StaticCompliance {
 }
 
 impl MeshModes {
-    /// At least the lowest `count` modes that `excitation` excites, or all if there are fewer.
+    /// At least the lowest `count` modes that `excitation` excites, or all if there are fewer, with frequencies within
+    /// `accuracy`.
     pub fn lowest(
         name: &str,
         solved: &SolvedModel,
         count: usize,
+        accuracy: f64,
         excitation: Excitation,
     ) -> Result<MeshModes, Error> {
         let (refined, excited, is_whole) =
-            search(solved, count, ACCURACY, excitation).map_err(Error::modes(name))?;
+            search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
         let given = solved.surface.clone().map_or_else(|| surface(name, &solved.model, &solved.rails), Ok)?;
         MeshModes::new(name, refined, excited, Some(given), is_whole)
     }
@@ -205,6 +209,8 @@ impl Dampers<'_> {
 #[derive(Default)]
 pub struct ModeCache {
     lowest: Option<MeshModes>,
+    /// Modes that serve only to estimate errors.
+    coarse: Option<MeshModes>,
     /// Number of elements for each member, and all modes of that mesh.
     whole: Vec<(usize, MeshModes)>,
 }
@@ -224,9 +230,27 @@ impl ModeCache {
         let cached = self.lowest.take().filter(|modes| modes.has(count));
         let modes = match cached {
             Some(modes) => modes,
-            None => MeshModes::lowest(name, solved, count, excitation)?,
+            None => MeshModes::lowest(name, solved, count, ACCURACY, excitation)?,
         };
         self.lowest.insert(modes).foundation(name, count, ratio, dampers, excitation)
+    }
+
+    /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with
+    /// frequencies within 1 %.
+    pub(super) fn coarse(
+        &mut self,
+        name: &str,
+        solved: &SolvedModel,
+        count: usize,
+        ratio: f64,
+        excitation: Excitation,
+    ) -> Result<BuiltFoundation, Error> {
+        let cached = self.coarse.take().filter(|modes| modes.has(count));
+        let modes = match cached {
+            Some(modes) => modes,
+            None => MeshModes::lowest(name, solved, count, COARSE, excitation)?,
+        };
+        self.coarse.insert(modes).foundation(name, count, ratio, Dampers::NONE, excitation)
     }
 
     /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member.

@@ -7,9 +7,9 @@
 
 use std::ops::ControlFlow;
 
-use sim::{Check, Choice, Fidelity, FoundationProvider, ModalBasis, Reason, Record, Run, Tolerance};
+use sim::{Check, Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance};
 
-use crate::build::build;
+use crate::build::{build, coarse_modes};
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
 use crate::modal::ModeCache;
@@ -28,11 +28,12 @@ pub struct AutoRun {
 
 /// The quantities by which the runs of a choice are judged.
 pub trait TrialObserver {
-    /// The quantities of `run`, in which the degrees of freedom of structure s represent the motions `bases[s]`.
+    /// The quantities of a run with this history, in which the degrees of freedom of structure s represent the motions
+    /// `bases[s]`.
     ///
     /// # Errors
     /// A quantity that cannot be computed.
-    fn record(&mut self, run: &Run, bases: &[Option<MotionBasis>]) -> Result<Record, Error>;
+    fn record(&mut self, history: &History, bases: &[Option<MotionBasis>]) -> Result<Record, Error>;
 
     /// Reactions and internal forces of a structure by name, with minus their values per unit acceleration of each of
     /// the motions of `basis`.
@@ -47,8 +48,8 @@ pub trait TrialObserver {
 
 /// Judges runs by the quantities of the simulator alone, without reactions and internal forces.
 impl TrialObserver for () {
-    fn record(&mut self, run: &Run, _: &[Option<MotionBasis>]) -> Result<Record, Error> {
-        Ok(Record::of(&run.history))
+    fn record(&mut self, history: &History, _: &[Option<MotionBasis>]) -> Result<Record, Error> {
+        Ok(Record::of(history))
     }
 
     fn effects(&mut self, _: usize, _: &MotionBasis) -> Result<Vec<(String, Vec<f64>)>, Error> {
@@ -162,10 +163,10 @@ impl FoundationProvider for SceneFoundations<'_> {
     type Error = Error;
 
     fn modes(&mut self, structure: usize, count: usize) -> Result<Option<ModalBasis>, Error> {
-        if solution_of(self.known, &self.scene.structures[structure].origin).is_none() {
-            return Ok(None);
-        }
-        let BuiltFoundation { foundation, basis } = match self.build(structure, Fidelity::Modal(count)) {
+        let own = &self.scene.structures[structure];
+        let Some(solved) = solution_of(self.known, &own.origin) else { return Ok(None) };
+        let cache = &mut self.mode_caches[structure];
+        let BuiltFoundation { foundation, basis } = match coarse_modes(cache, own, solved, self.lateral, count) {
             Ok(built) => built,
             Err(Error::Modes { source: fea::Error::NoMass, .. }) => return Ok(None),
             Err(error) => return Err(error),
@@ -193,8 +194,8 @@ impl FoundationProvider for SceneFoundations<'_> {
         sim::run_by(self.scene.stepping, scene, foundations, watch)
     }
 
-    fn observe(&mut self, run: &Run) -> Result<Record, Error> {
-        self.observer.record(run, &self.bases)
+    fn observe(&mut self, history: &History) -> Result<Record, Error> {
+        self.observer.record(history, &self.bases)
     }
 
     fn begin(&mut self, fidelities: &[(usize, Fidelity)]) {

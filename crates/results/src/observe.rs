@@ -1,7 +1,7 @@
 //! The quantities by which "auto" judges the runs of a scene: all columns of its history, and the reactions, internal
 //! forces and stresses that its output requests.
 
-use sim::{BodyDof, Channel, History, Quantity, Record, Run};
+use sim::{BodyDof, Channel, History, Quantity, Record};
 
 use crate::response::{ColumnInfluence, WheelLoadReader, influence_lines};
 use formats::scene::Scene;
@@ -131,8 +131,7 @@ impl<'a> ColumnObserver<'a> {
 }
 
 impl TrialObserver for ColumnObserver<'_> {
-    fn record(&mut self, run: &Run, bases: &[Option<MotionBasis>]) -> Result<Record, Error> {
-        let history = &run.history;
+    fn record(&mut self, history: &History, bases: &[Option<MotionBasis>]) -> Result<Record, Error> {
         let mut found = Vec::new();
         for quantity in quantities(self.scene) {
             let Some((kind, is_position)) = quantity.terms.first().and_then(|(channel, _)| kind(*channel)) else {

@@ -22,8 +22,9 @@ const MOST_EXTRA: usize = 64;
 const GAPS: usize = 3;
 /// Number of further eigenvalues that are computed if none of the gaps can be used.
 const STEP: usize = 8;
-/// Error of a frequency (eps times condition) that is accepted from a factor in doubles.
-const DOUBLES_SUFFICE: f64 = 1e-9;
+/// Error of a frequency (eps times condition) that is accepted from a factor in doubles: of modes that are asked for,
+/// and of modes that are the degrees of freedom of a simulation, whose members are cut for the same error.
+const DOUBLES_SUFFICE: [f64; 2] = [1e-9, 1e-6];
 /// Most searches, each continued after a count that found more.
 const ATTEMPTS: usize = 12;
 /// Number of unknowns for each mode up to which dense matrices are faster than the search.
@@ -49,7 +50,7 @@ impl FactoredFrame {
     /// As [`FactoredFrame::excited_modes`].
     pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        self.lowest_of(&Part::whole(self, &mass), &mass, count)
+        self.lowest_of(&Part::whole(self, &mass), &mass, count, DOUBLES_SUFFICE[0])
     }
 
     /// The `count` lowest modes among those of the unknowns that `forces` can move; `m` is the model that the frame
@@ -68,12 +69,13 @@ impl FactoredFrame {
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
     pub fn excited_modes(&self, m: &Model, forces: &ExcitingForces, count: usize) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count)
+        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count, DOUBLES_SUFFICE[1])
     }
 
-    fn lowest_of(&self, part: &Part, mass: &ScaledMass, count: usize) -> Result<Modes, Error> {
+    /// The lowest modes of `part`; its frequencies may have the relative error `error`.
+    fn lowest_of(&self, part: &Part, mass: &ScaledMass, count: usize, error: f64) -> Result<Modes, Error> {
         let norms = self.norms(mass)?;
-        let suffices = self.certificate().condition * f64::EPSILON < DOUBLES_SUFFICE;
+        let suffices = self.certificate().condition * f64::EPSILON < error;
         let is_small = part.len() <= FEW_UNKNOWNS.max(DENSE_UNKNOWNS_PER_MODE * count);
         let pairs = if suffices && is_small && part.len() <= MOST_DENSE_UNKNOWNS {
             dense(part, count)

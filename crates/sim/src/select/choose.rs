@@ -8,9 +8,14 @@
 //!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
 //!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
 //!    beyond m modes times that factor is the error of the new run.
-//! 4. The lower of the two fidelities whose error is within 0.8 of the tolerance is chosen. If it is neither, the
-//!    number of modes is raised by the new estimates, and step 3 is repeated, three times at the most. After that the
-//!    error is reported as exceeding the tolerance.
+//! 4. The first run is chosen if the difference and the error of the new run together are within the tolerance, and
+//!    otherwise the new run if its error is within 0.8 of the tolerance. If neither is, the number of modes is raised by
+//!    the new estimates, and step 3 is repeated, up to three times. After that the error is reported as exceeding the
+//!    tolerance.
+//!
+//! Runs are compared at the output times of the scene. Where the estimate of step 2 leaves it open whether influence
+//! functions suffice, the run that checks them has only the accuracy of a tenth of the tolerance, and is repeated with
+//! that of the scene if it becomes the result.
 //!
 //! Every structure has its own modes and its own number of them, and all structures are raised in the same run.
 
@@ -27,13 +32,21 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 /// Number of modes that are computed first, and at the most.
 const MODES: [usize; 2] = [12, 96];
 /// Estimate for which a number of modes is chosen, relative to the tolerance.
-const AIM: f64 = 0.2;
+const AIM: f64 = 0.1;
 /// Fraction of the tolerance that an estimated error may reach.
 const SAFE: f64 = 0.8;
+/// Estimate for influence functions, relative to the tolerance, above which they are not expected to suffice.
+const HOPELESS: f64 = 10.0;
+/// Estimate for which the number of modes is chosen in a run that only checks influence functions, relative to their own.
+const CHECKED: f64 = 0.05;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
-const AMPLIFICATION: [f64; 2] = [1.0, 10.0];
+const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
+/// The factor where there are no two runs to compare.
+const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
 const MODAL_RUNS: usize = 3;
+/// Accuracy of a run that only checks influence functions, relative to the tolerance.
+const CHECK_ACCURACY: f64 = 0.1;
 /// Samples for each period of the fastest bounce, and the largest number of samples of a run.
 const SAMPLES: [f64; 2] = [10.0, 40_000.0];
 /// Stages of a run from which its cost counts: shorter runs take some hundredths of a second.
@@ -58,7 +71,7 @@ pub fn choose<L: FoundationProvider>(
     if open.is_empty() {
         search.scene.output_parts = scene.output_parts;
     }
-    let first = search.trial(&influence)?;
+    let first = search.trial(&influence, search.accuracy, !open.is_empty())?;
     let chosen = if open.is_empty() { first } else { search.search(open, first)? };
     Ok(search.finish(chosen))
 }
@@ -67,8 +80,12 @@ pub fn choose<L: FoundationProvider>(
 struct Trial {
     fidelities: Vec<Fidelity>,
     foundations: Vec<Foundation>,
+    /// The run, with samples between the output times.
     run: Run,
+    /// The history at the output times.
     record: Record,
+    /// The accuracy of the run.
+    accuracy: f64,
 }
 
 impl Trial {
@@ -109,8 +126,10 @@ impl Open {
 }
 
 struct Search<'a, L: FoundationProvider> {
-    /// The scene with the accuracy and the sampling of the trials.
+    /// The scene with the sampling of the trials.
     scene: Scene,
+    /// Accuracy of the result.
+    accuracy: f64,
     tolerances: &'a [Option<Tolerance>],
     provider: &'a mut L,
     watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -126,15 +145,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Self {
         let mut scene = scene.clone();
+        let mut accuracy = scene.accuracy;
         if scene.analysis == Analysis::Dynamic {
             for tolerance in tolerances.iter().flatten() {
-                scene.accuracy = scene.accuracy.min(RUN_ACCURACY * tolerance.value);
+                accuracy = accuracy.min(RUN_ACCURACY * tolerance.value);
             }
             let wanted = scene.output_dt * SAMPLES[0] / fastest_bounce(&scene);
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
-        Search { scene, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
+        Search { scene, accuracy, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
     }
 
     /// The structures whose choice depends on runs. The choices of the others are made.
@@ -165,89 +185,151 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         open
     }
 
-    /// Runs the scene at `fidelities`, one for each structure.
-    fn trial(&mut self, fidelities: &[Fidelity]) -> Result<Trial, L::Error> {
+    /// Runs the scene at `fidelities`, one for each structure, with an accuracy, and observes it if it `is_compared`.
+    fn trial(&mut self, fidelities: &[Fidelity], accuracy: f64, is_compared: bool) -> Result<Trial, L::Error> {
         let auto = fidelities.iter().enumerate().filter(|(s, _)| self.tolerances[*s].is_some());
         self.provider.begin(&auto.map(|(s, fidelity)| (s, *fidelity)).collect::<Vec<_>>());
         let built = fidelities.iter().enumerate();
         let foundations =
             built.map(|(s, fidelity)| self.provider.foundation(s, *fidelity)).collect::<Result<Vec<_>, _>>()?;
+        self.scene.accuracy = accuracy;
         let run = self.provider.run(&self.scene, &foundations, self.watch)?;
         self.runs += 1;
-        let is_compared = run.status.is_complete() && self.scene.analysis == Analysis::Dynamic;
-        let record = if is_compared { self.provider.observe(&run)? } else { Record::default() };
-        Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record })
+        let mut record = Record::default();
+        if is_compared && run.status.is_complete() {
+            let is_ended = matches!(run.status, Status::Ended(_));
+            let history = run.history.clone().every(self.scene.output_parts, is_ended);
+            record = self.provider.observe(&history)?;
+        }
+        Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record, accuracy })
     }
 
     /// Steps 2 to 4 of the head of this module, from the run `first` with influence functions.
-    fn search(&mut self, mut open: Vec<Open>, first: Trial) -> Result<Trial, L::Error> {
-        if !first.run.status.is_complete() {
-            return Ok(first);
+    fn search(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
+        match first.run.status {
+            Status::Done | Status::Ended(_) => {}
+            // Other foundations may still complete the motion.
+            Status::StepTooSmall(_) => return self.search_without_influence(open, first),
+            // On other foundations the wheels would leave their rails as well.
+            Status::Stopped | Status::Failed(..) => return Ok(first),
         }
         let bounces = Bounces {
             slowest: slowest_bounce(&self.scene, &first.run.history),
             fastest: fastest_bounce(&self.scene),
         };
+        let compliances = std::mem::take(&mut first.foundations);
+        let none = vec![0; open.len()];
         for own in &mut open {
-            self.estimate(own, &first, &first.foundations);
+            self.estimate(own, &first, &compliances, 0, f64::INFINITY);
         }
-        let mut counts: Vec<usize> = open.iter().map(|own| own.count_for(AIM * own.tolerance, 0)).collect();
-        self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
-        if counts.iter().all(|count| *count == 0) {
-            for own in &open {
-                self.settle(own, Fidelity::Influence, Reason::Sufficient, own.tail(0).error, own.tail(0).quantity);
+        let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
+        let mut counts = none.clone();
+        for (own, count) in open.iter_mut().zip(&mut counts) {
+            let aim = AIM * own.tolerance;
+            let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
+            if own.tail(0).error > aim {
+                self.estimate(own, &first, &compliances, 1, limit);
+                *count = own.count_for(limit, 1);
             }
-            return self.rigid_if_still(open, first, bounces);
+        }
+        self.note_tails(&open, &none, 1.0, &first);
+        if counts == none {
+            for own in &open {
+                self.settle(own, Fidelity::Influence, Reason::Sufficient, &own.tail(0));
+            }
+            return self.rigid_if_still(&open, first, bounces);
         }
         let strictest = self.strictest(&open, &counts);
-        let mut estimate = largest(&open, &vec![0; open.len()]);
+        let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
         let mut lower = first;
-        let mut exact: Option<Vec<Foundation>> = None;
+        let mut lacking = largest(&open, &none);
         for round in 1..=MODAL_RUNS {
-            let Some(higher) = self.modal_trial(&open, &counts) else { return Ok(lower) };
-            let compliances = exact.get_or_insert_with(|| std::mem::take(&mut lower.foundations));
-            for own in &mut open {
-                self.estimate(own, &higher, compliances);
+            let Some(higher) = self.modal_trial(&open, &counts, accuracy) else { return self.repeated(lower) };
+            for (own, count) in open.iter_mut().zip(&counts) {
+                self.estimate(own, &higher, &compliances, *count, f64::INFINITY);
             }
             let apart = difference(&lower.record, &higher.record, strictest.measure, bounces);
-            let pointwise = difference(&lower.record, &higher.record, Measure::History, bounces).largest;
-            let factor = (pointwise / estimate.max(f64::MIN_POSITIVE)).clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
-            estimate = largest(&open, &counts);
-            let error = apart.largest + factor * estimate;
+            let factor = apart.largest / lacking.max(f64::MIN_POSITIVE);
+            let factor = factor.clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
+            lacking = largest(&open, &counts);
+            let error = apart.largest + factor * lacking;
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= strictest.value {
-                let is_kept = lower.run.counts.stages as u64 > LONG && higher.cost() > COSTLY * lower.cost();
+                let is_kept = higher.accuracy <= self.accuracy
+                    && lower.run.counts.stages as u64 > LONG
+                    && higher.cost() > COSTLY * lower.cost();
                 let (chosen, reason) =
                     if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
+                let tail = TailError { kept: 0, error, quantity: apart.quantity };
                 for own in &open {
-                    let fidelity = chosen.fidelities[own.structure];
-                    self.settle(own, fidelity, reason, error, apart.quantity.clone());
+                    self.settle(own, chosen.fidelities[own.structure], reason, &tail);
                 }
-                return Ok(chosen);
+                return self.repeated(chosen);
             }
-            let is_within = |(own, count): (&Open, &usize)| factor * own.tail(*count).error <= SAFE * own.tolerance;
-            let is_enough = open.iter().zip(&counts).all(is_within);
-            let raised: Vec<usize> = open
-                .iter()
-                .zip(&counts)
-                .map(|(own, count)| match is_within((own, count)) {
-                    true => *count,
-                    false => own.count_for(AIM * own.tolerance / factor, count + 1).max(*count),
-                })
-                .collect();
-            if is_enough || raised == counts || round == MODAL_RUNS {
-                for (own, count) in open.iter().zip(&counts) {
-                    let reason = if is_within((own, count)) { Reason::Sufficient } else { Reason::Limit };
-                    let tail = own.tail(*count);
-                    let fidelity = higher.fidelities[own.structure];
-                    self.settle(own, fidelity, reason, factor * tail.error, tail.quantity);
+            let is_within =
+                |own: &Open, count: usize| factor * own.tail(count).error <= SAFE * own.tolerance;
+            let mut raised = counts.clone();
+            for (own, count) in open.iter_mut().zip(&mut raised) {
+                if !is_within(own, *count) {
+                    let limit = AIM * own.tolerance / factor;
+                    self.estimate(own, &higher, &compliances, *count + 1, limit);
+                    *count = own.count_for(limit, *count + 1).max(*count);
                 }
-                return Ok(higher);
             }
-            (lower, counts) = (higher, raised);
+            if raised == counts || round == MODAL_RUNS {
+                for (own, &count) in open.iter().zip(&counts) {
+                    let reason = if is_within(own, count) { Reason::Sufficient } else { Reason::Limit };
+                    let tail = own.tail(count);
+                    let tail = TailError { error: factor * tail.error, ..tail };
+                    self.settle(own, higher.fidelities[own.structure], reason, &tail);
+                }
+                return self.repeated(higher);
+            }
+            (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
         Ok(lower)
+    }
+
+    /// The choice where the run `first` with influence functions could not continue: the first number of modes that
+    /// completes the motion and whose error, estimated with the factor [`UNKNOWN`], is within the tolerance.
+    fn search_without_influence(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
+        for own in &open {
+            self.choices[own.choice].failed.push(Fidelity::Influence);
+        }
+        let compliances = std::mem::take(&mut first.foundations);
+        let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
+        let mut last = first;
+        for round in 1..=MODAL_RUNS {
+            let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { return Ok(last) };
+            for (own, count) in open.iter_mut().zip(&counts) {
+                self.estimate(own, &trial, &compliances, *count, SAFE / UNKNOWN * own.tolerance);
+            }
+            self.note_tails(&open, &counts, UNKNOWN, &trial);
+            last = trial;
+            let raised: Vec<usize> = (open.iter().zip(&counts))
+                .map(|(own, &count)| own.count_for(SAFE / UNKNOWN * own.tolerance, count).max(count))
+                .collect();
+            if raised == counts || round == MODAL_RUNS {
+                break;
+            }
+            counts = raised;
+        }
+        for (own, &count) in open.iter().zip(&counts) {
+            let tail = own.tail(count);
+            let tail = TailError { error: UNKNOWN * tail.error, ..tail };
+            let reason = if tail.error <= own.tolerance { Reason::Sufficient } else { Reason::Limit };
+            self.settle(own, last.fidelities[own.structure], reason, &tail);
+        }
+        Ok(last)
+    }
+
+    /// A trial, repeated with the accuracy of the result if it was made with a coarser one.
+    fn repeated(&mut self, trial: Trial) -> Result<Trial, L::Error> {
+        if trial.accuracy <= self.accuracy {
+            return Ok(trial);
+        }
+        self.trial(&trial.fidelities, self.accuracy, false)
     }
 
     /// The smallest tolerance of the structures that have modes, in the stricter measure.
@@ -262,12 +344,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Runs the scene with `counts` modes of the structures `open`; `None` if that is not possible.
-    fn modal_trial(&mut self, open: &[Open], counts: &[usize]) -> Option<Trial> {
+    fn modal_trial(&mut self, open: &[Open], counts: &[usize], accuracy: f64) -> Option<Trial> {
         let mut fidelities = vec![Fidelity::Influence; self.tolerances.len()];
         for (own, count) in open.iter().zip(counts).filter(|(_, count)| **count > 0) {
             fidelities[own.structure] = Fidelity::Modal(*count);
         }
-        match self.trial(&fidelities) {
+        match self.trial(&fidelities, accuracy, true) {
             Ok(trial) if trial.run.status.is_complete() => Some(trial),
             _ => {
                 for own in open.iter().filter(|own| fidelities[own.structure] != Fidelity::Influence) {
@@ -279,8 +361,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
-    /// computed while the highest ones matter. Without an estimate the error is taken to be infinite.
-    fn estimate(&mut self, own: &mut Open, trial: &Trial, compliances: &[Foundation]) {
+    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is half of them. Without
+    /// an estimate the error is taken to be infinite.
+    fn estimate(&mut self, own: &mut Open, trial: &Trial, compliances: &[Foundation], least: usize, limit: f64) {
         loop {
             let loaded = Loaded {
                 scene: &self.scene,
@@ -291,8 +374,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             };
             own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
             let known = own.basis.structure.dynamics.dofs();
-            let is_small = own.tails.last().is_some_and(|tail| tail.error <= 0.3 * AIM * own.tolerance);
-            if is_small || own.basis.is_whole || known >= MODES[1] {
+            let found = own.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
+            let is_known = found.is_some_and(|tail| 2 * tail.kept <= known);
+            if is_known || own.basis.is_whole || known >= MODES[1] {
                 return;
             }
             match self.provider.modes(own.structure, 2 * known) {
@@ -332,14 +416,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
     }
 
-    fn settle(&mut self, own: &Open, fidelity: Fidelity, reason: Reason, estimate: f64, quantity: String) {
+    fn settle(&mut self, own: &Open, fidelity: Fidelity, reason: Reason, error: &TailError) {
         let choice = &mut self.choices[own.choice];
-        (choice.fidelity, choice.reason, choice.quantity) = (fidelity, reason, quantity);
-        choice.estimate = Some(estimate);
+        (choice.fidelity, choice.reason, choice.estimate) = (fidelity, reason, Some(error.error));
+        choice.quantity.clone_from(&error.quantity);
     }
 
     /// Where no rail deflects by more than what the tolerance leaves of the largest displacements, tries rigid rails.
-    fn rigid_if_still(&mut self, open: Vec<Open>, first: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
+    fn rigid_if_still(&mut self, open: &[Open], first: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
         let scales = first.record.scales();
         let moves = |own: &Open| {
             let quantities = first.record.quantities.iter().zip(&scales);
@@ -351,15 +435,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             return Ok(first);
         }
         let rigid = vec![Fidelity::Rigid; self.tolerances.len()];
-        let Ok(trial) = self.trial(&rigid) else { return Ok(first) };
-        let strictest = self.strictest(&open, &vec![1; open.len()]);
+        let Ok(trial) = self.trial(&rigid, self.accuracy, true) else { return Ok(first) };
+        let strictest = self.strictest(open, &vec![1; open.len()]);
         let apart = difference(&trial.record, &first.record, strictest.measure, bounces);
-        self.note_runs(&open, &trial, &first, apart.largest, &apart.quantity);
-        if !(apart.largest <= SAFE * strictest.value) {
+        self.note_runs(open, &trial, &first, apart.largest, &apart.quantity);
+        if apart.largest > SAFE * strictest.value {
             return Ok(first);
         }
-        for own in &open {
-            self.settle(own, Fidelity::Rigid, Reason::Sufficient, apart.largest, apart.quantity.clone());
+        let error = TailError { kept: 0, error: apart.largest, quantity: apart.quantity };
+        for own in open {
+            self.settle(own, Fidelity::Rigid, Reason::Sufficient, &error);
         }
         Ok(trial)
     }

@@ -14,11 +14,11 @@
 //! ```text
 //! delta = sum over r > m of phi_r (q_r - sum of phi_r F / omega_r^2)       at wheels and gauges,
 //! delta = sum over r > m of s_r q_r''                                      for reactions and internal forces,
-//! dF = delta / (G_m + 1 / |k + i omega c|)                                 for a wheel force,
+//! dF = sum over r > m of phi_r (...) / (G_r + 1 / |k + i omega_r c|)       for a wheel force,
 //! ```
 //!
-//! where s_r is the effect of a unit acceleration of the mode, G_m the residual flexibility under the wheel, and k and
-//! c are stiffness and damping of its contact. The last line neglects the motion of the body. It is the first iterate
+//! where s_r is the effect of a unit acceleration of the mode, G_r the residual flexibility of the modes above r under
+//! the wheel, and k and c are stiffness and damping of its contact. The last line neglects the motion of the body. It is the first iterate
 //! of a staggered solution: sharp where delta hardly changes the forces, and too large where it would.
 
 use std::collections::BTreeMap;
@@ -30,7 +30,8 @@ use crate::mechanics::wheels::Wheels;
 use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
-pub(super) const COUNTS: [usize; 14] = [0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96];
+pub(super) const COUNTS: [usize; 20] =
+    [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 96];
 /// Largest damping ratio that is distinguished from others; the formulas are those of an oscillation.
 const MOST_DAMPED: f64 = 0.999;
 
@@ -169,6 +170,8 @@ struct Replay<'a> {
     /// Vertical shapes of the modes under the wheels and their slopes, wheel by wheel.
     shapes: Vec<f64>,
     slopes: Vec<f64>,
+    /// Forces that a wheel lacks by each mode.
+    gains: Vec<f64>,
 }
 
 impl<'a> Replay<'a> {
@@ -231,6 +234,7 @@ impl<'a> Replay<'a> {
             length: 0.0,
             shapes: Vec::new(),
             slopes: Vec::new(),
+            gains: Vec::new(),
             counts,
         })
     }
@@ -326,20 +330,15 @@ impl<'a> Replay<'a> {
             filled.map_err(|source| Error::Compliance { structure: s, source })?;
             flexibility = influence.value[(0, 0)];
         }
-        let mut kept = 0;
-        for (count, largest) in self.counts.iter().zip(&mut force.largest) {
-            while kept < *count {
-                flexibility -= (shape[kept] / self.oscillators[kept].omega).powi(2);
-                kept += 1;
-            }
-            let sum: f64 = (kept..n)
-                .map(|r| {
-                    let stiffness = k.hypot(self.oscillators[r].omega * c);
-                    shape[r] * lag[r] / (flexibility.max(0.0) + 1.0 / stiffness)
-                })
-                .sum();
-            *largest = largest.max(sum.abs());
+        self.gains.resize(n, 0.0);
+        for (r, gain) in self.gains.iter_mut().enumerate() {
+            let mode = &self.oscillators[r];
+            flexibility -= (shape[r] / mode.omega).powi(2);
+            let damper = mode.omega * c;
+            let give = 1.0 / (k * k + damper * damper).sqrt();
+            *gain = shape[r] * lag[r] / (flexibility.max(0.0) + give);
         }
+        note(&self.counts, &mut force.largest, |r| self.gains[r], n);
         Ok(())
     }
 
