@@ -343,6 +343,9 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     for (at, motion) in out.points.iter_mut().enumerate() {
         *motion = std::array::from_fn(|i| add(|mode| &mode.points, at, i));
     }
+    for (at, loads) in out.loads.iter_mut().enumerate() {
+        *loads = std::array::from_fn(|k| modes.iter().zip(weights).map(|(m, w)| w * m.loads[at][k]).sum());
+    }
     out.coupling = std::array::from_fn(|i| modes.iter().zip(weights).map(|(m, w)| w * m.coupling[i]).sum());
     out
 }
@@ -395,5 +398,14 @@ fn shapes(
     let states = DMatrix::from_fn(6 * line.state_count(), modes.len(), |k, r| {
         modes[r].states[k / 6][k % 6] / divisor(&modes[r])
     });
-    splines::RailShapes::new(Arc::clone(line), states)
+    let own = splines::RailShapes::new(Arc::clone(line), states)?;
+    if modes.iter().all(|mode| mode.loads.is_empty()) {
+        return Ok(own);
+    }
+    let elements = line.elements();
+    let loads = DMatrix::from_fn(2 * elements.len(), modes.len(), |k, r| {
+        let member = elements[k / 2].member.map(|member| member.id);
+        member.map_or(0.0, |member| modes[r].loads[member][k % 2] / divisor(&modes[r]))
+    });
+    own.with_uniform_loads(&loads)
 }

@@ -9,6 +9,7 @@ use sprs::{CsMat, TriMat};
 
 use crate::assembly::{bending_planes, transformation};
 use crate::error::Error;
+use crate::factor::Solver;
 use crate::influence::FactoredFrame;
 use crate::model::Model;
 use crate::modes::mass::ScaledMass;
@@ -35,27 +36,33 @@ impl ExcitingForces {
     }
 }
 
-/// Some of the unknowns of a frame, and their stiffness and mass, both scaled.
+/// Some of the coordinates of a frame, in the order of [`ScaledMass`], and their stiffness and mass, both scaled.
+///
+/// In the stiffness, each interior motion has one on the diagonal and nothing beside it.
 #[derive(Debug)]
 pub(super) struct Part {
-    /// The unknowns of the frame, in increasing order.
+    /// The coordinates, in increasing order.
     pub unknowns: Vec<usize>,
     /// Upper triangle of the stiffness.
     pub stiffness: CsMat<f64>,
     /// Upper triangle of the mass.
     pub mass: CsMat<f64>,
-    /// Number of unknowns of the frame.
+    /// Number of interior motions of the frame.
+    interior: usize,
+    /// Number of coordinates of the frame.
     all: usize,
 }
 
 impl Part {
-    /// All unknowns of a frame.
+    /// All coordinates of a frame.
     pub fn whole(frame: &FactoredFrame, mass: &ScaledMass) -> Part {
-        let all = frame.unknowns();
+        let interior = mass.interior.len();
+        let all = interior + frame.unknowns();
         Part {
             unknowns: (0..all).collect(),
-            stiffness: frame.stiffness().upper.clone(),
+            stiffness: with_interior(&frame.stiffness().upper, interior),
             mass: mass.upper.clone(),
+            interior,
             all,
         }
     }
@@ -64,10 +71,11 @@ impl Part {
     /// a force acts. Their modes, with zeros for the other unknowns, are exactly the modes of the frame that the
     /// forces excite, because the matrices are block diagonal.
     pub fn moved_by(forces: &ExcitingForces, frame: &FactoredFrame, mass: &ScaledMass) -> Part {
-        let stiffness = &frame.stiffness().upper;
+        let interior = mass.interior.len();
+        let stiffness = with_interior(&frame.stiffness().upper, interior);
         let all = stiffness.cols();
         let mut blocks = Blocks::new(all);
-        blocks.connect(stiffness);
+        blocks.connect(&stiffness);
         blocks.connect(&mass.upper);
         let mut moved = vec![false; all];
         for unknown in loaded_unknowns(forces, frame, mass) {
@@ -85,7 +93,7 @@ impl Part {
             }
             entries.to_csc()
         };
-        Part { stiffness: restricted(stiffness), mass: restricted(&mass.upper), unknowns, all }
+        Part { stiffness: restricted(&stiffness), mass: restricted(&mass.upper), unknowns, interior, all }
     }
 
     /// Number of unknowns.
@@ -93,17 +101,33 @@ impl Part {
         self.unknowns.len()
     }
 
-    /// Values of all unknowns of the frame; those outside the part are zero.
+    /// Values of all coordinates of the frame; those outside the part are zero.
     pub fn expand(&self, values: &[f64]) -> DVector<f64> {
         let mut out = DVector::zeros(self.all);
         self.unknowns.iter().zip(values).for_each(|(&unknown, &value)| out[unknown] = value);
         out
     }
 
-    /// Values of the unknowns of the part.
-    pub fn restrict(&self, values: &DVector<f64>) -> DVector<f64> {
-        DVector::from_fn(self.len(), |k, _| values[self.unknowns[k]])
+    /// K^-1 x of the part by a factor of the stiffness of the frame.
+    pub fn solve(&self, solver: &Solver, x: &DVector<f64>) -> DVector<f64> {
+        let mut all = self.expand(x.as_slice());
+        solver.solve(&mut all.as_mut_slice()[self.interior..]);
+        DVector::from_fn(self.len(), |k, _| all[self.unknowns[k]])
     }
+}
+
+/// Upper triangle of a stiffness behind that of `interior` motions of unit stiffness.
+fn with_interior(upper: &CsMat<f64>, interior: usize) -> CsMat<f64> {
+    if interior == 0 {
+        return upper.clone();
+    }
+    let size = interior + upper.cols();
+    let mut entries = TriMat::with_capacity((size, size), interior + upper.nnz());
+    (0..interior).for_each(|k| entries.add_triplet(k, k, 1.0));
+    for (&value, (i, j)) in upper.iter() {
+        entries.add_triplet(interior + i, interior + j, value);
+    }
+    entries.to_csc()
 }
 
 /// Deformations of a member.
@@ -142,7 +166,8 @@ impl FactoredFrame {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
         let part = Part::moved_by(forces, self, &mass);
         let mut moves = vec![false; self.unknowns()];
-        part.unknowns.iter().for_each(|&unknown| moves[unknown] = true);
+        let of_frame = part.unknowns.iter().filter_map(|unknown| unknown.checked_sub(part.interior));
+        of_frame.for_each(|unknown| moves[unknown] = true);
         let all = self.elements.iter().map(|element| {
             let local = transformation(element, &self.bodies);
             let pair = self.bodies.pair(element.points);
@@ -165,7 +190,7 @@ impl FactoredFrame {
     }
 }
 
-/// The unknowns on which `forces` act.
+/// The coordinates on which `forces` act. Interior motions are connected with the ends of their members.
 fn loaded_unknowns(forces: &ExcitingForces, frame: &FactoredFrame, mass: &ScaledMass) -> Vec<usize> {
     let mut loaded = Vec::new();
     let elements = frame.line().map_or(&[][..], |line| line.elements());
@@ -176,7 +201,8 @@ fn loaded_unknowns(forces: &ExcitingForces, frame: &FactoredFrame, mass: &Scaled
                 let probe = Probe { rail: element.rail, x: a + at * (b - a), axis };
                 // Nothing moves in a direction that nothing stiffens.
                 let Ok((row, _)) = frame.row(probe) else { continue };
-                loaded.extend(frame.scaled_where_stiffened(&row).into_iter().map(|(unknown, _)| unknown));
+                let load = frame.scaled_where_stiffened(&row);
+                loaded.extend(load.into_iter().map(|(unknown, _)| mass.interior.len() + unknown));
             }
         }
     }

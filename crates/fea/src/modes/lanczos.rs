@@ -59,11 +59,7 @@ impl Pencil<'_> {
                 factor.solve(x.as_mut_slice());
                 x
             }
-            PencilFactor::OfFrame(solver, part) => {
-                let mut all = part.expand(x.as_slice());
-                solver.solve(all.as_mut_slice());
-                part.restrict(&all)
-            }
+            PencilFactor::OfFrame(solver, part) => part.solve(solver, &x),
         }
     }
 }

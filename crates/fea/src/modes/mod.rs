@@ -4,14 +4,16 @@
 //! stiffness. Block Lanczos with the factor of K finds the lowest modes; the number of negative pivots of
 //! K - sigma^2 M proves that none is missing. `refined` cuts members until the mesh no longer shows in the
 //! frequencies; `inertial` gives reactions and internal forces of weight and inertia. `decoupled` restricts the
-//! search to the unknowns that given forces can move.
+//! search to the unknowns that given forces can move, and `interior` lets Timoshenko members deflect between nodes
+//! under their own inertia.
 //!
-//! Order of the files: `mass`, `count`, `decoupled`, `lanczos`, `mode`, `all`, `lowest`, `refined`, `inertial`.
+//! Order of the files: `interior`, `mass`, `count`, `decoupled`, `lanczos`, `mode`, `all`, `lowest`, `refined`, `inertial`.
 
 mod all;
 mod count;
 mod decoupled;
 mod inertial;
+mod interior;
 mod lanczos;
 mod lowest;
 mod mass;

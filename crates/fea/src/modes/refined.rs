@@ -18,6 +18,9 @@ const FIRST_PARTS: usize = 3;
 /// per cent.
 const PARTS_PER_MODE: f64 = 1.5;
 
+/// Factor on the leading errors of a part that deflects under its own inertia, which leave out their coupling.
+const COUPLING: f64 = 1.4;
+
 /// A model with its members cut into parts, and its modes.
 #[derive(Clone, Debug)]
 pub struct RefinedModes {
@@ -62,8 +65,11 @@ impl RefinedModes {
 /// of members with evenly distributed mass.
 ///
 /// Between points the shapes are those of the member without load. In a part of length h this raises omega by
-/// the fraction (k h)^4 / 1440 in bending, with k^4 = m omega^2 / EI; m omega^2 h^2 / (24 G As) in shear; and
-/// m omega^2 h^2 / (24 EA), or the like for twist. Starting from a coarse mesh, whose frequencies are too high,
+/// the fraction (k h)^4 / 1440 in bending, with k^4 = m omega^2 / EI; and m omega^2 h^2 / (24 EA), or the like for twist.
+/// In a part that is flexible in shear and deflects under its own inertia too, the fractions are those of the parts of
+/// the inertia that this deflection leaves out: m omega^2 k^2 h^4 / (1440 G As) + m omega^2 k^2 h^6 / (201600 EI) for
+/// the linear part of the load, with k the wavenumber of the beam, and m omega^2 r^4 k^2 h^2 / (24 EI) for the moment of
+/// the rotation, with r the radius of gyration. Starting from a coarse mesh, whose frequencies are too high,
 /// members are cut until each term is below `accuracy` at the highest frequency asked for. Trusses and rods are
 /// not cut, nor are beams without an axial or bending stiffness that others have: their mass acts at their ends.
 ///
@@ -200,19 +206,32 @@ fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega:
     let inertia = section.mass * omega * omega;
     let f = section.flexibility(m.theory);
     let polar = section.gyration_squared(section.iy + section.iz);
-    let fourth = |bending: f64| (inertia * bending * square * square / 1440.0, 4);
     let second = |flexibility: f64| (inertia * flexibility * square / 24.0, 2);
     let Directions { axial, torsion, bending } = directions;
-    let mut all = vec![
-        (axial, second(f.axial)),
-        (torsion, second(f.torsion * polar)),
-        (bending[0], fourth(f.bending_z)),
-        (bending[1], fourth(f.bending_y)),
-    ];
-    if m.theory == BeamTheory::Timoshenko {
-        all.extend([(bending[0], second(f.shear_y)), (bending[1], second(f.shear_z))]);
+    let mut all = Vec::new();
+    if axial {
+        all.push(second(f.axial));
     }
-    all.into_iter().filter(|(moves, (size, _))| *moves && size.is_finite()).map(|(_, error)| error).collect()
+    if torsion {
+        all.push(second(f.torsion * polar));
+    }
+    let planes = [(f.bending_z, f.shear_y, section.iz), (f.bending_y, f.shear_z, section.iy)];
+    for ((c, g, area), _) in planes.into_iter().zip(bending).filter(|(_, moves)| *moves) {
+        if m.theory == BeamTheory::Timoshenko && g > 0.0 {
+            // EI k^4 = m omega^2 (1 + k^2 EI/(G As))
+            let sheared = 0.5 * inertia * g;
+            let wave = sheared + (sheared * sheared + inertia * c).sqrt();
+            let gyration = section.gyration_squared(area);
+            let leading = COUPLING * inertia * wave * square;
+            all.push((leading * g * square / 1440.0, 4));
+            all.push((leading * c * square * square / 201_600.0, 6));
+            all.push((leading * c * gyration * gyration / 24.0, 2));
+        } else {
+            all.push((inertia * c * square * square / 1440.0, 4));
+        }
+    }
+    all.retain(|(size, _)| size.is_finite());
+    all
 }
 
 /// Largest of these errors over all members that may be cut.

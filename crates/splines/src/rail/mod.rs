@@ -2,11 +2,12 @@
 //! element adds between them.
 //!
 //! Order: `element` (data), `load` (a rail force in the axes of the member), `green` and `shape` (the two
-//! functions of one element), `row` and `planar` (their values at a place), `track` (which element carries a
+//! functions of one element), `interior` (its deflection under uniform loads), `row` and `planar` (their values at a place), `track` (which element carries a
 //! place), `rails` (all together).
 
 mod element;
 mod green;
+mod interior;
 mod load;
 mod planar;
 mod rails;

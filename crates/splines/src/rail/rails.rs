@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 
 use super::element::{LocalPlace, RailElement};
 use super::green::ClampedElement;
+use super::interior::uniform_load;
 use super::load::AxisLoad;
 use super::planar::{PlanarCubics, PlanarPlace};
 use super::row::ShapeRow;
@@ -201,6 +202,41 @@ impl Rails {
 
     fn cubics(&self, element: usize, axis: usize) -> &AxisCubics {
         self.prepared[element].cubics[axis].get_or_init(|| AxisCubics::new(&self.elements[element], axis))
+    }
+
+    /// The element that carries a probe, and for uniform loads of intensity one on its member, along its local y axis
+    /// and along its local z axis, the displacement at the probe along its axis with the ends of the member clamped, and
+    /// the derivative of this displacement by the rail coordinate.
+    ///
+    /// ```
+    /// use splines::{Axis, RailElement, Flexibility, Rails, Probe};
+    ///
+    /// let element = RailElement {
+    ///     rail: 0,
+    ///     x: [0.0, 8.0],
+    ///     ends: [0, 1],
+    ///     length: 8.0,
+    ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    ///     offset: [0.0; 3],
+    ///     flexibility: Flexibility { bending_z: 3.0, ..Flexibility::default() },
+    ///     member: None,
+    /// };
+    /// let rail = Rails::new(vec![element])?;
+    /// let (_, [y, z]) = rail.uniform_load(Probe { rail: 0, x: 4.0, axis: Axis::Vertical })?;
+    /// // l^4/(384 EI) at midspan.
+    /// assert!((y[0] - 8.0_f64.powi(4) * 3.0 / 384.0).abs() < 1e-12);
+    /// assert_eq!((y[1], z), (0.0, [0.0; 2]));
+    /// # Ok::<(), splines::Error>(())
+    /// ```
+    ///
+    /// # Errors
+    /// As [`Rails::row`].
+    pub fn uniform_load(&self, p: Probe) -> Result<(usize, [[f64; 2]; 2]), Error> {
+        let span = self.stiff_span(p)?;
+        let s = span.start + span.local(p.x).fraction() * span.length;
+        let rate = span.length * span.scale;
+        let out = uniform_load(&self.elements[span.element], p.axis.component(), s);
+        Ok((span.element, out.map(|[value, slope]| [value, slope * rate])))
     }
 
     /// What bounds of rounding errors at a probe need: [`Rails::row`]; for each of its values the sum of the
