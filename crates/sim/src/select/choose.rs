@@ -30,7 +30,9 @@ use super::selection::{
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
 /// Number of modes that are computed first, and at the most.
-const MODES: [usize; 2] = [12, 96];
+const MODES: [usize; 2] = [24, 96];
+/// Least ratio of the number of known modes to the number for which an estimate is used.
+const BEYOND: usize = 3;
 /// Estimate for which a number of modes is chosen, relative to the tolerance.
 const AIM: f64 = 0.1;
 /// Fraction of the tolerance that an estimated error may reach.
@@ -38,13 +40,19 @@ const SAFE: f64 = 0.8;
 /// Estimate for influence functions, relative to the tolerance, above which they are not expected to suffice.
 const HOPELESS: f64 = 10.0;
 /// Estimate for which the number of modes is chosen in a run that only checks influence functions, relative to their own.
-const CHECKED: f64 = 0.05;
+const CHECKED: f64 = 0.02;
+/// Frequency below which modes interact with bodies that bounce on their wheels, relative to that of the fastest bounce.
+const ABOVE_CONTACT: f64 = 3.0;
+/// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
+const NEGLIGIBLE: f64 = 0.1;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
 const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
 /// The factor where there are no two runs to compare.
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
 const MODAL_RUNS: usize = 3;
+/// Accuracy of the result on uneven rails, relative to the tolerance.
+const UNEVEN: f64 = 1e-3;
 /// Accuracy of a run that only checks influence functions, relative to the tolerance.
 const CHECK_ACCURACY: f64 = 0.1;
 /// Samples for each period of the fastest bounce, and the largest number of samples of a run.
@@ -117,6 +125,11 @@ impl Open {
         sufficient.map_or(self.basis.structure.dynamics.dofs(), |tail| tail.kept)
     }
 
+    /// Number of known modes with frequencies below `omega`.
+    fn modes_below(&self, omega: f64) -> usize {
+        self.basis.structure.dynamics.frequencies().iter().filter(|own| **own < omega).count()
+    }
+
     /// The estimate for `kept` modes.
     fn tail(&self, kept: usize) -> TailError {
         let found = self.tails.iter().find(|tail| tail.kept == kept).cloned();
@@ -147,9 +160,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut scene = scene.clone();
         let mut accuracy = scene.accuracy;
         if scene.analysis == Analysis::Dynamic {
-            for tolerance in tolerances.iter().flatten() {
-                accuracy = accuracy.min(RUN_ACCURACY * tolerance.value);
-            }
+            accuracy = accuracy.min(RUN_ACCURACY * least(tolerances));
             let wanted = scene.output_dt * SAMPLES[0] / fastest_bounce(&scene);
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
@@ -218,6 +229,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             fastest: fastest_bounce(&self.scene),
         };
         let compliances = std::mem::take(&mut first.foundations);
+        // The corners of uneven rails excite modes, whose free oscillations the steps must resolve as well.
+        if compliances.iter().any(|foundation| !foundation.irregularities.is_empty()) {
+            self.accuracy = self.accuracy.min(UNEVEN * least(self.tolerances));
+        }
+        let frequency = 2.0 * std::f64::consts::PI / bounces.fastest;
         let none = vec![0; open.len()];
         for own in &mut open {
             self.estimate(own, &first, &compliances, 0, f64::INFINITY);
@@ -228,8 +244,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let aim = AIM * own.tolerance;
             let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
             if own.tail(0).error > aim {
+                let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
                 self.estimate(own, &first, &compliances, 1, limit);
-                *count = own.count_for(limit, 1);
+                *count = own.count_for(limit, 1).max(least.min(own.count_for(NEGLIGIBLE * aim, 1)));
             }
         }
         self.note_tails(&open, &none, 1.0, &first);
@@ -301,7 +318,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
         let mut last = first;
         for round in 1..=MODAL_RUNS {
-            let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { return Ok(last) };
+            let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
             for (own, count) in open.iter_mut().zip(&counts) {
                 self.estimate(own, &trial, &compliances, *count, SAFE / UNKNOWN * own.tolerance);
             }
@@ -315,18 +332,20 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             counts = raised;
         }
-        for (own, &count) in open.iter().zip(&counts) {
-            let tail = own.tail(count);
+        for own in open.iter().filter(|_| last.run.status.is_complete()) {
+            let fidelity = last.fidelities[own.structure];
+            let kept = if let Fidelity::Modal(count) = fidelity { count } else { 0 };
+            let tail = own.tail(kept);
             let tail = TailError { error: UNKNOWN * tail.error, ..tail };
             let reason = if tail.error <= own.tolerance { Reason::Sufficient } else { Reason::Limit };
-            self.settle(own, last.fidelities[own.structure], reason, &tail);
+            self.settle(own, fidelity, reason, &tail);
         }
         Ok(last)
     }
 
     /// A trial, repeated with the accuracy of the result if it was made with a coarser one.
     fn repeated(&mut self, trial: Trial) -> Result<Trial, L::Error> {
-        if trial.accuracy <= self.accuracy {
+        if trial.accuracy <= self.accuracy || trial.fidelities.iter().all(|own| *own == Fidelity::Influence) {
             return Ok(trial);
         }
         self.trial(&trial.fidelities, self.accuracy, false)
@@ -361,8 +380,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
-    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is half of them. Without
-    /// an estimate the error is taken to be infinite.
+    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is a third of them.
     fn estimate(&mut self, own: &mut Open, trial: &Trial, compliances: &[Foundation], least: usize, limit: f64) {
         loop {
             let loaded = Loaded {
@@ -375,7 +393,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
             let known = own.basis.structure.dynamics.dofs();
             let found = own.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
-            let is_known = found.is_some_and(|tail| 2 * tail.kept <= known);
+            let is_known = found.is_some_and(|tail| BEYOND * tail.kept <= known);
             if is_known || own.basis.is_whole || known >= MODES[1] {
                 return;
             }
@@ -455,6 +473,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         run.history = run.history.every(self.scene.output_parts, is_ended);
         Selection { choices: self.choices, run, runs: self.runs }
     }
+}
+
+/// The least tolerance of all structures.
+fn least(tolerances: &[Option<Tolerance>]) -> f64 {
+    tolerances.iter().flatten().fold(f64::INFINITY, |least, own| least.min(own.value))
 }
 
 /// Largest estimate of the structures with these numbers of modes.

@@ -10,7 +10,7 @@ use crate::{Error, Foundation, History, Run, Scene};
 
 /// Accuracy of the result, relative to the tolerance. The error of reactions and internal forces, which depend on the
 /// accelerations of all modes, was up to a hundred times the accuracy of the run in crossings of uneven rails.
-pub const RUN_ACCURACY: f64 = 3e-3;
+pub const RUN_ACCURACY: f64 = 0.01;
 
 /// Error that a structure's foundation may cause.
 #[derive(Clone, Copy, Debug, PartialEq)]
