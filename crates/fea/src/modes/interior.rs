@@ -4,9 +4,8 @@
 //! distributed load, under which the shear force is about linear. Without that part the shear force of a Timoshenko
 //! member jumps where elements meet, and with it the slope w' = rotation + V/GAs of the rail, in proportion to the
 //! length of the elements. The deflection of the clamped member under a uniform load, with an amplitude of its own in
-//! each plane of bending, removes the leading part of these jumps: the slope converges with the square of the
-//! length, and so do forces of dampers that feel it. The square of a frequency then errs by the fourth power of the
-//! length where it erred by the second.
+//! each plane of bending, removes the leading part of these jumps. The square of a frequency then errs by the fourth
+//! power of the length where it erred by the second, apart from a small term of the rotary inertia.
 //!
 //! The motion is a further Rayleigh-Ritz function. Zero at the ends, it is orthogonal to the shapes of the member
 //! without load in the strain energy, so that only the mass couples it. A correction of the slopes alone would save the
