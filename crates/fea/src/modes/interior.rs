@@ -17,7 +17,7 @@
 
 use crate::assembly::{BendingPlane, Bodies, Element, bending_planes};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model};
-use crate::modes::mass::{Vector12, bending_shapes, integral_of_product};
+use crate::modes::shapes::{Vector12, bending_shapes, integral_of_product, uniform_load_shape};
 
 /// Deflection of a member with clamped ends under a uniform load of intensity one in one plane of bending:
 ///
@@ -100,12 +100,4 @@ impl InteriorMotion {
     pub fn unit_load(&self) -> f64 {
         self.stiffness.sqrt().recip()
     }
-}
-
-/// Deflection and rotation under a uniform load of intensity one, by powers of the fraction of the length.
-pub(super) fn uniform_load_shape(plane: &BendingPlane, length: f64) -> ([f64; 5], [f64; 4]) {
-    let bending = plane.bending * length.powi(4) / 24.0;
-    let shear = plane.shear * length * length / 2.0;
-    let turn = 2.0 * bending / length;
-    ([0.0, shear, bending - shear, -2.0 * bending, bending], [0.0, turn, -3.0 * turn, 2.0 * turn])
 }
