@@ -4,7 +4,9 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use sim::{Channel, Damper, Dynamics, Extent, Foundation, NormalLaw, Scene, Shapes, Structure};
+use sim::{
+    Channel, Damper, Dynamics, Extent, Foundation, MotionKind, NormalLaw, Profile, Scene, Shapes, Structure,
+};
 use splines::{Axis, Compliance, Error, Influence, Probe};
 
 use crate::common::{EI, SPAN, bogie, give};
@@ -112,7 +114,10 @@ fn reference() -> Foundation {
 
 /// A mass on a spring and a damper whose crossing takes about fourteen periods of the beam.
 fn crossing() -> Scene {
-    let mut scene = bogie(100.0, 0.57, Damper::Rail);
+    let mut scene = bogie(100.0, 0.45, Damper::Rail);
+    // From rest, so that no shock sets out along the beam.
+    let speed = [[0.0, 0.0], [0.1, 100.0]];
+    scene.bodies[0].motion = Some(Profile::new(MotionKind::Speed, &speed, 0.0, 10.0).expect("a valid table"));
     scene.bodies[0].mass = 100.0;
     scene.bodies[0].inertia = [0.0; 3];
     scene.bodies[0].free[5] = false;
@@ -132,26 +137,23 @@ fn wheel_force(foundation: Foundation) -> Vec<f64> {
     run.history.column(Channel::Vertical(0))
 }
 
-/// The order is two at least: slopes within elements are those of the inertia distributed along them, not of the inertia
-/// concentrated at nodes, where they would jump in proportion to the length of the elements.
+/// The meshes use the modes that they resolve. With all modes of a mesh the force jumps by c v F/GAs, 1.2 % of the weight
+/// here, whenever the wheel passes a node, on every mesh: shapes that vary over few elements have jumps of slope there, and
+/// their coordinates have inertia.
 #[test]
-fn wheel_forces_on_a_sheared_girder_converge_with_the_square_of_the_mesh() {
+fn wheel_forces_on_a_sheared_girder_do_not_feel_the_nodes() {
     let wanted = wheel_force(reference());
     let weight = 100.0 * 32.174;
-    let errors: Vec<f64> = [4, 8, 16, 32]
-        .map(|elements| {
-            let found = wheel_force(foundation(SPEC, Some(elements)));
-            let pairs = found.iter().zip(&wanted);
-            pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / weight
-        })
-        .to_vec();
+    let errors = [4, 8, 16, 32].map(|elements| {
+        let found = wheel_force(foundation(SPEC, Some(elements)));
+        let pairs = found.iter().zip(&wanted);
+        pairs.fold(0.0_f64, |most, (a, b)| most.max((a - b).abs())) / weight
+    });
     println!("errors by the weight: {errors:?}");
-    for pair in errors.windows(2) {
-        assert!(pair[0] / pair[1] > 3.5, "{errors:?}");
-    }
+    assert!(errors[0] < 1.2e-3 && errors[1..].iter().all(|&error| error < 4e-4), "{errors:?}");
 }
 
-/// Without dampers nothing feels the slope; deflection and force converge faster still.
+/// Values and slopes, also on a node; and what the modes leave is positive semi-definite.
 #[test]
 fn static_compliance_of_the_mesh_is_that_of_the_beam() {
     // In elements, and on the node at midspan.
@@ -190,7 +192,6 @@ fn static_compliance_of_the_mesh_is_that_of_the_beam() {
     let mesh = foundation(SPEC, Some(6));
     for (found, exact) in total(&mesh).iter().zip(&exact) {
         let error = (found - exact).amax() / exact.amax();
-        println!("{} {}", found, exact);
         assert!(error < 1e-9, "{error:e}");
     }
     assert!(residual_of(&mesh) > -1e-12 * exact[0].amax(), "the residual flexibility is not negative");

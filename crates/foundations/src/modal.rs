@@ -17,7 +17,8 @@
 //!    computed.
 //! 3. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
 //!    of a mesh are subtracted from the surface of that mesh; the remainder is the deformation of its elements
-//!    between nodes.
+//!    between nodes. Of a mesh of members that are flexible in shear only the modes that it resolves are used, because
+//!    the slopes of the others jump at nodes ([`RefinedModes::keep_resolved`]).
 //! 4. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
 //!
 //! # Source
@@ -57,7 +58,7 @@ pub(super) struct MeshModes {
 
 /// Static compliance of the structure before modes are subtracted.
 enum StaticCompliance {
-    /// Compliance of the members as given, used with the lowest modes, whose mesh is fine.
+    /// Compliance of the members as given, used with the lowest modes, whose shapes the mesh resolves.
     Given(ExactSurface),
     /// Compliance of the subdivided members, used with all modes of a mesh.
     Subdivided(ExactSurface),
@@ -75,20 +76,30 @@ impl MeshModes {
     ) -> Result<MeshModes, Error> {
         let (refined, excited, is_whole) =
             search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
-        let given = solved.surface.clone().map_or_else(|| surface(name, &solved.model, &solved.rails), Ok)?;
-        MeshModes::new(name, refined, excited, Some(given), is_whole)
+        MeshModes::new(name, refined, excited, Some(given_surface(name, solved)?), is_whole)
     }
 
-    /// All modes that `excitation` excites of a mesh of `elements` elements for each member.
+    /// All modes that `excitation` excites of a mesh of `elements` elements for each member; of members that are
+    /// flexible in shear those that the mesh resolves ([`RefinedModes::keep_resolved`]), unless discrete dampers act
+    /// on all of them.
     pub fn whole(
         name: &str,
         solved: &SolvedModel,
         elements: usize,
+        has_dampers: bool,
         excitation: Excitation,
     ) -> Result<MeshModes, Error> {
-        let refined = fea::full_modes(&solved.model, &solved.rails, &excitation.forces(), elements)
-            .map_err(Error::modes(name))?;
+        let forces = excitation.forces();
+        let mut refined =
+            fea::full_modes(&solved.model, &solved.rails, &forces, elements).map_err(Error::modes(name))?;
+        if !has_dampers {
+            refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
+        }
         let excited = excited_by(&refined.modes, solved, excitation);
+        if refined.modes.next.is_some() {
+            let given = given_surface(name, solved)?;
+            return MeshModes::new(name, refined, excited, Some(given), true);
+        }
         MeshModes::new(name, refined, excited, None, true)
     }
 
@@ -159,8 +170,12 @@ impl MeshModes {
     }
 }
 
-fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<ExactSurface, Error> {
-    let found = FactoredFrame::new(model, rails).and_then(|frame| frame.surface());
+/// Surface of the members as given.
+fn given_surface(name: &str, solved: &SolvedModel) -> Result<ExactSurface, Error> {
+    if let Some(surface) = &solved.surface {
+        return Ok(surface.clone());
+    }
+    let found = FactoredFrame::new(&solved.model, &solved.rails).and_then(|frame| frame.surface());
     Ok(found.map_err(Error::frame(name))?.surface)
 }
 
@@ -253,7 +268,8 @@ impl ModeCache {
         self.coarse.insert(modes).foundation(name, count, ratio, Dampers::NONE, excitation)
     }
 
-    /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member.
+    /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member, as far
+    /// as the mesh resolves the modes ([`MeshModes::whole`]).
     pub(super) fn full(
         &mut self,
         name: &str,
@@ -266,7 +282,9 @@ impl ModeCache {
         let index = match self.whole.iter().position(|(cached, _)| *cached == elements) {
             Some(index) => index,
             None => {
-                self.whole.push((elements, MeshModes::whole(name, solved, elements, excitation)?));
+                let has_dampers = dampers.c > 0.0;
+                let modes = MeshModes::whole(name, solved, elements, has_dampers, excitation)?;
+                self.whole.push((elements, modes));
                 self.whole.len() - 1
             }
         };

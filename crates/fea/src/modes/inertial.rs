@@ -6,9 +6,10 @@ use crate::assembly::{BendingPlane, Element, Matrix12, arm, bending_planes, tran
 use crate::error::Error;
 use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
-use crate::modes::interior::{InteriorMotion, uniform_load_shape};
-use crate::modes::mass::{Cubic, Vector12, bending_shapes, release_shapes, unreleased_mass};
+use crate::modes::interior::InteriorMotion;
+use crate::modes::mass::{release_shapes, unreleased_mass};
 use crate::modes::mode::Mode;
+use crate::modes::shapes::{Cubic, Vector12, bending_shapes, uniform_load_shape};
 
 type Vector6 = SVector<f64, 6>;
 

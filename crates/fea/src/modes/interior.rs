@@ -4,9 +4,8 @@
 //! distributed load, under which the shear force is about linear. Without that part the shear force of a Timoshenko
 //! member jumps where elements meet, and with it the slope w' = rotation + V/GAs of the rail, in proportion to the
 //! length of the elements. The deflection of the clamped member under a uniform load, with an amplitude of its own in
-//! each plane of bending, removes the leading part of these jumps: the slope converges with the square of the
-//! length, and so do forces of dampers that feel it. The square of a frequency then errs by the fourth power of the
-//! length where it erred by the second.
+//! each plane of bending, removes the leading part of these jumps. The square of a frequency then errs by the fourth
+//! power of the length where it erred by the second, apart from a small term of the rotary inertia.
 //!
 //! The motion is a further Rayleigh-Ritz function. Zero at the ends, it is orthogonal to the shapes of the member
 //! without load in the strain energy, so that only the mass couples it. A correction of the slopes alone would save the
@@ -18,7 +17,7 @@
 
 use crate::assembly::{BendingPlane, Bodies, Element, bending_planes};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model};
-use crate::modes::mass::{Vector12, bending_shapes, integral_of_product};
+use crate::modes::shapes::{Vector12, bending_shapes, integral_of_product, uniform_load_shape};
 
 /// Deflection of a member with clamped ends under a uniform load of intensity one in one plane of bending:
 ///
@@ -101,12 +100,4 @@ impl InteriorMotion {
     pub fn unit_load(&self) -> f64 {
         self.stiffness.sqrt().recip()
     }
-}
-
-/// Deflection and rotation under a uniform load of intensity one, by powers of the fraction of the length.
-pub(super) fn uniform_load_shape(plane: &BendingPlane, length: f64) -> ([f64; 5], [f64; 4]) {
-    let bending = plane.bending * length.powi(4) / 24.0;
-    let shear = plane.shear * length * length / 2.0;
-    let turn = 2.0 * bending / length;
-    ([0.0, shear, bending - shear, -2.0 * bending, bending], [0.0, turn, -3.0 * turn, 2.0 * turn])
 }

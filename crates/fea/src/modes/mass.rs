@@ -1,6 +1,6 @@
 //! Consistent mass of members and rigid masses, over the unknowns of the stiffness.
 
-use nalgebra::{SMatrix, SVector, Vector3};
+use nalgebra::{SMatrix, Vector3};
 use sprs::{CsMat, TriMat};
 
 use crate::assembly::{
@@ -11,12 +11,10 @@ use crate::dof::Dof;
 use crate::error::Error;
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
 use crate::modes::interior::InteriorMotion;
+use crate::modes::shapes::{bending_shapes, integral_of_product};
 
 /// Mass of a degree of freedom that nothing stiffens, relative to what was added up, that is only rounding.
 const ROUNDING: f64 = 1e-24;
-
-/// Twelve displacements and rotations of the ends of a member.
-pub(super) type Vector12 = SVector<f64, 12>;
 
 /// The mass of a frame: S M S of the coordinates, and that of the whole.
 ///
@@ -216,20 +214,6 @@ impl<'a> MassSum<'a> {
     }
 }
 
-/// A cubic in the fraction of the length: the coefficient of each power.
-pub(super) type Cubic = [f64; 4];
-
-/// Integral over 0 to 1 of a product of two polynomials, given by their coefficients.
-pub(super) fn integral_of_product(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (p, x) in a.iter().enumerate() {
-        for (q, y) in b.iter().enumerate() {
-            sum += x * y / (p + q + 1) as f64;
-        }
-    }
-    sum
-}
-
 /// Consistent mass between the tips of the rigid offsets, releases included:
 ///
 /// M = integral of m N^T N + (m I / A) N'^T N' with the shapes N of the member without load.
@@ -334,20 +318,4 @@ impl MemberMass {
             }
         }
     }
-}
-
-/// Deflection and rotation of the member without load, for a unit deflection and a unit rotation of its first
-/// end, then of its last; phi = 12 EI / (G As L^2).
-pub(super) fn bending_shapes(phi: f64, length: f64) -> [(Cubic, Cubic); 4] {
-    let (d, h) = (1.0 / (1.0 + phi), length);
-    let scaled = |factor: f64, cubic: Cubic| cubic.map(|x| factor * x);
-    [
-        (scaled(d, [1.0 + phi, -phi, -3.0, 2.0]), scaled(d / h, [0.0, -6.0, 6.0, 0.0])),
-        (
-            scaled(d * h, [0.0, 1.0 + 0.5 * phi, -2.0 - 0.5 * phi, 1.0]),
-            scaled(d, [1.0 + phi, -4.0 - phi, 3.0, 0.0]),
-        ),
-        (scaled(d, [0.0, phi, 3.0, -2.0]), scaled(d / h, [0.0, 6.0, -6.0, 0.0])),
-        (scaled(d * h, [0.0, -0.5 * phi, 0.5 * phi - 1.0, 1.0]), scaled(d, [0.0, phi - 2.0, 3.0, 0.0])),
-    ]
 }

@@ -7,7 +7,8 @@
 //! search to the unknowns that given forces can move, and `interior` lets Timoshenko members deflect between nodes
 //! under their own inertia.
 //!
-//! Order of the files: `interior`, `mass`, `count`, `decoupled`, `lanczos`, `mode`, `all`, `lowest`, `refined`, `inertial`.
+//! Order of the files: `shapes`, `interior`, `mass`, `count`, `decoupled`, `lanczos`, `mode`, `all`, `lowest`,
+//! `refined`, `inertial`.
 
 mod all;
 mod count;
@@ -19,6 +20,7 @@ mod lowest;
 mod mass;
 mod mode;
 mod refined;
+mod shapes;
 
 pub use all::MOST_DENSE_UNKNOWNS;
 pub use decoupled::ExcitingForces;

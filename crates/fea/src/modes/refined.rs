@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::influence::{Effect, FactoredFrame};
 use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, Rail, cut_members, flexible_ends};
 use crate::modes::decoupled::{Directions, ExcitingForces};
-use crate::modes::mode::Modes;
+use crate::modes::mode::{Mode, Modes};
 
 /// Most parts of a member.
 const MOST_PARTS: usize = 128;
@@ -18,6 +18,10 @@ const FIRST_PARTS: usize = 3;
 /// per cent.
 const PARTS_PER_MODE: f64 = 1.5;
 
+/// Largest estimated error of a frequency, relative, up to which a mesh is taken to resolve the shape of the mode.
+const RESOLVED: f64 = 2e-3;
+/// Fraction of the modes of a mesh that is kept whatever their errors: on a uniform girder, those up to this estimate.
+const LEAST_RESOLVED: f64 = 1.0 / 8.0;
 /// Factor on the leading errors of a part that deflects under its own inertia, which leave out their coupling.
 const COUPLING: f64 = 1.4;
 
@@ -40,6 +44,34 @@ pub struct RefinedModes {
 }
 
 impl RefinedModes {
+    /// Drops the modes that the mesh does not resolve, if members of `m`, the given model, are flexible in shear. Without
+    /// such members all modes are kept.
+    ///
+    /// The shear force of a mode that varies over few elements jumps where elements meet, and so do the slope of its
+    /// shape and the generalised force of a wheel that passes. The static part of these jumps cancels against those of
+    /// the residual flexibility, the dynamic part does not: a wheel with a damper feels it at every node, however fine
+    /// the mesh. The modes below the frequency at which the mesh errs by the fraction 1/500 have nearly smooth shapes.
+    /// The motion in the others is static, and belongs to the residual flexibility of the members as given.
+    ///
+    /// [`RefinedModes::error`] is then the estimate for the highest mode kept.
+    ///
+    /// # Errors
+    /// As [`FactoredFrame::modes`].
+    pub fn keep_resolved(&mut self, m: &Model, forces: &ExcitingForces) -> Result<(), Error> {
+        let all = &mut self.modes.modes;
+        if all.iter().all(|mode| mode.loads.is_empty()) {
+            return Ok(());
+        }
+        let directions = member_directions(&self.frame, &self.model, Some(forces), &self.parts)?;
+        let error = |mode: &Mode| largest_error(m, &self.parts, &directions, mode.omega);
+        let least = (LEAST_RESOLVED * all.len() as f64).ceil() as usize;
+        let count = all.iter().take_while(|mode| error(mode) <= RESOLVED).count().max(least);
+        self.error = all.get(..count).and_then(<[Mode]>::last).map(error);
+        self.modes.next = all.get(count).map(|mode| mode.omega);
+        all.truncate(count);
+        Ok(())
+    }
+
     /// An effect of the given model as one of the model cut into parts. A section where two parts meet is just
     /// inside the second.
     #[must_use]
