@@ -54,10 +54,12 @@ fn the_first_force_of_a_damper_contains_the_slope_of_a_rail_with_mass() {
     }
 }
 
+type Named = (&'static str, fn() -> Foundation);
+
 /// Identity: each channel is continuous where the run begins, so that its first sample is the limit of the others.
 #[test]
 fn every_first_sample_is_the_limit_of_those_after_it() {
-    let foundations: [(&str, fn() -> Foundation); 4] = [
+    let foundations: [Named; 4] = [
         ("exact", || Foundation::massless(Box::new(surface()), 1)),
         ("closed form", girder),
         ("modes", || beam(8, false)),
