@@ -329,9 +329,9 @@ def frame(draw, wide):
     spec = {"theory": r.choice(["euler-bernoulli", "timoshenko"]), "points": points, "sections": sections,
             "members": members, "supports": supports, "springs": springs, "links": links, "up": up,
             "rail": {"origin": origin, "axis": axis, "segments": [[k, rail_offset] for k in range(count)]}}
-    size = math.sqrt(sum(a * a for a in axis))
-    x = [sum(a * (p + o - q) for a, p, o, q in zip(axis, points[k], offsets[k], origin)) / size
-         for k in range(count + 1)]
+    along = triad(unit(vec(axis)), vec(up))[0]
+    ends = [sub(add(vec(points[k]), vec(offsets[k])), vec(origin)) for k in range(count + 1)]
+    x = [float(dot(along, end)) for end in ends]
     spec["probes"] = []
     for _ in range(4):
         k = r.randrange(count)

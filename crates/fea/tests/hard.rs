@@ -106,12 +106,17 @@ fn outcome(value: &Value) -> Outcome {
     };
     let (high, low) = (&value["grid"], &value["rest"]);
     let mut worst = 0.0_f64;
+    let largest = (0..at.len()).fold(0.0_f64, |most, k| most.max(number(&high[k][k])));
     for i in 0..at.len() {
         for j in 0..at.len() {
             let error = (grid.value[(i, j)] - number(&high[i][j])) - number(&low[i][j]);
-            let size = number(&high[i][i]).sqrt() * number(&high[j][j]).sqrt();
-            if error != 0.0 {
-                worst = worst.max(error.abs() / size);
+            let size = (number(&high[i][i]) * largest).sqrt().min((number(&high[j][j]) * largest).sqrt());
+            // What is exactly zero must be zero to the digits of double-doubles.
+            if size == 0.0 {
+                assert!(error.abs() <= 1e-28 * largest, "{i}, {j}: {error:.1e}, largest {largest:.1e}");
+            } else if error != 0.0 {
+                let own = number(&high[i][i]).sqrt() * number(&high[j][j]).sqrt();
+                worst = worst.max(error.abs() / own);
             }
         }
     }

@@ -2,11 +2,13 @@
 
 use std::collections::BTreeMap;
 
-use splines::{Probe, RoundingSizes};
+use nalgebra::SVector;
+use splines::{Probe, RailElement, RoundingSizes};
 
-use crate::assembly::{Combination, Extended, Real};
+use crate::assembly::{Combination, Extended, Matrix12, Real, Released};
 use crate::error::Error;
 use crate::factor::Solver;
+use crate::influence::extended::to_rail_axes;
 use crate::influence::frame::FactoredFrame;
 
 /// Largest relative error of one rounding: half the spacing of doubles at one.
@@ -20,6 +22,8 @@ const ELEMENT: f64 = 16.0;
 pub(super) const SECTION: f64 = 4.0;
 /// Roundings in the four lanes of a product, beside one for every fourth term.
 const LANES: f64 = 8.0;
+/// Roundings in the compliance of the releases of a member, relative to those of Green's function.
+const RELEASE: f64 = 4.0;
 /// Roundings of double-doubles in loads, Green's function and products: more than there are, for they cost nothing.
 const EXTENDED: f64 = 1024.0;
 /// Rounding of coordinates in double-doubles, in roundings of their sizes.
@@ -106,16 +110,16 @@ impl FactoredFrame {
         let [load_unit, element_unit] = evaluation.units();
         let mut worst = 0.0_f64;
         for (&probe, &own) in at.iter().zip(diagonal) {
-            let (element, sizes) = self.rounding_sizes(probe, evaluation)?;
-            let ends = self.line()?.elements()[element].ends;
+            let (index, axes, sizes) = self.rounding_sizes(probe, evaluation)?;
+            let carrier = &self.line()?.elements()[index];
             let mut moved = 0.0;
-            for (k, (size, change)) in sizes.row.iter().zip(sizes.moved_row).enumerate() {
-                let error = load_unit * size + change;
-                if error > 0.0 {
-                    moved += error * self.state_norm(ends[k / 6], k % 6, norms, evaluation);
-                }
+            let errors: [f64; 12] = std::array::from_fn(|k| load_unit * sizes.row[k] + sizes.moved_row[k]);
+            for (k, &error) in errors.iter().enumerate().filter(|(_, error)| **error > 0.0) {
+                moved += error * self.state_norm(carrier.ends[k / 6], k % 6, norms, evaluation);
             }
-            let element = element_unit * sizes.green + sizes.moved_green;
+            let [ends, growth] = self.released_errors(carrier, &sizes.row, &errors, axes * load_unit);
+            moved += ends.sqrt();
+            let element = element_unit * (sizes.green + RELEASE * growth * own) + sizes.moved_green;
             if moved == 0.0 && element == 0.0 {
                 continue;
             }
@@ -130,8 +134,31 @@ impl FactoredFrame {
         Ok(worst)
     }
 
-    /// Element of a probe, and sizes behind its functions there.
-    fn rounding_sizes(&self, probe: Probe, evaluation: Evaluation) -> Result<(usize, RoundingSizes), Error> {
+    /// Compliance of the releases of the member that carries an element, under the `errors` of a shape row with the
+    /// sizes `row`; and by how much the releases enlarge the rounding of this compliance.
+    fn released_errors(
+        &self,
+        carrier: &RailElement,
+        row: &[f64; 12],
+        errors: &[f64; 12],
+        turned: f64,
+    ) -> [f64; 2] {
+        let released = carrier.member.and_then(|member| self.elements[member.id].released.as_deref());
+        let Some(Released { compliance, growth, .. }) = released else { return [0.0; 2] };
+        let to_rail: Matrix12 = to_rail_axes(carrier);
+        let all = Matrix12::from_fn(|i, j| if i / 3 == j / 3 { turned } else { 0.0 });
+        let (row, errors) = (SVector::<f64, 12>::from(*row), SVector::<f64, 12>::from(*errors));
+        // A load at one end of the rail element acts at the other end of the member where that runs against it.
+        let errors = to_rail.abs().transpose() * errors + swapped_if(all * row, carrier.is_reversed());
+        [(errors.transpose() * compliance.abs() * errors)[0] * growth, *growth]
+    }
+
+    /// Element of a probe, the error of its axes in roundings, and sizes behind its functions there.
+    fn rounding_sizes(
+        &self,
+        probe: Probe,
+        evaluation: Evaluation,
+    ) -> Result<(usize, f64, RoundingSizes), Error> {
         let line = self.line()?;
         let near = line.row(probe)?.element;
         let layout = self.exact_layout();
@@ -143,7 +170,11 @@ impl FactoredFrame {
             let errors = layout.coordinates[element].map(|x| COORDINATE * Extended::ROUNDING * x);
             let (fractions, shift) = place_and_shift(distances, (last - first).double(), errors);
             let axes = layout.axes_error[element];
-            return Ok((element, line.rounding_sizes(element, probe.axis, fractions, [axes, shift], false)));
+            return Ok((
+                element,
+                axes,
+                line.rounding_sizes(element, probe.axis, fractions, [axes, shift], false),
+            ));
         }
         let [first, last] = line.elements()[near].x;
         let distances = [probe.x - first, last - probe.x];
@@ -157,7 +188,7 @@ impl FactoredFrame {
         if unsure && evaluation == Evaluation::Doubles {
             sizes.moved_green = f64::INFINITY;
         }
-        Ok((near, sizes))
+        Ok((near, axes, sizes))
     }
 
     /// Sum of |p_k| |L^-1 e_k| over the unknowns of a load along degree of freedom `dof` of a state, with the
@@ -191,7 +222,16 @@ impl FactoredFrame {
 fn place_and_shift(distances: [f64; 2], extent: f64, errors: [f64; 2]) -> ([f64; 2], f64) {
     let fractions = distances.map(|x| x / extent);
     let near = usize::from(fractions[1] < fractions[0]);
+    // Places beyond an end count as the end.
+    if distances[near] < -errors[near] {
+        return (fractions, 0.0);
+    }
     (fractions, errors[near] + fractions[near].max(0.0) * (errors[0] + errors[1]))
+}
+
+/// Loads on both ends of a member, exchanged where it runs against its rail element.
+fn swapped_if(loads: SVector<f64, 12>, reversed: bool) -> SVector<f64, 12> {
+    SVector::from_fn(|k, _| loads[if reversed { (k + 6) % 12 } else { k }])
 }
 
 /// |L^-1 e_k|: one bound for all, or computed for each unknown that is asked for.
