@@ -50,8 +50,8 @@ pub(crate) struct Element<T: Real = f64> {
 /// Where a member lies. It is evaluated in double-doubles: coordinates and offsets can be far larger than the member.
 #[derive(Clone, Debug)]
 pub(crate) struct Geometry {
-    /// Ends of the flexible part, global.
-    pub ends: [Vector3<Extended>; 2],
+    /// Largest coordinate of the ends of the flexible part, absolute value.
+    pub far: f64,
     /// Rows: local axes.
     pub axes: Matrix3<Extended>,
     /// Error of the components of each of them, in roundings of double-doubles; 0 where they are exact.
@@ -63,22 +63,20 @@ pub(crate) struct Geometry {
 impl Geometry {
     /// The geometry of a member of a checked model.
     fn new(m: &Model, member: &Member) -> Result<Geometry, EntryFault> {
-        let points = member.points.map(|point| vector::<Extended>(m.points[point]));
-        let offsets = member.offsets.map(vector::<Extended>);
-        let ends = [points[0] + offsets[0], points[1] + offsets[1]];
         let [[p, q], [a, b]] = [member.points.map(|point| m.points[point]), member.offsets];
         let along: Vector3<Extended> =
             Vector3::from(std::array::from_fn(|k| exact_sum([q[k], -p[k], b[k], -a[k]])));
         let length = norm(&along);
+        let sizes = (0..3).flat_map(|k| [(p[k] + a[k]).abs(), (q[k] + b[k]).abs()]);
+        let far = sizes.fold(0.0_f64, f64::max);
         // Points that are equal up to the rounding of their coordinates have no distance.
-        let far = ends.iter().flat_map(|end| end.iter()).fold(0.0_f64, |a, x| a.max(x.double().abs()));
         if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
             return Err(EntryFault::NoLength);
         }
         let Triad { axes, error } = local_axes(along / length, vector(member.orientation), member.kind)
             .ok_or(EntryFault::Orientation)?;
         // The first axis keeps all its digits.
-        Ok(Geometry { ends, axes, axes_error: [0.0, error, error], length })
+        Ok(Geometry { far, axes, axes_error: [0.0, error, error], length })
     }
 }
 
@@ -216,8 +214,24 @@ pub(crate) fn vector<T: Real>(v: [f64; 3]) -> Vector3<T> {
     Vector3::from(v.map(T::from))
 }
 
-fn norm<T: Real>(v: &Vector3<T>) -> T {
-    v.dot(v).root()
+/// Length of a vector; exact for one along a global axis.
+pub(crate) fn norm(v: &Vector3<Extended>) -> Extended {
+    if only_component(v).is_some() {
+        v.iter().fold(Extended::zero(), |sum, x| sum + x.magnitude())
+    } else {
+        v.dot(v).root()
+    }
+}
+
+/// The component of a vector that is not zero, if there is exactly one.
+fn only_component(v: &Vector3<Extended>) -> Option<usize> {
+    let zero = v.map(|x| x == Extended::zero());
+    match [zero.x, zero.y, zero.z] {
+        [false, true, true] => Some(0),
+        [true, false, true] => Some(1),
+        [true, true, false] => Some(2),
+        _ => None,
+    }
 }
 
 /// The same 3 x 3 matrix for the displacement and for the rotation.
@@ -246,10 +260,18 @@ impl Triad {
         let clean = |v: Vector3<Extended>| {
             v.map(|a| if a.double().abs() <= 4.0 * Extended::ROUNDING { zero } else { a })
         };
-        let only = |v: &Vector3<Extended>| v.iter().filter(|a| **a != zero).count() == 1;
-        let aligned = only(&x) && only(&y.zip_map(&x, |y, x| if x == zero { y } else { zero }));
-        let x = clean(x);
         let size = norm(&y);
+        if let Some(along) = only_component(&x) {
+            let mut across = y;
+            across[along] = zero;
+            if let Some(up) = only_component(&across)
+                && across[up].double().abs() > PARALLEL * size.double()
+                && size.double().is_finite()
+            {
+                return Some(Triad::along_coordinates([along, up], [x[along], y[up]]));
+            }
+        }
+        let x = clean(x);
         let normal = y - x * x.dot(&y);
         let least = norm(&normal);
         if !(size > zero && size.double().is_finite() && least.double() > PARALLEL * size.double()) {
@@ -257,8 +279,23 @@ impl Triad {
         }
         let y = clean(normal / least);
         let z = clean(x.cross(&y));
-        let error = if aligned { 0.0 } else { 4.0 * size.double() / least.double() };
+        let error = 4.0 * size.double() / least.double();
         Some(Triad { axes: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]), error })
+    }
+}
+
+impl Triad {
+    /// Axes along those of the coordinates: the indices of x and y, and numbers that have their signs.
+    fn along_coordinates(index: [usize; 2], signs: [Extended; 2]) -> Triad {
+        let axis = |k: usize| {
+            let mut axis = Vector3::zeros();
+            axis[index[k]] = if signs[k] < Extended::zero() { -1.0 } else { 1.0 };
+            axis
+        };
+        let (x, y): (Vector3<f64>, Vector3<f64>) = (axis(0), axis(1));
+        let axes = Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()]);
+        // Adding 0.0 turns -0.0 into 0.0.
+        Triad { axes: axes.map(|a| Extended::from(a + 0.0)), error: 0.0 }
     }
 }
 

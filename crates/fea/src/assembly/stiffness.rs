@@ -339,9 +339,7 @@ fn turned_axes(
             continue;
         }
         adjacent.push(Element::<Extended>::new(m, index)?);
-        let ends = element.geometry.ends.iter().flat_map(|end| end.iter());
-        let far = ends.fold(0.0_f64, |most, x| most.max(x.double().abs()));
-        let angle = 4.0 * f64::EPSILON * far / element.length;
+        let angle = 4.0 * f64::EPSILON * element.geometry.far / element.length;
         for body in pair {
             tolerances[body] = tolerances[body].max(angle * angle).min(LARGEST_NO_PIVOT);
         }

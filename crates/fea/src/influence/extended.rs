@@ -10,7 +10,7 @@ use crate::assembly::{Bodies, Combination, Element, Extended, Matrix12, Real, di
 use crate::error::Error;
 use crate::factor::{Certificate, Factor, Factored, Solver};
 use crate::influence::frame::FactoredFrame;
-use crate::influence::layout::{StateRows, released_rows};
+use crate::influence::layout::{StateRows, released_rows, tip_rows};
 
 /// What the evaluation in double-doubles needs beside the frame.
 #[derive(Debug)]
@@ -123,11 +123,11 @@ impl FactoredFrame {
         state: usize,
     ) -> Result<[Combination<Extended>; 6], Error> {
         match &self.exact_layout().states[state] {
-            StateRows::Tip(rows) => Ok(rows.clone()),
-            &StateRows::Released { member, end, ref axes } => {
-                let element = Element::<Extended>::new(self.model(), member)?;
+            StateRows::Tip { point, offset, rail } => Ok(tip_rows(&extended.bodies, *point, offset, rail)),
+            StateRows::Released { member, end, rail } => {
+                let element = Element::<Extended>::new(self.model(), *member)?;
                 Ok(element.released.as_deref().map_or_else(Default::default, |released| {
-                    released_rows(&element, released, &extended.bodies, end, axes, 0.0)
+                    released_rows(&element, released, &extended.bodies, *end, &rail.axes, rail.error)
                 }))
             }
         }

@@ -14,7 +14,11 @@ use crate::influence::rounding::Evaluation;
 use crate::model::{Model, Rail};
 
 /// Bound up to which a grid in doubles is left as it is although its factor is in double-doubles.
-const SHARP: f64 = 1e-13;
+const SHARP: f64 = 2e-14;
+/// The same for more than [`FEW_PROBES`] probes: double-doubles take a time that grows with the square of their number.
+const SHARP_FOR_MANY: f64 = 1e-12;
+/// Probes whose coefficients in double-doubles take no longer than the factor of a small frame.
+const FEW_PROBES: usize = 16;
 
 /// Influence coefficients of a list of probes, with their certificate.
 ///
@@ -65,7 +69,8 @@ impl FactoredFrame {
         let InfluenceGrid { value, certificate } = self.grid_in_doubles(at)?;
         let bound = certificate.error_bound;
         // Double-doubles cost little where the factor already has them; elsewhere only where doubles do not do.
-        let enough = if certificate.extended { SHARP.min(self.accuracy()) } else { self.accuracy() };
+        let sharp = if at.len() <= FEW_PROBES { SHARP } else { SHARP_FOR_MANY };
+        let enough = if certificate.extended { sharp.min(self.accuracy()) } else { self.accuracy() };
         if bound <= enough {
             return Ok(InfluenceGrid { value, certificate });
         }

@@ -43,30 +43,20 @@ pub(crate) struct ExactLayout {
     pub coordinates: Vec<[f64; 2]>,
 }
 
-/// The six displacements of a state.
+/// What the six displacements of a state are made of. Few grids need them to all digits, so that the rows are formed
+/// when they do.
 #[derive(Clone, Debug)]
 pub(crate) enum StateRows {
-    /// The tip of a rigid offset.
-    Tip([Combination<Extended>; 6]),
-    /// The flexible end of a member behind a release: number of the end, axes of its rail. Few grids need it, so that
-    /// its rows are formed when they do.
-    Released { member: usize, end: usize, axes: Matrix3<Extended> },
+    /// The tip of a rigid offset at a point, in the axes of a rail.
+    Tip { point: usize, offset: Vector3<f64>, rail: Triad },
+    /// The flexible end of a member behind a release: number of the end, axes of its rail.
+    Released { member: usize, end: usize, rail: Triad },
 }
 
 impl ExactLayout {
     /// By how much the coordinates of the ends of an element change when they are rounded to doubles.
     pub fn rounding(&self, element: usize) -> [f64; 2] {
         self.elements[element].x.map(|x| (x - Extended::from(x.double())).double().abs())
-    }
-}
-
-impl StateRows {
-    /// The rows of a tip.
-    pub fn tip(&self) -> Option<&[Combination<Extended>; 6]> {
-        match self {
-            StateRows::Tip(rows) => Some(rows),
-            StateRows::Released { .. } => None,
-        }
     }
 }
 
@@ -183,14 +173,19 @@ impl Builder<'_> {
             return Err(EntryFault::NoExtent);
         }
         let reversed = order[0] == 1;
+        let error = axes_error.iter().fold(frame.axes.error, |sum, error| sum + error);
         // Local axes of the member in rail axes; a half turn about y lets it run along the rail.
-        let mut local = own_axes * axes.transpose();
+        let mut local = if error == 0.0 {
+            let [own, rail] = [own_axes, axes].map(|axes| axes.map(Real::double));
+            (own * rail.transpose()).map(Extended::from)
+        } else {
+            own_axes * axes.transpose()
+        };
         if reversed {
             local.row_mut(0).neg_mut();
             local.row_mut(2).neg_mut();
         }
         let offset = axes * vector::<Extended>(given.offset);
-        let error = axes_error.iter().fold(frame.axes.error, |sum, error| sum + error);
         let (length, flexibility) = (*length, element.flexibility);
         let tips = order.map(|end| self.tip(frame, member, end));
         let ends = [0, 1].map(|k| self.end(frame, member, order[k], tips[k]));
@@ -225,22 +220,20 @@ impl Builder<'_> {
     }
 
     fn push_tip(&mut self, frame: &Frame, point: usize, offset: &Vector3<f64>) {
-        let Triad { axes, error } = &frame.axes;
-        let motion = self.bodies.exact_motion(point, offset);
-        let size = motion.map(|x| x.double().abs());
-        // Both blocks of the sizes, whatever the axes are.
-        let all = diagonal_blocks(&Matrix3::from_element(1.0)) * size;
-        let turned = |axes: &Matrix3<Extended>, error: f64| {
-            let value = block_product(axes, &motion);
-            let sizes = value.map(|x| x.double().abs()) + all * error;
-            (value, sizes)
+        let rail = frame.axes;
+        self.exact.states.push(StateRows::Tip { point, offset: *offset, rail });
+        let rows = if rail.error == 0.0 {
+            // Axes along those of the coordinates only exchange the entries.
+            let motion = diagonal_blocks(&rail.axes.map(Real::double)) * self.bodies.motion(point, offset);
+            self.bodies.combinations(point, &motion)
+        } else {
+            // Doubles keep the exact zeros of axes that are only rounding.
+            let clean = without_rounding(&rail.axes, 4.0 * f64::EPSILON);
+            let lost = if clean == rail.axes { 0.0 } else { 4.0 };
+            let (value, sizes) = turned_motion(self.bodies, point, offset, &clean, lost);
+            self.bodies.sized_combinations(point, &value.map(Real::double), &sizes)
         };
-        let (value, sizes) = turned(axes, 1.0 + error);
-        self.exact.states.push(StateRows::Tip(self.bodies.sized_combinations(point, &value, &sizes)));
-        // Doubles keep the exact zeros of axes that are only rounding.
-        let clean = without_rounding(axes, 4.0 * f64::EPSILON);
-        let (value, sizes) = turned(&clean, if clean == *axes { 0.0 } else { 4.0 });
-        self.states.push(self.bodies.sized_combinations(point, &value.map(Real::double), &sizes));
+        self.states.push(rows);
     }
 
     /// State of a flexible end of a member: that of the tip, or a new one behind a release.
@@ -253,7 +246,7 @@ impl Builder<'_> {
         let axes = clean.map(Real::double);
         let rows = released_rows(element, released, self.bodies, end, &axes, frame.axes.error);
         self.states.push(rows);
-        self.exact.states.push(StateRows::Released { member, end, axes: frame.axes.axes });
+        self.exact.states.push(StateRows::Released { member, end, rail: frame.axes });
         self.states.len() - 1
     }
 
@@ -318,6 +311,33 @@ pub(crate) fn released_rows<T: Real>(
         (0..12).for_each(|k| row.add_sized(6 * pair[k / 6] + k % 6, motion[(i, k)], bulk[(i, k)]));
         row
     })
+}
+
+/// Rows of the tip of a rigid offset, in rail axes.
+pub(crate) fn tip_rows<T: Real>(
+    bodies: &Bodies<T>,
+    point: usize,
+    offset: &Vector3<f64>,
+    rail: &Triad,
+) -> [Combination<Extended>; 6] {
+    let offset = offset.map(T::from);
+    let (value, sizes) = turned_motion(bodies, point, &offset, &rail.axes, 1.0 + rail.error);
+    bodies.sized_combinations(point, &value, &sizes)
+}
+
+/// Motion of the tip of a rigid offset in the axes given, and the sizes of its entries; `error` is that of the axes in
+/// roundings.
+fn turned_motion<T: Real>(
+    bodies: &Bodies<T>,
+    point: usize,
+    offset: &Vector3<T>,
+    axes: &Matrix3<Extended>,
+    error: f64,
+) -> (Matrix6<Extended>, Matrix6) {
+    let motion = bodies.exact_motion(point, offset);
+    let value = block_product(axes, &motion);
+    let all = diagonal_blocks(&Matrix3::from_element(error)) * motion.map(|x| x.double().abs());
+    (value, value.map(|x| x.double().abs()) + all)
 }
 
 /// Axes times both blocks of a motion; skips the zeros, which are most entries of both.

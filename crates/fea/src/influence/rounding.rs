@@ -10,6 +10,7 @@ use crate::error::Error;
 use crate::factor::Solver;
 use crate::influence::extended::to_rail_axes;
 use crate::influence::frame::FactoredFrame;
+use crate::influence::layout::{StateRows, tip_rows};
 
 /// Largest relative error of one rounding: half the spacing of doubles at one.
 const UNIT: f64 = 0.5 * f64::EPSILON;
@@ -194,8 +195,10 @@ impl FactoredFrame {
     /// Sum of |p_k| |L^-1 e_k| over the unknowns of a load along degree of freedom `dof` of a state, with the
     /// magnitudes of its row.
     fn state_norm(&self, state: usize, dof: usize, norms: &mut UnitNorms, evaluation: Evaluation) -> f64 {
-        match self.exact_layout().states[state].tip() {
-            Some(rows) if evaluation == Evaluation::Extended => self.load_norm(&rows[dof], norms),
+        match &self.exact_layout().states[state] {
+            StateRows::Tip { point, offset, rail } if evaluation == Evaluation::Extended => {
+                self.load_norm(&tip_rows(&self.bodies, *point, offset, rail)[dof], norms)
+            }
             _ => self.load_norm(&self.states()[state][dof], norms),
         }
     }
