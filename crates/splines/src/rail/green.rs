@@ -251,10 +251,19 @@ impl<T: Number> ClampedElement<T> {
         t: MemberPlace<T>,
     ) -> T {
         let (p, q) = (&self.loads[a], &other.loads[b]);
-        let (first, last) = if t.is_before(s) { (t.s, s.q) } else { (s.s, t.q) };
+        let zero = T::from(0.0);
+        let mut sum = zero;
+        for (plane, p, q) in [(&self.xy, p.xy, q.xy), (&self.xz, p.xz, q.xz)] {
+            if plane.inverse != zero && p != [zero; 2] && q != [zero; 2] {
+                sum = sum + plane.value(s, p, t, q);
+            }
+        }
         let bars = self.axial * p.axial * q.axial + self.torsion * p.twist * q.twist;
-        let bars = bars * first * last / self.length;
-        self.xy.value(s, p.xy, t, q.xy) + self.xz.value(s, p.xz, t, q.xz) + bars
+        if bars != zero {
+            let (first, last) = if t.is_before(s) { (t.s, s.q) } else { (s.s, t.q) };
+            sum = sum + bars * first * last / self.length;
+        }
+        sum
     }
 }
 

@@ -225,7 +225,14 @@ impl Rails {
             if first <= last { LocalPlace { end: 0, r: first } } else { LocalPlace { end: 1, r: last } };
         let place = LocalPlace { r: place.r.max(0.0), ..place };
         let errors = [axes, shift / (given.x[1] - given.x[0])];
-        RoundingSizes::new(given, axis.component(), place, errors, if doubles { 1.0 } else { 0.0 })
+        RoundingSizes::new(
+            given,
+            self.clamped(element),
+            axis.component(),
+            place,
+            errors,
+            if doubles { 1.0 } else { 0.0 },
+        )
     }
 
     /// Green's function of element `element` clamped at both ends, 3 x 3: `[i][j]` is the displacement along

@@ -32,6 +32,7 @@ impl RoundingSizes {
     /// as zero in doubles, in its scale: 0 where it is kept.
     pub(super) fn new(
         element: &RailElement,
+        clamped: Option<&ClampedElement>,
         axis: usize,
         place: LocalPlace,
         [axes, shift]: [f64; 2],
@@ -62,10 +63,7 @@ impl RoundingSizes {
             out.row[k] = value(own) + value(error);
             out.moved_row[k] = shift * (own[1] + beyond * (2.0 * own[2] + beyond * 3.0 * own[3]));
         }
-        if element.is_rigid_arm() {
-            return out;
-        }
-        let clamped = ClampedElement::new(element);
+        let Some(clamped) = clamped else { return out };
         let at = |r: f64| LocalPlace { end, r }.on_member(element.length, false);
         let [here, moved] = [at(r), at(beyond)];
         out.green = clamped.magnitude(&load, here);
@@ -126,6 +124,9 @@ fn cubic_sizes(
     for (k, components) in element.frame.iter().enumerate() {
         for (a, &component) in components.iter().enumerate() {
             let factor = turn(component);
+            if factor == 0.0 {
+                continue;
+            }
             for block in [0, 3, 6, 9] {
                 for p in 0..4 {
                     out[block + a][p] += factor * local[block + k][p];
