@@ -164,9 +164,11 @@ impl<T: Real> Contributions<T> {
         for i in 0..12 {
             let column = 6 * pair[i / 6] + i % 6;
             let diagonal = k[(i, i)].double();
-            let moved = 2.0 * diagonal.max(0.0).sqrt() + T::ROUNDING * behind[i];
+            // What has cancelled in the transformation.
+            let lost = (behind[i] - own[i]).max(0.0);
+            let moved = 2.0 * diagonal.max(0.0).sqrt() + T::ROUNDING * lost;
             self.diagonal[column] += diagonal;
-            self.bulk[column] += own[i] * own[i] + moved * behind[i];
+            self.bulk[column] += own[i] * own[i] + moved * lost;
         }
         self.members.push((pair, k));
     }

@@ -1,24 +1,17 @@
 //! Influence coefficients in double-doubles, for geometry at which doubles lose digits.
 
 use std::collections::BTreeMap;
+use std::collections::btree_map::Entry;
 
-use nalgebra::{DMatrix, Matrix3};
+use nalgebra::DMatrix;
 use num_traits::Zero;
 use splines::{Axis, ElementFunctions, Probe, RailElement};
 
-use crate::assembly::{Bodies, Combination, Element, Extended, Matrix12, Real, diagonal_blocks};
+use crate::assembly::{Bodies, Combination, Element, Extended, Matrix12, Real};
 use crate::error::Error;
 use crate::factor::{Certificate, Factor, Factored, Solver};
-use crate::influence::frame::FactoredFrame;
-use crate::influence::layout::{StateRows, released_rows, tip_rows};
-
-/// What the evaluation in double-doubles needs beside the frame.
-#[derive(Debug)]
-pub(crate) struct ExtendedFrame {
-    /// The factor; `None` where that of the frame is in double-doubles.
-    factored: Option<Factored>,
-    bodies: Bodies<Extended>,
-}
+use crate::influence::frame::{ExtendedFrame, FactoredFrame};
+use crate::influence::layout::{StateRows, released_rows, tip_rows, to_rail_axes};
 
 /// A probe with its load in double-doubles.
 struct Place {
@@ -93,10 +86,11 @@ impl FactoredFrame {
         let mut sum = Combination::default();
         for (k, &shape) in shapes.iter().enumerate().filter(|(_, shape)| **shape != Extended::zero()) {
             let state = functions.element().ends[k / 6];
-            if !rows.contains_key(&state) {
-                rows.insert(state, self.state_rows(extended, state)?);
-            }
-            sum.add_scaled(&rows[&state][k % 6], shape);
+            let own = match rows.entry(state) {
+                Entry::Occupied(known) => known.into_mut(),
+                Entry::Vacant(place) => place.insert(self.state_rows(extended, state)?),
+            };
+            sum.add_scaled(&own[k % 6], shape);
         }
         let unknown = |&(column, value): &(usize, Extended)| {
             let k = self.unknown(column)?;
@@ -161,16 +155,4 @@ fn solved(factor: &Factor<Extended>, load: &[(usize, Extended)]) -> Vec<Extended
     load.iter().for_each(|&(k, value)| x[k] += value);
     factor.solve(&mut x);
     x
-}
-
-/// From the flexible ends of a member, local axes, to the ends of a rail element on it, rail axes.
-pub(super) fn to_rail_axes<T: Real>(cell: &RailElement<T>) -> Matrix12<T> {
-    let axes = cell.member_axes();
-    let back = Matrix3::from_fn(|i, j| axes[j][i]);
-    let mut out = Matrix12::zeros();
-    for end in 0..2 {
-        let own = if cell.is_reversed() { 1 - end } else { end };
-        out.fixed_view_mut::<6, 6>(6 * end, 6 * own).copy_from(&diagonal_blocks(&back));
-    }
-    out
 }

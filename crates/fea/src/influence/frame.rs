@@ -5,10 +5,9 @@ use std::sync::{Arc, OnceLock};
 use nalgebra::{SVector, Vector3};
 use splines::{Axis, Probe, Rails};
 
-use crate::assembly::{Bodies, Combination, Element, ScaledStiffness};
+use crate::assembly::{Bodies, Combination, Element, Extended, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
-use crate::influence::extended::ExtendedFrame;
 use crate::influence::layout::{ExactLayout, Layout};
 use crate::model::{Model, Rail};
 
@@ -47,6 +46,14 @@ pub struct FactoredFrame {
     /// The model, for what is formed again in double-doubles.
     model: Model,
     extended: OnceLock<Option<ExtendedFrame>>,
+}
+
+/// What the evaluation in double-doubles needs beside the frame.
+#[derive(Debug)]
+pub(crate) struct ExtendedFrame {
+    /// The factor; `None` where that of the frame is in double-doubles.
+    pub factored: Option<Factored>,
+    pub bodies: Bodies<Extended>,
 }
 
 impl FactoredFrame {

@@ -8,8 +8,8 @@ use splines::{Probe, RailElement, ShapeRow};
 use crate::assembly::Matrix12;
 use crate::error::{EntryAttribute, Error};
 use crate::factor::{Certificate, ForwardSolution, allow_square, dot_products};
-use crate::influence::extended::to_rail_axes;
 use crate::influence::frame::FactoredFrame;
+use crate::influence::layout::to_rail_axes;
 use crate::influence::rounding::Evaluation;
 use crate::model::{Model, Rail};
 

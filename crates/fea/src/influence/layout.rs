@@ -10,8 +10,8 @@ use num_traits::Zero;
 use splines::{ElementMember, RailElement, Rails};
 
 use crate::assembly::{
-    Bodies, Combination, Element, Extended, Geometry, Matrix6, Real, Released, Triad, diagonal_blocks,
-    exact_sum, transformation_and_size, vector, without_rounding,
+    Bodies, Combination, Element, Extended, Geometry, Matrix6, Matrix12, Real, Released, Triad,
+    diagonal_blocks, exact_sum, transformation_and_size, vector, without_rounding,
 };
 use crate::error::{EntryAttribute, EntryFault, Error, ModelEntry, finite};
 use crate::model::{Model, Rail, RailSegment};
@@ -302,7 +302,9 @@ pub(crate) fn released_rows<T: Real>(
     // Rounding of the axes, of the recovery and of its products.
     let error = axes_error * (Extended::ROUNDING / T::ROUNDING);
     let error = element.axes_error.iter().fold(error, |sum, error| sum + error);
-    let turned = to_rail.map(|x| x.double().abs()) + diagonal_blocks(&Matrix3::from_element(error));
+    let magnitudes = |m: &Matrix3<T>| m.map(|x| x.double().abs());
+    let products = magnitudes(axes) * magnitudes(&element.axes).transpose();
+    let turned = diagonal_blocks(&products.map(|x| x + error));
     let recovery = released.recovery.map(|x| x.double().abs()) * released.growth;
     let bulk = turned * (recovery * sizes).fixed_rows::<6>(6 * end);
     let pair = bodies.pair(element.points);
@@ -366,4 +368,16 @@ fn rigid(rail: usize, x: [Extended; 2], state: usize, offset: Vector3<Extended>)
         flexibility: Default::default(),
         member: None,
     }
+}
+
+/// From the flexible ends of a member, local axes, to the ends of a rail element on it, rail axes.
+pub(crate) fn to_rail_axes<T: Real>(cell: &RailElement<T>) -> Matrix12<T> {
+    let axes = cell.member_axes();
+    let back = Matrix3::from_fn(|i, j| axes[j][i]);
+    let mut out = Matrix12::zeros();
+    for end in 0..2 {
+        let own = if cell.is_reversed() { 1 - end } else { end };
+        out.fixed_view_mut::<6, 6>(6 * end, 6 * own).copy_from(&diagonal_blocks(&back));
+    }
+    out
 }

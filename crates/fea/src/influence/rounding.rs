@@ -8,9 +8,8 @@ use splines::{Probe, RailElement, RoundingSizes};
 use crate::assembly::{Combination, Extended, Matrix12, Real, Released};
 use crate::error::Error;
 use crate::factor::Solver;
-use crate::influence::extended::to_rail_axes;
 use crate::influence::frame::FactoredFrame;
-use crate::influence::layout::{StateRows, tip_rows};
+use crate::influence::layout::{StateRows, tip_rows, to_rail_axes};
 
 /// Largest relative error of one rounding: half the spacing of doubles at one.
 const UNIT: f64 = 0.5 * f64::EPSILON;

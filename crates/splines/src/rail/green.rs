@@ -142,7 +142,7 @@ impl Plane {
     /// `Plane::green` for a <= b, formed from the end that is nearer to a: a beam seen from its other end is
     /// the same beam.
     #[inline(always)]
-    fn from_nearer_end(&self, a: MemberPlace, p: [f64; 2], b: MemberPlace, q: [f64; 2]) -> Partials {
+    fn nearer_end(&self, a: MemberPlace, p: [f64; 2], b: MemberPlace, q: [f64; 2]) -> Partials {
         if a.s <= a.q {
             return self.green(a.s, p, b, q);
         }
@@ -156,12 +156,12 @@ impl Plane {
     #[inline(always)]
     fn ordered(&self, s: MemberPlace, p: [f64; 2], t: MemberPlace, q: [f64; 2]) -> Partials {
         if s.is_before(t) {
-            self.from_nearer_end(s, p, t, q)
+            self.nearer_end(s, p, t, q)
         } else if t.is_before(s) {
-            self.from_nearer_end(t, q, s, p).swapped()
+            self.nearer_end(t, q, s, p).swapped()
         } else {
-            let one = self.from_nearer_end(s, p, t, q);
-            one.mean(if p == q { one.swapped() } else { self.from_nearer_end(t, q, s, p).swapped() })
+            let one = self.nearer_end(s, p, t, q);
+            one.mean(if p == q { one.swapped() } else { self.nearer_end(t, q, s, p).swapped() })
         }
     }
 
