@@ -279,6 +279,6 @@ fn scenes_at_random_keep_the_accuracy_asked() {
         }
     }
     println!("{misses} misses in {judged} runs, {open} not judged");
-    // Most of the misses are by less than a factor of two, and most of the runs are by SDIRK4.
+    // Half of the misses are by less than a factor of two, and most of them are by SDIRK4.
     assert!(6 * misses <= judged, "{misses} of {judged}");
 }
