@@ -3,7 +3,7 @@
     python3 fea/hard_frames.py SEED COUNT [wide|close] > frames.json
     HARD_FRAMES=frames.json cargo test --release -p fea --test hard -- --ignored --nocapture
 
-Needs python-flint (ball arithmetic: every digit is proved). The method shares nothing with the crate: a node is put at
+Needs fea/requirements-frames.txt: python-flint (ball arithmetic: every digit is proved). The method shares nothing with the crate: a node is put at
 every station, released ends are unknowns of their own, and the stiffness is solved densely with 1200 bits. All numbers
 of a frame are the doubles that are printed; each coefficient is printed as a sum of two doubles.
 
