@@ -203,7 +203,8 @@ fn a_choice_that_is_stopped_leaves_its_run() {
 fn two([frequency, alpha]: [f64; 2]) -> Scene {
     let (mut scene, slow) = (scene(0.5, 0.5, 0.25), scene(0.5, frequency, alpha));
     scene.bodies.extend(slow.bodies);
-    scene.contacts.push(Contact { body: 1, structure: 1, ..slow.contacts[0].clone() });
+    scene.wheels.extend(slow.wheels);
+    scene.contacts.push(Contact { body: 1, structure: 1, wheel: 1, ..slow.contacts[0].clone() });
     scene
 }
 
