@@ -7,7 +7,9 @@
 
 use std::ops::ControlFlow;
 
-use sim::{Check, Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance};
+use sim::{
+    Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance, TrialCheck,
+};
 
 use crate::build::{build, coarse_modes};
 use crate::built::{BuiltFoundation, MotionBasis};
@@ -99,11 +101,8 @@ pub fn select_and_run(
 ) -> Result<AutoRun, Error> {
     let tolerance =
         |structure: &Structure| Tolerance { value: structure.tolerance, measure: structure.measure };
-    let tolerances: Vec<Option<Tolerance>> = scene
-        .structures
-        .iter()
-        .map(|structure| structure.auto.then(|| tolerance(structure)))
-        .collect();
+    let tolerances: Vec<Option<Tolerance>> =
+        scene.structures.iter().map(|structure| structure.auto.then(|| tolerance(structure))).collect();
     let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
     let lateral = scene.has_flanges();
     let bases = scene.structures.iter().map(|_| None).collect();
@@ -166,11 +165,12 @@ impl FoundationProvider for SceneFoundations<'_> {
         let own = &self.scene.structures[structure];
         let Some(solved) = solution_of(self.known, &own.origin) else { return Ok(None) };
         let cache = &mut self.mode_caches[structure];
-        let BuiltFoundation { foundation, basis } = match coarse_modes(cache, own, solved, self.lateral, count) {
-            Ok(built) => built,
-            Err(Error::Modes { source: fea::Error::NoMass, .. }) => return Ok(None),
-            Err(error) => return Err(error),
-        };
+        let BuiltFoundation { foundation, basis } =
+            match coarse_modes(cache, own, solved, self.lateral, count) {
+                Ok(built) => built,
+                Err(Error::Modes { source: fea::Error::NoMass, .. }) => return Ok(None),
+                Err(error) => return Err(error),
+            };
         let (Some(modes), Some(basis)) = (foundation.structure, basis) else { return Ok(None) };
         let is_whole = modes.dynamics.dofs() < count;
         let coupling = foundation.carrier.map_or_else(Vec::new, |carrier| carrier.coupling);
@@ -222,10 +222,10 @@ pub fn fidelity_name(fidelity: Fidelity) -> String {
 
 /// How an error was estimated, in words.
 #[must_use]
-pub fn check_name(check: Check) -> String {
+pub fn check_name(check: TrialCheck) -> String {
     match check {
-        Check::Replay(modes) => format!("{modes} natural modes under its wheel forces"),
-        Check::Run(fidelity) => fidelity_name(fidelity),
+        TrialCheck::Replay(modes) => format!("{modes} natural modes under its wheel forces"),
+        TrialCheck::Run(fidelity) => fidelity_name(fidelity),
     }
 }
 
@@ -245,7 +245,10 @@ pub fn selection_reason(choice: &Choice) -> String {
         }
         Reason::QuasiStatic => format!("auto: {chosen}; a quasi-static sweep has no inertia"),
         Reason::Sufficient => {
-            format!("auto: {chosen}; it is the lowest fidelity tried for which {} is within the tolerance", error())
+            format!(
+                "auto: {chosen}; it is the lowest fidelity tried for which {} is within the tolerance",
+                error()
+            )
         }
         Reason::Kept => format!(
             "auto: {chosen}; {} of influence functions is within the tolerance as well, but the run that showed it is \

@@ -21,9 +21,9 @@ use formats::scene::motion::simulation_input;
 use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
-/// Progress of a simulation.
+/// SimulationProgress of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Progress<'a> {
+pub enum SimulationProgress<'a> {
     /// Fraction of all simulated time that is done, 0 to 1.
     Fraction(f64),
     /// A run with these foundations begins, as one of several from which "auto" chooses.
@@ -54,7 +54,7 @@ pub fn simulate(
     document: &Document,
     known: &[SolvedStructure],
     threads: Option<u16>,
-    progress: &(dyn Fn(Progress<'_>) + Sync),
+    progress: &(dyn Fn(SimulationProgress<'_>) + Sync),
 ) -> Result<Vec<CaseResult>, Error> {
     let cases = &document.cases;
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
@@ -63,10 +63,10 @@ pub fn simulate(
             // with "auto" a case is run several times, and its time starts again from zero in each run
             done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
             let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
-            progress(Progress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)));
+            progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)));
             ControlFlow::Continue(())
         };
-        run_case(case, known, &|trial| progress(Progress::Trial(trial)), &mut watch)
+        run_case(case, known, &|trial| progress(SimulationProgress::Trial(trial)), &mut watch)
     });
     outcomes.into_iter().collect()
 }

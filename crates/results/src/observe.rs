@@ -1,7 +1,7 @@
 //! The quantities by which "auto" judges the runs of a scene: all columns of its history, and the reactions, internal
 //! forces and stresses that its output requests.
 
-use sim::{BodyDof, Channel, History, Quantity, Record};
+use sim::{BodyDof, Channel, History, Record, RecordedQuantity};
 
 use crate::response::{ColumnInfluence, WheelLoadReader, influence_lines};
 use formats::scene::Scene;
@@ -68,7 +68,7 @@ impl<'a> ColumnObserver<'a> {
         s: usize,
         history: &History,
         basis: Option<&MotionBasis>,
-        quantities: &mut Vec<Quantity>,
+        quantities: &mut Vec<RecordedQuantity>,
     ) -> Result<(), Error> {
         let (scene, solved) = (self.scene, self.solved(s));
         let loads = WheelLoadReader::new(scene, self.input, history);
@@ -91,7 +91,15 @@ impl<'a> ColumnObserver<'a> {
                 _ => FORCE,
             };
             let name = column.name.clone();
-            Quantity { name, kind, channel: None, is_position: false, group: String::new(), least_scale: 0.0, values }
+            RecordedQuantity {
+                name,
+                kind,
+                channel: None,
+                is_position: false,
+                group: String::new(),
+                least_scale: 0.0,
+                values,
+            }
         }));
         Ok(())
     }
@@ -111,7 +119,7 @@ impl<'a> ColumnObserver<'a> {
 
     /// Sets the least scales of moments and rotations, which may all be zero but for rounding: those that the largest
     /// force and displacement make with the longest rail, times 1e-6.
-    fn set_least_scales(&self, found: &mut [Quantity]) {
+    fn set_least_scales(&self, found: &mut [RecordedQuantity]) {
         let lengths = self.scene.rails.iter().map(|rail| rail.range[1] - rail.range[0]);
         let length = lengths.fold(0.0, f64::max);
         let largest = |kind: &str| {
@@ -134,7 +142,8 @@ impl TrialObserver for ColumnObserver<'_> {
     fn record(&mut self, history: &History, bases: &[Option<MotionBasis>]) -> Result<Record, Error> {
         let mut found = Vec::new();
         for quantity in quantities(self.scene) {
-            let Some((kind, is_position)) = quantity.terms.first().and_then(|(channel, _)| kind(*channel)) else {
+            let Some((kind, is_position)) = quantity.terms.first().and_then(|(channel, _)| kind(*channel))
+            else {
                 continue;
             };
             let parts: Vec<(Vec<f64>, f64)> =
@@ -146,7 +155,7 @@ impl TrialObserver for ColumnObserver<'_> {
             };
             let values = (0..history.len()).map(sum).collect();
             let group = channel.map_or_else(String::new, |channel| self.group(channel));
-            found.push(Quantity {
+            found.push(RecordedQuantity {
                 name: quantity.name,
                 kind,
                 channel,
@@ -183,7 +192,9 @@ impl TrialObserver for ColumnObserver<'_> {
 fn kind(channel: Channel) -> Option<(&'static str, bool)> {
     Some(match channel {
         Channel::Time => return None,
-        Channel::Displacement(_, BodyDof::X) | Channel::Position(_) | Channel::SpinAngle(_) => ("position", true),
+        Channel::Displacement(_, BodyDof::X) | Channel::Position(_) | Channel::SpinAngle(_) => {
+            ("position", true)
+        }
         Channel::Displacement(_, BodyDof::Roll | BodyDof::Yaw | BodyDof::Pitch) => (ROTATION, false),
         Channel::Displacement(..) | Channel::Deflection(_) | Channel::Gauge(_) => (DISPLACEMENT, false),
         Channel::Penetration(_) => ("penetration", false),

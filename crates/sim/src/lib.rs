@@ -95,9 +95,9 @@ pub use scene::structure::{Dynamics, Shapes, Structure};
 pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, LawValue, NormalLaw, Wheel};
 pub use select::choose::choose;
 pub use select::fidelity::Fidelity;
-pub use select::measure::{Bounces, Difference, Measure, Quantity, Record, difference};
+pub use select::measure::{Bounces, Difference, Measure, Record, RecordedQuantity, difference};
 pub use select::replay::ModalBasis;
 pub use select::selection::{
-    Check, Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, Selection, Tolerance,
+    Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck,
 };
 pub use time::counts::Counts;

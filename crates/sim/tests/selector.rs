@@ -9,8 +9,8 @@ use std::ops::ControlFlow;
 
 use common::modes::{beam, oscillator};
 use sim::{
-    Bounces, Check, Choice, Contact, Error, Fidelity, Foundation, FoundationProvider, Measure, ModalBasis, Reason,
-    Record, Run, Scene, Selection, Status, Tolerance, choose, difference,
+    Bounces, Choice, Contact, Error, Fidelity, Foundation, FoundationProvider, Measure, ModalBasis, Reason,
+    Record, Run, Scene, Selection, Status, Tolerance, TrialCheck, choose, difference,
 };
 
 /// Number of modes of the beam that stands for all of them.
@@ -79,7 +79,8 @@ fn within(value: f64) -> Option<Tolerance> {
 }
 
 fn select(scene: &Scene, tolerances: &[Option<Tolerance>], provider: &mut Beam) -> Selection {
-    let found = choose(scene, tolerances, provider, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    let found =
+        choose(scene, tolerances, provider, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
     assert_eq!(found.runs, provider.runs);
     assert!(found.runs <= provider.begun.len(), "a run that began and failed is not counted");
     found
@@ -137,7 +138,7 @@ fn estimates_have_the_size_of_the_error() {
         let error = error(&ran(&scene, Fidelity::Influence), &ran(&scene, Fidelity::Modal(WHOLE)));
         let tried = &choice.tried[0];
         println!("alpha {alpha}: estimate {:.1e} by {:?}, error {error:.1e}", tried.estimate, tried.against);
-        assert!(matches!(tried.against, Check::Replay(_)), "{tried:?}");
+        assert!(matches!(tried.against, TrialCheck::Replay(_)), "{tried:?}");
         assert_eq!(tried.fidelity, Fidelity::Influence);
         assert!((error / 3.0..error * 3.0).contains(&tried.estimate), "{tried:?}: {error}");
     }
@@ -166,7 +167,10 @@ fn a_spring_far_softer_than_the_rail_needs_no_flexible_rail() {
 #[test]
 fn without_mass_no_estimate_is_claimed() {
     let (choice, _) = chosen(&scene(0.5, 0.5, 0.25), 1e-2, &mut Beam { light: true, ..Beam::default() });
-    assert_eq!((choice.fidelity, choice.reason, choice.estimate), (Fidelity::Influence, Reason::NoMass, None));
+    assert_eq!(
+        (choice.fidelity, choice.reason, choice.estimate),
+        (Fidelity::Influence, Reason::NoMass, None)
+    );
 }
 
 #[test]
@@ -184,7 +188,10 @@ fn a_choice_that_cannot_be_checked_is_marked() {
     let refused: fn(Fidelity) -> bool = |fidelity| fidelity > Fidelity::Influence;
     let (choice, run) =
         chosen(&scene(0.5, 0.5, 0.25), 1e-2, &mut Beam { refused: Some(refused), ..Beam::default() });
-    assert_eq!((choice.fidelity, choice.reason, choice.estimate), (Fidelity::Influence, Reason::Unchecked, None));
+    assert_eq!(
+        (choice.fidelity, choice.reason, choice.estimate),
+        (Fidelity::Influence, Reason::Unchecked, None)
+    );
     assert!(matches!(choice.failed[..], [Fidelity::Modal(_)]), "{choice:?}");
     assert_eq!(run.status, Status::Done);
 }
@@ -236,7 +243,7 @@ fn structures_that_are_given_are_kept() {
 fn record(count: usize, force: impl Fn(f64) -> f64) -> Record {
     let time: Vec<f64> = (0..count).map(|i| i as f64 * 0.01).collect();
     let values = time.iter().map(|t| force(*t)).collect();
-    let quantity = sim::Quantity {
+    let quantity = sim::RecordedQuantity {
         name: "force".to_owned(),
         kind: "force",
         channel: None,

@@ -71,4 +71,4 @@ pub use table::{
     BeamFit, FactorCurves, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable, TableFactor,
     TableReading, fit_beam,
 };
-pub use vector::Number;
+pub use vector::RealNumber;

@@ -5,10 +5,10 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 /// A real number type in which shape functions and Green's function can be evaluated: doubles, or a wider one.
 ///
 /// ```
-/// fn is_number<T: splines::Number>() {}
+/// fn is_number<T: splines::RealNumber>() {}
 /// is_number::<f64>();
 /// ```
-pub trait Number:
+pub trait RealNumber:
     Copy
     + PartialOrd
     + From<f64>
@@ -20,7 +20,7 @@ pub trait Number:
 {
 }
 
-impl<T> Number for T where
+impl<T> RealNumber for T where
     T: Copy
         + PartialOrd
         + From<f64>
@@ -34,7 +34,7 @@ impl<T> Number for T where
 
 /// Scalar product of two vectors of space.
 #[inline]
-pub(crate) fn dot3<T: Number>(a: &[T; 3], b: &[T; 3]) -> T {
+pub(crate) fn dot3<T: RealNumber>(a: &[T; 3], b: &[T; 3]) -> T {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
@@ -54,12 +54,12 @@ pub(crate) fn dot4(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 }
 
 /// Vector product a x b.
-pub(crate) fn cross<T: Number>(a: [T; 3], b: [T; 3]) -> [T; 3] {
+pub(crate) fn cross<T: RealNumber>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Unit vector along `axis`, 0, 1 or 2.
-pub(crate) fn unit<T: Number>(axis: usize) -> [T; 3] {
+pub(crate) fn unit<T: RealNumber>(axis: usize) -> [T; 3] {
     let mut e = [T::from(0.0); 3];
     e[axis] = T::from(1.0);
     e

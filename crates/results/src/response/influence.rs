@@ -141,7 +141,11 @@ impl ColumnInfluence {
     ///
     /// # Errors
     /// The errors of the frame solver.
-    pub fn set_motion(&mut self, basis: Option<&MotionBasis>, solved: &SolvedModel) -> Result<(), fea::Error> {
+    pub fn set_motion(
+        &mut self,
+        basis: Option<&MotionBasis>,
+        solved: &SolvedModel,
+    ) -> Result<(), fea::Error> {
         let effects = inertia(&self.sources, basis, solved)?;
         self.inertia = DMatrix::zeros(self.columns.len(), effects.ncols());
         for (e, &ColumnTerm { column, weight }) in self.terms.iter().enumerate() {

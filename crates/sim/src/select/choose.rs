@@ -24,9 +24,7 @@ use std::ops::ControlFlow;
 use super::fidelity::{Fidelity, fastest_bounce, slowest_bounce};
 use super::measure::{Bounces, Measure, Record, difference};
 use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
-use super::selection::{
-    Check, Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, Selection, Tolerance,
-};
+use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
 /// Number of modes that are computed first, and at the most.
@@ -160,7 +158,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut scene = scene.clone();
         let mut accuracy = scene.accuracy;
         if scene.analysis == Analysis::Dynamic {
-            accuracy = accuracy.min(RUN_ACCURACY * least(tolerances));
+            for tolerance in tolerances.iter().flatten() {
+                accuracy = accuracy.min(tolerance.run_accuracy());
+            }
             let wanted = scene.output_dt * SAMPLES[0] / fastest_bounce(&scene);
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
@@ -197,12 +197,18 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Runs the scene at `fidelities`, one for each structure, with an accuracy, and observes it if it `is_compared`.
-    fn trial(&mut self, fidelities: &[Fidelity], accuracy: f64, is_compared: bool) -> Result<Trial, L::Error> {
+    fn trial(
+        &mut self,
+        fidelities: &[Fidelity],
+        accuracy: f64,
+        is_compared: bool,
+    ) -> Result<Trial, L::Error> {
         let auto = fidelities.iter().enumerate().filter(|(s, _)| self.tolerances[*s].is_some());
         self.provider.begin(&auto.map(|(s, fidelity)| (s, *fidelity)).collect::<Vec<_>>());
         let built = fidelities.iter().enumerate();
-        let foundations =
-            built.map(|(s, fidelity)| self.provider.foundation(s, *fidelity)).collect::<Result<Vec<_>, _>>()?;
+        let foundations = built
+            .map(|(s, fidelity)| self.provider.foundation(s, *fidelity))
+            .collect::<Result<Vec<_>, _>>()?;
         self.scene.accuracy = accuracy;
         let run = self.provider.run(&self.scene, &foundations, self.watch)?;
         self.runs += 1;
@@ -261,7 +267,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut lower = first;
         let mut lacking = largest(&open, &none);
         for round in 1..=MODAL_RUNS {
-            let Some(higher) = self.modal_trial(&open, &counts, accuracy) else { return self.repeated(lower) };
+            let Some(higher) = self.modal_trial(&open, &counts, accuracy) else {
+                return self.repeated(lower);
+            };
             for (own, count) in open.iter_mut().zip(&counts) {
                 self.estimate(own, &higher, &compliances, *count, f64::INFINITY);
             }
@@ -284,8 +292,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 }
                 return self.repeated(chosen);
             }
-            let is_within =
-                |own: &Open, count: usize| factor * own.tail(count).error <= SAFE * own.tolerance;
+            let is_within = |own: &Open, count: usize| factor * own.tail(count).error <= SAFE * own.tolerance;
             let mut raised = counts.clone();
             for (own, count) in open.iter_mut().zip(&mut raised) {
                 if !is_within(own, *count) {
@@ -381,7 +388,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
 
     /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
     /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is a third of them.
-    fn estimate(&mut self, own: &mut Open, trial: &Trial, compliances: &[Foundation], least: usize, limit: f64) {
+    fn estimate(
+        &mut self,
+        own: &mut Open,
+        trial: &Trial,
+        compliances: &[Foundation],
+        least: usize,
+        limit: f64,
+    ) {
         loop {
             let loaded = Loaded {
                 scene: &self.scene,
@@ -412,7 +426,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 fidelity: trial.fidelities[own.structure],
                 estimate: factor * tail.error,
                 quantity: tail.quantity,
-                against: Check::Replay(own.basis.structure.dynamics.dofs()),
+                against: TrialCheck::Replay(own.basis.structure.dynamics.dofs()),
                 stages: trial.run.counts.stages as u64,
             });
         }
@@ -427,7 +441,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                     fidelity,
                     estimate,
                     quantity: quantity.to_owned(),
-                    against: Check::Run(against),
+                    against: TrialCheck::Run(against),
                     stages: lower.run.counts.stages as u64,
                 });
             }

@@ -43,7 +43,7 @@ pub enum Measure {
 
 /// A quantity of a run.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Quantity {
+pub struct RecordedQuantity {
     /// Name for messages.
     pub name: String,
     /// Quantities of equal kind have the same dimension and are of comparable size.
@@ -66,7 +66,7 @@ pub struct Record {
     /// Times.
     pub time: Vec<f64>,
     /// Quantities.
-    pub quantities: Vec<Quantity>,
+    pub quantities: Vec<RecordedQuantity>,
 }
 
 impl Record {
@@ -86,7 +86,15 @@ impl Record {
                 _ => return None,
             };
             let (name, values) = (format!("{channel:?}"), history.column(*channel));
-            Some(Quantity { name, kind, channel: Some(*channel), is_position, group: String::new(), least_scale: 0.0, values })
+            Some(RecordedQuantity {
+                name,
+                kind,
+                channel: Some(*channel),
+                is_position,
+                group: String::new(),
+                least_scale: 0.0,
+                values,
+            })
         };
         let quantities = history.channels().iter().filter_map(quantity).collect();
         Record { time: history.column(Channel::Time), quantities }
@@ -95,7 +103,7 @@ impl Record {
     /// Scale of every quantity, see the head of this module; 0 for a quantity of a kind that is zero throughout.
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
-        let range = |quantity: &Quantity| {
+        let range = |quantity: &RecordedQuantity| {
             let first = quantity.values.first().copied().unwrap_or_default();
             let start = if quantity.is_position { first } else { 0.0 };
             let [low, high] = extremes(quantity.values.iter(), start);

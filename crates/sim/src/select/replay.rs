@@ -203,9 +203,10 @@ impl<'a> Replay<'a> {
         let (mut shape, mut slope) = (vec![0.0; n], vec![0.0; n]);
         let mut gauges = Vec::new();
         for (g, gauge) in scene.gauges.iter().enumerate().filter(|(_, gauge)| gauge.structure == structure) {
-            if let (Some(at), Ok(())) =
-                (by_channel(Channel::Gauge(g)), basis.structure.shapes.row(gauge.probe, &mut shape, &mut slope))
-            {
+            if let (Some(at), Ok(())) = (
+                by_channel(Channel::Gauge(g)),
+                basis.structure.shapes.row(gauge.probe, &mut shape, &mut slope),
+            ) {
                 gauges.push((shape.clone(), slot(at)));
             }
         }
@@ -217,7 +218,8 @@ impl<'a> Replay<'a> {
         let drives = drives.collect();
         let names: BTreeMap<&str, usize> =
             record.quantities.iter().enumerate().map(|(i, quantity)| (quantity.name.as_str(), i)).collect();
-        let known = basis.effects.iter().filter_map(|(name, by_mode)| Some((by_mode, names.get(name.as_str())?)));
+        let known =
+            basis.effects.iter().filter_map(|(name, by_mode)| Some((by_mode, names.get(name.as_str())?)));
         let effects = known.map(|(by_mode, at)| (by_mode.as_slice(), slot(*at))).collect();
         let carrier = foundations[structure].carrier.as_ref().filter(|_| !basis.coupling.is_empty());
         let carrier = carrier.and_then(|carrier| history.position(Channel::Speed(carrier.body, BodyDof::X)));

@@ -8,10 +8,6 @@ use super::replay::ModalBasis;
 use crate::run::run;
 use crate::{Error, Foundation, History, Run, Scene};
 
-/// Accuracy of the result, relative to the tolerance. The error of reactions and internal forces, which depend on the
-/// accelerations of all modes, was up to a hundred times the accuracy of the run in crossings of uneven rails.
-pub const RUN_ACCURACY: f64 = 0.01;
-
 /// Error that a structure's foundation may cause.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
@@ -19,6 +15,19 @@ pub struct Tolerance {
     pub value: f64,
     /// Measure of the error.
     pub measure: Measure,
+}
+
+impl Tolerance {
+    /// Accuracy of the runs from which the result is chosen: 0.01 of the tolerance for extremes, 0.003 for values at
+    /// equal times. Reactions and internal forces depend on the accelerations of all modes; their errors were up to a
+    /// hundred times the accuracy of the run, and mostly below twenty times.
+    #[must_use]
+    pub fn run_accuracy(&self) -> f64 {
+        match self.measure {
+            Measure::Extremes => 1e-2 * self.value,
+            Measure::History => 3e-3 * self.value,
+        }
+    }
 }
 
 /// Builds the foundations of the structures on demand.
@@ -85,7 +94,7 @@ pub enum Reason {
 
 /// How the error of a trial was estimated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Check {
+pub enum TrialCheck {
     /// The wheel forces of the run acted on this number of modes.
     Replay(usize),
     /// The run was compared with one at another fidelity.
@@ -102,7 +111,7 @@ pub struct FidelityTrial {
     /// The quantity with that error.
     pub quantity: String,
     /// How it was estimated.
-    pub against: Check,
+    pub against: TrialCheck,
     /// Number of integration stages of its run.
     pub stages: u64,
 }
@@ -130,8 +139,8 @@ pub struct Choice {
 pub struct Selection {
     /// One choice for each structure with a tolerance, in the order of the structures.
     pub choices: Vec<Choice>,
-    /// The run with the chosen foundations. Its accuracy is that of the scene, or a tenth of the least tolerance where
-    /// that is finer.
+    /// The run with the chosen foundations. Its accuracy is that of the scene, or [`Tolerance::run_accuracy`] where that
+    /// is finer; on uneven rails it may be finer still.
     pub run: Run,
     /// Number of runs made, including this one.
     pub runs: usize,

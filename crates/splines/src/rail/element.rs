@@ -1,7 +1,7 @@
 //! A uniform stretch of rail: the data of one rail element.
 
 use crate::error::Error;
-use crate::vector::{Number, cross, dot};
+use crate::vector::{RealNumber, cross, dot};
 
 /// Rounding allowed in the frame of an element: how far its axes may be from orthogonal unit vectors.
 const ORTHOGONALITY: f64 = 1e-9;
@@ -97,7 +97,7 @@ pub struct RailElement<T = f64> {
     pub member: Option<ElementMember>,
 }
 
-impl<T: Number> RailElement<T> {
+impl<T: RealNumber> RailElement<T> {
     /// Whether the member runs against the element.
     #[must_use]
     pub fn is_reversed(&self) -> bool {
@@ -184,7 +184,7 @@ pub(crate) struct LocalPlace<T = f64> {
     pub r: T,
 }
 
-impl<T: Number> LocalPlace<T> {
+impl<T: RealNumber> LocalPlace<T> {
     /// The place of coordinate x in an element with the ends `ends` and 1/extent = `scale`.
     #[inline]
     pub fn of(x: T, ends: [T; 2], scale: T) -> LocalPlace<T> {
@@ -219,7 +219,7 @@ pub(crate) struct MemberPlace<T = f64> {
     pub q: T,
 }
 
-impl<T: Number> MemberPlace<T> {
+impl<T: RealNumber> MemberPlace<T> {
     /// The place as seen from the other end.
     #[inline(always)]
     pub fn mirrored(self) -> MemberPlace<T> {

@@ -5,7 +5,7 @@ use super::green::ClampedElement;
 use super::load::AxisLoad;
 use super::shape::cubics;
 use crate::probe::Axis;
-use crate::vector::Number;
+use crate::vector::RealNumber;
 
 /// Shape functions and Green's function of one rail element, in the number type T.
 ///
@@ -40,7 +40,7 @@ pub struct ElementFunctions<T> {
     clamped: Option<ClampedElement<T>>,
 }
 
-impl<T: Number> ElementFunctions<T> {
+impl<T: RealNumber> ElementFunctions<T> {
     /// The functions of an element whose numbers are sound: [`crate::Rails::new`] checks those of its doubles.
     #[must_use]
     pub fn new(element: RailElement<T>) -> ElementFunctions<T> {

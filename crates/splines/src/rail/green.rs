@@ -8,7 +8,7 @@
 use super::element::{MemberPlace, RailElement};
 use super::load::AxisLoad;
 use crate::compliance::Partials;
-use crate::vector::Number;
+use crate::vector::RealNumber;
 
 /// One bending plane of a clamped Timoshenko beam; all zero where the plane is rigid.
 #[derive(Clone, Copy, Debug)]
@@ -30,7 +30,7 @@ struct Reaction<T> {
     moment: T,
 }
 
-impl<T: Number> Plane<T> {
+impl<T: RealNumber> Plane<T> {
     fn new(c: f64, g: f64, l: T) -> Self {
         let [c, g, zero] = [c, g, 0.0].map(T::from);
         let d = (c * l * l + T::from(12.0) * g) * l;
@@ -99,7 +99,7 @@ impl<T: Number> Plane<T> {
 
 /// A force and a moment as seen from the other end of the member: moments change their sign.
 #[inline(always)]
-fn turned<T: Number>([force, moment]: [T; 2]) -> [T; 2] {
+fn turned<T: RealNumber>([force, moment]: [T; 2]) -> [T; 2] {
     [force, -moment]
 }
 
@@ -225,7 +225,7 @@ pub(crate) struct ClampedElement<T = f64> {
     without_stiffness: [bool; 4],
 }
 
-impl<T: Number> ClampedElement<T> {
+impl<T: RealNumber> ClampedElement<T> {
     pub fn new(element: &RailElement<T>) -> ClampedElement<T> {
         let flexibility = &element.flexibility;
         let finite = |x: f64| T::from(if x.is_finite() { x } else { 0.0 });

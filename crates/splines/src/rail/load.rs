@@ -1,7 +1,7 @@
 //! A unit rail force in the local axes of a member.
 
 use super::element::RailElement;
-use crate::vector::{Number, cross, dot3, unit};
+use crate::vector::{RealNumber, cross, dot3, unit};
 
 /// Force and moment that a unit force on the rail exerts on the axis of a member, in local axes.
 ///
@@ -19,7 +19,7 @@ pub(crate) struct AxisLoad<T = f64> {
     pub xz: [T; 2],
 }
 
-impl<T: Number> AxisLoad<T> {
+impl<T: RealNumber> AxisLoad<T> {
     /// A unit force along rail direction `axis`, 0, 1 or 2, in the local axes given by the rows of `frame`:
     /// those of the element, or those of its member.
     pub fn new(element: &RailElement<T>, frame: &[[T; 3]; 3], axis: usize) -> AxisLoad<T> {
@@ -39,13 +39,13 @@ impl<T: Number> AxisLoad<T> {
 
 /// Absolute value.
 #[inline]
-pub(crate) fn size<T: Number>(value: T) -> T {
+pub(crate) fn size<T: RealNumber>(value: T) -> T {
     if value < T::from(0.0) { -value } else { value }
 }
 
 /// `value`, or zero where it is no more than the rounding of a rotation of numbers of size `scale`. Numbers wider
 /// than doubles are left as they are: nothing is recognised by their zeros.
-pub(crate) fn without_rounding<T: Number>(value: T, scale: T) -> T {
+pub(crate) fn without_rounding<T: RealNumber>(value: T, scale: T) -> T {
     let one = T::from(1.0);
     let wide = one + T::from(0.25 * f64::EPSILON) != one;
     if !wide && size(value) <= T::from(4.0 * f64::EPSILON) * scale { T::from(0.0) } else { value }

@@ -14,7 +14,7 @@
 
 use super::element::{LocalPlace, RailElement};
 use super::load::{AxisLoad, without_rounding};
-use crate::vector::{Number, cross, unit};
+use crate::vector::{RealNumber, cross, unit};
 
 /// The shape functions of one element along one rail direction that do not vanish, as cubics.
 #[derive(Clone, Debug, PartialEq)]
@@ -74,7 +74,7 @@ impl ShapeCubics {
 }
 
 /// Cubics of all twelve degrees of freedom, in the rail frame, by the distance from `end`.
-pub(crate) fn cubics<T: Number>(
+pub(crate) fn cubics<T: RealNumber>(
     element: &RailElement<T>,
     axis: usize,
     load: &AxisLoad<T>,
@@ -110,7 +110,7 @@ pub(crate) fn cubics<T: Number>(
 ///
 /// `minus` is -1. With +1 all terms are positive for a positive load: the result then bounds the rounding of the
 /// cubics.
-pub(crate) fn local_cubics<T: Number>(
+pub(crate) fn local_cubics<T: RealNumber>(
     element: &RailElement<T>,
     load: &AxisLoad<T>,
     end: usize,
@@ -151,7 +151,7 @@ pub(crate) fn local_cubics<T: Number>(
 
 /// force v + moment theta of one bending plane, as cubics of (v, theta) at the first end, then at the last;
 /// `minus` is -1, or 1 for the absolute values of all terms.
-fn plane_cubics<T: Number>(c: f64, g: f64, h: T, [force, moment]: [T; 2], minus: T) -> [[T; 4]; 4] {
+fn plane_cubics<T: RealNumber>(c: f64, g: f64, h: T, [force, moment]: [T; 2], minus: T) -> [[T; 4]; 4] {
     let [zero, half, one, two, three, four, six, twelve] =
         [0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 12.0].map(T::from);
     let (bent, sheared) = (T::from(c) * h * h, twelve * T::from(g));

@@ -41,8 +41,9 @@ pub fn choose_foundations(
     let reasons =
         choices.iter().map(|choice| (name(choice), foundations::selection_reason(choice))).collect();
     for choice in choices.iter().filter(|choice| choice.estimate.is_some()) {
-        chosen.accuracy =
-            chosen.accuracy.min(sim::RUN_ACCURACY * chosen.structures[choice.structure].tolerance);
+        let structure = &chosen.structures[choice.structure];
+        let tolerance = sim::Tolerance { value: structure.tolerance, measure: structure.measure };
+        chosen.accuracy = chosen.accuracy.min(tolerance.run_accuracy());
     }
     chosen.structures.iter_mut().for_each(|structure| structure.auto = false);
     (Ok(Auto { reasons, trials: None }), Some(chosen))
