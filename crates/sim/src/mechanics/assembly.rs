@@ -16,6 +16,7 @@ use super::inertia::Block;
 use super::kinematics::{Kinematics, Terms};
 use super::state::State;
 use super::wheels::{WheelGroup, WheelPoint, Wheels};
+use crate::scene::breaks::RailBreaks;
 use crate::scene::check::check_carriers;
 use crate::scene::dof::arm_rows;
 use crate::{BodyDof, Dynamics, Error, Foundation, Irregularity, Load, Scene, Travel};
@@ -28,6 +29,8 @@ const MASSLESS: f64 = 1e-13;
 pub(crate) struct Mechanics<'a> {
     pub scene: &'a Scene,
     pub foundations: &'a [Foundation],
+    /// Coordinates of the rails at which steps end.
+    pub breaks: RailBreaks,
     /// Displacements of the bodies as a linear map of the degrees of freedom.
     pub kinematics: Kinematics<'a>,
     /// All physical wheels.
@@ -98,6 +101,7 @@ impl<'a> Mechanics<'a> {
         let mut mechanics = Mechanics {
             scene,
             foundations,
+            breaks: RailBreaks::new(foundations),
             kinematics,
             wheels,
             groups,

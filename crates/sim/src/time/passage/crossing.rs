@@ -328,8 +328,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
             system.mechanics.wheels.iter().zip(&self.travel.places).filter(|_| self.travel.speed != 0.0)
         {
             let contact = &system.scene.contacts[wheel.contact];
-            let foundation = &system.foundations[contact.structure];
-            let places = foundation.breaks_between(contact.rail, *x, x + self.travel.speed * end);
+            let to = x + self.travel.speed * end;
+            let places = system.mechanics.breaks.between(contact.structure, contact.rail, *x, to);
             times.extend(places.map(|place| (place - x) / self.travel.speed));
         }
         let sliver = 1e-12 * end;
