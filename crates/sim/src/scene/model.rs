@@ -92,7 +92,7 @@ impl Scene {
     pub(crate) fn output_time(&self, k: u64) -> f64 {
         let parts = self.output_parts.max(1) as u64;
         let mut t = (k / parts) as f64 * self.output_dt;
-        if k % parts > 0 {
+        if !k.is_multiple_of(parts) {
             t += (k % parts) as f64 / parts as f64 * self.output_dt;
         }
         if (t - self.end).abs() <= 1e-12 * self.end { self.end } else { t }

@@ -31,6 +31,8 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 const MODES: [usize; 2] = [24, 96];
 /// Least ratio of the number of known modes to the number for which an estimate is used.
 const BEYOND: usize = 3;
+/// Ratio of the estimate for the highest known modes to the limit from which four times as many are computed, not twice.
+const FAR: f64 = 4.0;
 /// Estimate for which a number of modes is chosen, relative to the tolerance.
 const AIM: f64 = 0.1;
 /// Fraction of the tolerance that an estimated error may reach.
@@ -411,7 +413,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             if is_known || own.basis.is_whole || known >= MODES[1] {
                 return;
             }
-            match self.provider.modes(own.structure, 2 * known) {
+            let is_far = own.tails.last().is_none_or(|tail| tail.error > FAR * limit);
+            let count = if is_far { 4 * known } else { 2 * known };
+            match self.provider.modes(own.structure, count.min(MODES[1])) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > known => own.basis = basis,
                 _ => return,
             }

@@ -172,8 +172,7 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
             Measure::Extremes => windows.difference(values),
         };
         let relative = if largest == 0.0 { 0.0 } else { largest / scale };
-        // also true where it is not a number
-        if !(relative <= found.largest) {
+        if relative > found.largest || relative.is_nan() {
             found = Difference { largest: relative, quantity: other.name.clone() };
         }
     }

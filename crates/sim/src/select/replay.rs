@@ -358,8 +358,7 @@ impl<'a> Replay<'a> {
             for slot in &slots {
                 let (largest, scale) = (slot.largest[index], scales[slot.quantity]);
                 let error = if largest == 0.0 { 0.0 } else { largest / scale };
-                // also true where it is not a number
-                if !(error <= found.error) {
+                if error > found.error || error.is_nan() {
                     found.error = if error.is_nan() { f64::INFINITY } else { error };
                     found.quantity.clone_from(&record.quantities[slot.quantity].name);
                 }
