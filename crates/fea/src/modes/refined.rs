@@ -106,7 +106,7 @@ impl RefinedModes {
 /// not cut, nor are beams without an axial or bending stiffness that others have: their mass acts at their ends.
 ///
 /// # Errors
-/// As [`modes`].
+/// As [`FactoredFrame::modes`].
 ///
 /// # Source
 /// Leading terms of the dispersion of cubic and linear elements: Belytschko and Mindle (1987), in Reliability of

@@ -13,9 +13,9 @@
 //!    the new estimates, and step 3 is repeated, up to three times. After that the error is reported as exceeding the
 //!    tolerance.
 //!
-//! Runs are compared at the output times of the scene. Where the estimate of step 2 leaves it open whether influence
-//! functions suffice, the run that checks them has only the accuracy of a tenth of the tolerance, and is repeated with
-//! that of the scene if it becomes the result.
+//! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
+//! where the estimate of step 2 leaves it open whether they suffice, have only the accuracy of a tenth of the tolerance;
+//! the one that becomes the result is repeated with the accuracy of the result.
 //!
 //! Every structure has its own modes and its own number of them, and all structures are raised in the same run.
 
@@ -52,7 +52,7 @@ const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
 const MODAL_RUNS: usize = 3;
 /// Accuracy of the result on uneven rails, relative to the tolerance.
-const UNEVEN: f64 = 1e-3;
+const UNEVEN: f64 = 3e-3;
 /// Accuracy of a run that only checks influence functions, relative to the tolerance.
 const CHECK_ACCURACY: f64 = 0.1;
 /// Samples for each period of the fastest bounce, and the largest number of samples of a run.
@@ -79,7 +79,9 @@ pub fn choose<L: FoundationProvider>(
     if open.is_empty() {
         search.scene.output_parts = scene.output_parts;
     }
-    let first = search.trial(&influence, search.accuracy, !open.is_empty())?;
+    let checks = CHECK_ACCURACY * least(tolerances);
+    let accuracy = if open.is_empty() { search.accuracy } else { checks.max(search.accuracy) };
+    let first = search.trial(&influence, accuracy, !open.is_empty())?;
     let chosen = if open.is_empty() { first } else { search.search(open, first)? };
     Ok(search.finish(chosen))
 }
@@ -141,8 +143,9 @@ impl Open {
 struct Search<'a, L: FoundationProvider> {
     /// The scene with the sampling of the trials.
     scene: Scene,
-    /// Accuracy of the result.
+    /// Accuracy of the result on foundations without mass, and on those with modes.
     accuracy: f64,
+    modal_accuracy: f64,
     tolerances: &'a [Option<Tolerance>],
     provider: &'a mut L,
     watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -167,7 +170,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
-        Search { scene, accuracy, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
+        Search {
+            scene,
+            accuracy,
+            modal_accuracy: accuracy,
+            tolerances,
+            provider,
+            watch,
+            choices: Vec::new(),
+            runs: 0,
+        }
     }
 
     /// The structures whose choice depends on runs. The choices of the others are made.
@@ -239,7 +251,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let compliances = std::mem::take(&mut first.foundations);
         // The corners of uneven rails excite modes, whose free oscillations the steps must resolve as well.
         if compliances.iter().any(|foundation| !foundation.irregularities.is_empty()) {
-            self.accuracy = self.accuracy.min(UNEVEN * least(self.tolerances));
+            self.modal_accuracy = self.accuracy.min(UNEVEN * least(self.tolerances));
         }
         let frequency = 2.0 * std::f64::consts::PI / bounces.fastest;
         let none = vec![0; open.len()];
@@ -265,7 +277,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             return self.rigid_if_still(&open, first, bounces);
         }
         let strictest = self.strictest(&open, &counts);
-        let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
+        let mut accuracy = if is_hopeless { self.modal_accuracy } else { CHECK_ACCURACY * strictest.value };
         let mut lower = first;
         let mut lacking = largest(&open, &none);
         for round in 1..=MODAL_RUNS {
@@ -283,7 +295,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= strictest.value {
-                let is_kept = higher.accuracy <= self.accuracy
+                let is_kept = higher.accuracy <= self.modal_accuracy
                     && lower.run.counts.stages as u64 > LONG
                     && higher.cost() > COSTLY * lower.cost();
                 let (chosen, reason) =
@@ -312,7 +324,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 }
                 return self.repeated(higher);
             }
-            (lower, counts, accuracy) = (higher, raised, self.accuracy);
+            (lower, counts, accuracy) = (higher, raised, self.modal_accuracy);
         }
         Ok(lower)
     }
@@ -327,7 +339,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
         let mut last = first;
         for round in 1..=MODAL_RUNS {
-            let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
+            let Some(trial) = self.modal_trial(&open, &counts, self.modal_accuracy) else { break };
             for (own, count) in open.iter_mut().zip(&counts) {
                 self.estimate(own, &trial, &compliances, *count, SAFE / UNKNOWN * own.tolerance);
             }
@@ -354,10 +366,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
 
     /// A trial, repeated with the accuracy of the result if it was made with a coarser one.
     fn repeated(&mut self, trial: Trial) -> Result<Trial, L::Error> {
-        if trial.accuracy <= self.accuracy || trial.fidelities.iter().all(|own| *own == Fidelity::Influence) {
-            return Ok(trial);
-        }
-        self.trial(&trial.fidelities, self.accuracy, false)
+        let has_modes = trial.fidelities.iter().any(|own| matches!(own, Fidelity::Modal(_)));
+        let accuracy = if has_modes { self.modal_accuracy } else { self.accuracy };
+        if trial.accuracy <= accuracy { Ok(trial) } else { self.trial(&trial.fidelities, accuracy, false) }
     }
 
     /// The smallest tolerance of the structures that have modes, in the stricter measure.
@@ -468,15 +479,15 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             )
         };
         if open.len() < self.tolerances.len() || open.iter().any(moves) {
-            return Ok(first);
+            return self.repeated(first);
         }
         let rigid = vec![Fidelity::Rigid; self.tolerances.len()];
-        let Ok(trial) = self.trial(&rigid, self.accuracy, true) else { return Ok(first) };
+        let Ok(trial) = self.trial(&rigid, self.accuracy, true) else { return self.repeated(first) };
         let strictest = self.strictest(open, &vec![1; open.len()]);
         let apart = difference(&trial.record, &first.record, strictest.measure, bounces);
         self.note_runs(open, &trial, &first, apart.largest, &apart.quantity);
         if apart.largest > SAFE * strictest.value {
-            return Ok(first);
+            return self.repeated(first);
         }
         let error = TailError { kept: 0, error: apart.largest, quantity: apart.quantity };
         for own in open {
