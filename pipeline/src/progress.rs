@@ -71,6 +71,11 @@ impl Bar {
     pub fn set(&self, position: u64) {
         self.0.set_position(position);
     }
+
+    /// Changes the message of a bar.
+    pub fn name(&self, message: &str) {
+        self.0.set_message(message.to_owned());
+    }
 }
 
 impl Observer for Progress {

@@ -112,7 +112,9 @@ fn a_run_is_refused_while_another_one_writes_into_its_folder() {
     assert!(told.starts_with("out: another run is writing into this folder  hint: "), "{told}");
     assert!(staging.exists());
     drop(journal);
-    assert_eq!(run(&folder, &[]), (Some(0), String::new()));
+    // a process that another test is starting may hold a copy of the lock for a moment
+    let ends = (0..100).map(|_| run(&folder, &[])).find(|(status, _)| *status != Some(2));
+    assert_eq!(ends, Some((Some(0), String::new())));
     assert!(!staging.exists());
     assert!(files(&folder.path().join("out"), "").iter().all(|name| !name.starts_with('.')));
 }

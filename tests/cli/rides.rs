@@ -85,7 +85,8 @@ fn auto_climbs_on_a_carrier_as_on_the_ground() {
     };
     let columns = ["trolley.deflection", "cart.wheel1.vertical"];
     let folder = folder();
-    let found = run_in(&folder, &moving("auto"), &files, &columns);
+    let strict = r#"auto", "tolerance": 1e-3, "measure": "history"#;
+    let found = run_in(&folder, &moving(strict), &files, &columns);
     let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
     let rung = &summary["foundation"]["girder"];
     assert_eq!(rung["foundation"], "modal", "{rung}");

@@ -10,7 +10,8 @@
 //! = 3                             the exit status, where it is not 2
 //! > line of standard error        exactly these, in this order
 //! ```
-//! In texts `\x0a` stands for the byte 0x0a.
+//! In texts `\x0a` stands for the byte 0x0a, and `\3(a#)` for `a1a2a3`, where the part in parentheses has no other
+//! parenthesis.
 
 mod mutate;
 
@@ -42,15 +43,26 @@ fn base() -> BTreeMap<String, Vec<u8>> {
         .collect()
 }
 
-/// Text with `\xNN` for bytes.
+/// Text with `\xNN` for bytes and `\N(part)` for N copies of a part, in which # is the number of the copy from 1 on.
 fn bytes(text: &str) -> Vec<u8> {
     let mut out = Vec::new();
     let mut rest = text;
-    while let Some((before, after)) = rest.split_once("\\x") {
+    while let Some((before, after)) = rest.split_once('\\') {
         out.extend(before.as_bytes());
-        let (digits, after) = after.split_at(2);
-        out.push(u8::from_str_radix(digits, 16).expect("two hexadecimal digits"));
-        rest = after;
+        rest = match after.strip_prefix('x') {
+            Some(after) => {
+                let (digits, after) = after.split_at(2);
+                out.push(u8::from_str_radix(digits, 16).expect("two hexadecimal digits"));
+                after
+            }
+            None => {
+                let (count, after) = after.split_once('(').expect("a count and a part in parentheses");
+                let (part, after) = after.split_once(')').expect("the end of the part");
+                let count: usize = count.parse().expect("a count");
+                (1..=count).for_each(|k| out.extend(part.replace('#', &k.to_string()).as_bytes()));
+                after
+            }
+        };
     }
     out.extend(rest.as_bytes());
     out

@@ -144,6 +144,7 @@ fn scene(body: Body, wheel: Wheel, offsets: &[f64], end: f64) -> Scene {
         analysis: Analysis::Dynamic,
         end,
         output_dt: end / 200.0,
+        output_parts: 1,
         accuracy: 1e-9,
     }
 }

@@ -195,10 +195,8 @@ fn auto_on_ties_says_which_rung_and_why() {
     assert_eq!((ground.fidelity, ground.reason), (Fidelity::Influence, Reason::NoMass), "{ground:?}");
     let girder = choice(&on_ties(r#""spec": "girder.json", "#));
     println!("{ground:?}\n{girder:?}");
-    assert!(
-        matches!((girder.fidelity, girder.reason), (Fidelity::Modal(_), Reason::Sufficient)),
-        "{girder:?}"
-    );
+    assert_eq!((girder.fidelity, girder.reason), (Fidelity::Influence, Reason::Sufficient), "{girder:?}");
+    assert!(girder.estimate.is_some_and(|estimate| estimate < 1e-2), "{girder:?}");
 }
 
 /// The largest and smallest amplification of a load of 30,000 lb while it runs at `theta` of the critical speed.

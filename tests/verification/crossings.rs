@@ -26,7 +26,7 @@ const SPRING: f64 = 1595e3;
 const G: f64 = 9.81;
 
 /// The girder without mass, exact, or with the modes of a mesh of `elements`.
-fn foundation(text: &str, elements: Option<usize>) -> Foundation {
+pub fn foundation(text: &str, elements: Option<usize>) -> Foundation {
     let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
     let solved = solve(&Spec::read(&source, None).expect("a girder")).expect("it stands");
     match elements {

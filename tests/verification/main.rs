@@ -4,6 +4,7 @@
 mod common;
 mod crossings;
 mod rails;
+mod sheared;
 
 use std::ops::ControlFlow;
 

@@ -3,7 +3,7 @@
 mod common;
 
 use common::{mill, paper, probes};
-use fea::{BeamTheory, Error, FactoredFrame, full_modes, modes};
+use fea::{BeamTheory, Error, ExcitingForces, FactoredFrame, full_modes, modes};
 use splines::Axis;
 
 /// Two algorithms that share only the matrices: dense eigenvalues, and block Lanczos with a count.
@@ -35,7 +35,7 @@ fn all_modes_carry_every_load_at_the_nodes() {
     let mut girder = paper();
     girder.mass_per_length = Some(15.2);
     let (model, rail) = girder.model_and_rail().expect("a girder on two supports");
-    let refined = full_modes(&model, &[rail], 8).expect("it has mass");
+    let refined = full_modes(&model, &[rail], &ExcitingForces::vertical(), 8).expect("it has mass");
     let frame = FactoredFrame::new(&refined.model, &refined.rails).expect("it stands");
     let surface = frame.surface().expect("it has a rail").surface;
     let rest = refined.modes.residual(&surface).expect("the same frame");
@@ -54,6 +54,6 @@ fn too_many_unknowns_are_refused_before_they_are_solved() {
     let mut girder = paper();
     girder.mass_per_length = Some(15.2);
     let (model, rail) = girder.model_and_rail().expect("a girder on two supports");
-    let refused = full_modes(&model, &[rail], 400).expect_err("7,000 unknowns");
+    let refused = full_modes(&model, &[rail], &ExcitingForces::vertical(), 1000).expect_err("6,000 unknowns");
     assert!(matches!(refused, Error::TooManyModes { unknowns, most: 3000 } if unknowns > 3000), "{refused}");
 }

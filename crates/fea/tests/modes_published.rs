@@ -118,7 +118,13 @@ fn nafems_fv5_deep_beam() {
     let (coarse, fine) = (hertz(&solve(&held(5), 9)), hertz(&solve(&held(80), 9)));
     println!("coarse {coarse:.3?}\nfine {fine:.3?}");
     for k in 0..9 {
-        assert!((coarse[k] / five[k] - 1.0).abs() < 5e-5, "mode {}: {} {}", k + 1, coarse[k], five[k]);
+        // Members deflect in bending under their own inertia, which the published element leaves out.
+        if [2, 3, 6].contains(&k) {
+            assert!((coarse[k] / five[k] - 1.0).abs() < 5e-5, "mode {}: {} {}", k + 1, coarse[k], five[k]);
+        } else {
+            let errors = [coarse[k], five[k]].map(|found| (found - closed[k]).abs());
+            assert!(errors[0] < 0.2 * errors[1], "mode {}: {} {}", k + 1, coarse[k], five[k]);
+        }
         assert!((fine[k] / closed[k] - 1.0).abs() < 3e-4, "mode {}: {} {}", k + 1, fine[k], closed[k]);
     }
 }

@@ -124,6 +124,22 @@ fn build_on_ground(
     }
 }
 
+/// The lowest `count` modes of a structure that its wheels excite, with frequencies within 1 %, to estimate the error of
+/// leaving modes out.
+///
+/// # Errors
+/// Those of [`build`].
+pub(super) fn coarse_modes(
+    cache: &mut ModeCache,
+    structure: &Structure,
+    solved: &SolvedModel,
+    lateral: bool,
+    count: usize,
+) -> Result<BuiltFoundation, Error> {
+    let excitation = Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier };
+    cache.coarse(&structure.name, solved, count, structure.damping, excitation)
+}
+
 fn required_solution<'s>(
     structure: &Structure,
     solved: Option<&'s SolvedModel>,

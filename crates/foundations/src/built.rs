@@ -1,8 +1,5 @@
 //! A built foundation with the motions of its degrees of freedom.
 
-use std::sync::Arc;
-
-use fea::FactoredFrame;
 use nalgebra::DMatrix;
 use sim::Foundation;
 
@@ -35,9 +32,7 @@ impl From<Foundation> for BuiltFoundation {
 pub enum MotionBasis {
     /// Natural modes of a frame with subdivided members, as far as wheels can excite them.
     Modes {
-        /// The frame.
-        frame: Arc<FactoredFrame>,
-        /// The subdivided model and its modes.
+        /// The subdivided model, its frame and its modes.
         refined: Box<fea::RefinedModes>,
     },
     /// Rigid parts of a straight girder.

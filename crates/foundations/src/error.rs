@@ -68,6 +68,9 @@ pub enum Error {
     /// The windows in which a wheel passes between neighbouring rigid parts overlap.
     #[error("the hand-over windows of neighbouring parts overlap: shorten `blend`")]
     Windows,
+    /// A quantity by which runs are judged cannot be computed.
+    #[error("{0}")]
+    Observed(String),
     /// The simulator refuses the scene.
     #[error(transparent)]
     Simulation(#[from] sim::Error),

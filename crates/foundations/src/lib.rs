@@ -43,8 +43,7 @@ pub use modal::ModeCache;
 pub use mount::mount;
 pub use parts::roll_inertia;
 pub use select::{
-    AutoRun, excited_modes, fidelity_name, foundation_at, mesh_elements, select_and_run, selection_doubt,
-    selection_reason,
+    AutoRun, TrialObserver, check_name, fidelity_name, select_and_run, selection_doubt, selection_reason,
 };
 pub use solved::{
     SolvedModel, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_specs, solve_to,

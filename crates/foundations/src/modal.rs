@@ -17,7 +17,8 @@
 //!    computed.
 //! 3. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
 //!    of a mesh are subtracted from the surface of that mesh; the remainder is the deformation of its elements
-//!    between nodes.
+//!    between nodes. Of a mesh of members that are flexible in shear only the modes that it resolves are used, because
+//!    the slopes of the others jump at nodes ([`RefinedModes::keep_resolved`]).
 //! 4. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
 //!
 //! # Source
@@ -38,7 +39,7 @@ use formats::spec::ties::Pad;
 
 /// Largest relative error of a frequency due to the subdivision of members.
 const ACCURACY: f64 = 1e-6;
-/// Largest relative error of a frequency where modes are needed only to predict the error of omitting them.
+/// The same for modes that serve only to estimate the error of leaving them out.
 const COARSE: f64 = 1e-2;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
 /// are assumed not to excite the mode.
@@ -50,7 +51,6 @@ const EQUAL: f64 = 1e-6;
 pub(super) struct MeshModes {
     refined: RefinedModes,
     excited: Vec<fea::Mode>,
-    frame: Arc<FactoredFrame>,
     compliance: StaticCompliance,
     /// Whether `excited` contains every mode of the mesh that wheels can excite.
     is_whole: bool,
@@ -58,35 +58,48 @@ pub(super) struct MeshModes {
 
 /// Static compliance of the structure before modes are subtracted.
 enum StaticCompliance {
-    /// Compliance of the members as given, used with the lowest modes, whose mesh is fine.
+    /// Compliance of the members as given, used with the lowest modes, whose shapes the mesh resolves.
     Given(ExactSurface),
     /// Compliance of the subdivided members, used with all modes of a mesh.
     Subdivided(ExactSurface),
 }
 
 impl MeshModes {
-    /// At least the lowest `count` modes that `excitation` excites, or all if there are fewer.
+    /// At least the lowest `count` modes that `excitation` excites, or all if there are fewer, with frequencies within
+    /// `accuracy`.
     pub fn lowest(
         name: &str,
         solved: &SolvedModel,
         count: usize,
+        accuracy: f64,
         excitation: Excitation,
     ) -> Result<MeshModes, Error> {
         let (refined, excited, is_whole) =
-            search(solved, count, ACCURACY, excitation).map_err(Error::modes(name))?;
-        let given = solved.surface.clone().map_or_else(|| surface(name, &solved.model, &solved.rails), Ok)?;
-        MeshModes::new(name, refined, excited, Some(given), is_whole)
+            search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
+        MeshModes::new(name, refined, excited, Some(given_surface(name, solved)?), is_whole)
     }
 
-    /// All modes that `excitation` excites of a mesh of `elements` elements for each member.
+    /// All modes that `excitation` excites of a mesh of `elements` elements for each member; of members that are
+    /// flexible in shear those that the mesh resolves ([`RefinedModes::keep_resolved`]), unless discrete dampers act
+    /// on all of them.
     pub fn whole(
         name: &str,
         solved: &SolvedModel,
         elements: usize,
+        has_dampers: bool,
         excitation: Excitation,
     ) -> Result<MeshModes, Error> {
-        let refined = fea::full_modes(&solved.model, &solved.rails, elements).map_err(Error::modes(name))?;
+        let forces = excitation.forces();
+        let mut refined =
+            fea::full_modes(&solved.model, &solved.rails, &forces, elements).map_err(Error::modes(name))?;
+        if !has_dampers {
+            refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
+        }
         let excited = excited_by(&refined.modes, solved, excitation);
+        if refined.modes.next.is_some() {
+            let given = given_surface(name, solved)?;
+            return MeshModes::new(name, refined, excited, Some(given), true);
+        }
         MeshModes::new(name, refined, excited, None, true)
     }
 
@@ -97,13 +110,14 @@ impl MeshModes {
         given: Option<ExactSurface>,
         is_whole: bool,
     ) -> Result<MeshModes, Error> {
-        let frame_error = Error::frame(name);
-        let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
         let compliance = match given {
             Some(surface) => StaticCompliance::Given(surface),
-            None => StaticCompliance::Subdivided(frame.surface().map_err(&frame_error)?.surface),
+            None => {
+                let found = refined.frame.surface().map_err(Error::frame(name))?;
+                StaticCompliance::Subdivided(found.surface)
+            }
         };
-        Ok(MeshModes { refined, excited, frame: Arc::new(frame), compliance, is_whole })
+        Ok(MeshModes { refined, excited, compliance, is_whole })
     }
 
     /// Whether `count` modes, or all that exist, have been computed.
@@ -126,7 +140,7 @@ impl MeshModes {
         refined.modes.modes = self.excited.iter().take(count).cloned().collect();
         let kept = &refined.modes;
         let rail_error = Error::rails(name);
-        let line = Arc::clone(self.frame.line().map_err(&frame_error)?);
+        let line = Arc::clone(self.refined.frame.line().map_err(&frame_error)?);
         let residual: Box<dyn Compliance> = match &self.compliance {
             StaticCompliance::Given(exact) => {
                 let scaled = shapes(&line, &kept.modes, |mode| mode.omega).map_err(&rail_error)?;
@@ -151,20 +165,25 @@ impl MeshModes {
             carrier: excitation.carrier.map(|carrier| mount::inertia(kept, carrier)),
             ..Foundation::default()
         };
-        let motion = MotionBasis::Modes { frame: Arc::clone(&self.frame), refined: Box::new(refined) };
+        let motion = MotionBasis::Modes { refined: Box::new(refined) };
         Ok(BuiltFoundation { foundation, basis: Some(motion) })
     }
 }
 
-fn surface(name: &str, model: &fea::Model, rails: &[fea::Rail]) -> Result<ExactSurface, Error> {
-    let found = FactoredFrame::new(model, rails).and_then(|frame| frame.surface());
+/// Surface of the members as given.
+fn given_surface(name: &str, solved: &SolvedModel) -> Result<ExactSurface, Error> {
+    if let Some(surface) = &solved.surface {
+        return Ok(surface.clone());
+    }
+    let found = FactoredFrame::new(&solved.model, &solved.rails).and_then(|frame| frame.surface());
     Ok(found.map_err(Error::frame(name))?.surface)
 }
 
 /// Returns the mesh, at least the lowest `count` modes that wheels can excite, and whether these are all such modes.
 /// Frequencies have a relative error of at most `accuracy`.
 ///
-/// The function computes `count` modes and drops those that wheels cannot excite. While fewer than `count` remain, or
+/// The function computes the `count` lowest modes of the unknowns that wheels can move, and drops those that wheels
+/// excite by no more than rounding, such as modes with nodes at every rail. While fewer than `count` remain, or
 /// while the highest frequency equals that of the next mode, it computes twice as many modes (at least eight more).
 fn search(
     solved: &SolvedModel,
@@ -172,9 +191,10 @@ fn search(
     accuracy: f64,
     excitation: Excitation,
 ) -> Result<(RefinedModes, Vec<fea::Mode>, bool), fea::Error> {
+    let forces = excitation.forces();
     let mut requested = count;
     loop {
-        let refined = fea::refined_modes(&solved.model, &solved.rails, requested, accuracy)?;
+        let refined = fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
         let excited = excited_by(&refined.modes, solved, excitation);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();
@@ -185,28 +205,6 @@ fn search(
         }
         requested = (2 * requested).max(requested + 8);
     }
-}
-
-/// The lowest `count` modes that vertical wheel forces excite, on a coarse mesh and without damping; `None` for a
-/// structure without mass.
-pub(super) fn coarse_modes(
-    name: &str,
-    solved: &SolvedModel,
-    count: usize,
-) -> Result<Option<sim::Structure>, Error> {
-    let (refined, mut excited, _) = match search(solved, count, COARSE, Excitation::VERTICAL) {
-        Ok(found) => found,
-        Err(fea::Error::NoMass) => return Ok(None),
-        Err(error) => return Err(Error::modes(name)(error)),
-    };
-    excited.truncate(count);
-    let frame_error = Error::frame(name);
-    let frame = FactoredFrame::new(&refined.model, &refined.rails).map_err(&frame_error)?;
-    let own = shapes(frame.line().map_err(&frame_error)?, &excited, |_| 1.0).map_err(Error::rails(name))?;
-    let shapes = Box::new(ModeShapes(own));
-    let omega: Vec<f64> = excited.iter().map(|mode| mode.omega).collect();
-    let dynamics = Dynamics::Modes { ratio: vec![0.0; omega.len()], omega };
-    Ok(Some(sim::Structure { dynamics, shapes }))
 }
 
 /// Dampers of equal damping constant under the ties of a rail.
@@ -226,6 +224,8 @@ impl Dampers<'_> {
 #[derive(Default)]
 pub struct ModeCache {
     lowest: Option<MeshModes>,
+    /// Modes that serve only to estimate errors.
+    coarse: Option<MeshModes>,
     /// Number of elements for each member, and all modes of that mesh.
     whole: Vec<(usize, MeshModes)>,
 }
@@ -245,12 +245,31 @@ impl ModeCache {
         let cached = self.lowest.take().filter(|modes| modes.has(count));
         let modes = match cached {
             Some(modes) => modes,
-            None => MeshModes::lowest(name, solved, count, excitation)?,
+            None => MeshModes::lowest(name, solved, count, ACCURACY, excitation)?,
         };
         self.lowest.insert(modes).foundation(name, count, ratio, dampers, excitation)
     }
 
-    /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member.
+    /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with
+    /// frequencies within 1 %.
+    pub(super) fn coarse(
+        &mut self,
+        name: &str,
+        solved: &SolvedModel,
+        count: usize,
+        ratio: f64,
+        excitation: Excitation,
+    ) -> Result<BuiltFoundation, Error> {
+        let cached = self.coarse.take().filter(|modes| modes.has(count));
+        let modes = match cached {
+            Some(modes) => modes,
+            None => MeshModes::lowest(name, solved, count, COARSE, excitation)?,
+        };
+        self.coarse.insert(modes).foundation(name, count, ratio, Dampers::NONE, excitation)
+    }
+
+    /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member, as far
+    /// as the mesh resolves the modes ([`MeshModes::whole`]).
     pub(super) fn full(
         &mut self,
         name: &str,
@@ -263,7 +282,9 @@ impl ModeCache {
         let index = match self.whole.iter().position(|(cached, _)| *cached == elements) {
             Some(index) => index,
             None => {
-                self.whole.push((elements, MeshModes::whole(name, solved, elements, excitation)?));
+                let has_dampers = dampers.c > 0.0;
+                let modes = MeshModes::whole(name, solved, elements, has_dampers, excitation)?;
+                self.whole.push((elements, modes));
                 self.whole.len() - 1
             }
         };
@@ -340,6 +361,9 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     for (at, motion) in out.points.iter_mut().enumerate() {
         *motion = std::array::from_fn(|i| add(|mode| &mode.points, at, i));
     }
+    for (at, loads) in out.loads.iter_mut().enumerate() {
+        *loads = std::array::from_fn(|k| modes.iter().zip(weights).map(|(m, w)| w * m.loads[at][k]).sum());
+    }
     out.coupling = std::array::from_fn(|i| modes.iter().zip(weights).map(|(m, w)| w * m.coupling[i]).sum());
     out
 }
@@ -392,5 +416,14 @@ fn shapes(
     let states = DMatrix::from_fn(6 * line.state_count(), modes.len(), |k, r| {
         modes[r].states[k / 6][k % 6] / divisor(&modes[r])
     });
-    splines::RailShapes::new(Arc::clone(line), states)
+    let own = splines::RailShapes::new(Arc::clone(line), states)?;
+    if modes.iter().all(|mode| mode.loads.is_empty()) {
+        return Ok(own);
+    }
+    let elements = line.elements();
+    let loads = DMatrix::from_fn(2 * elements.len(), modes.len(), |k, r| {
+        let member = elements[k / 2].member.map(|member| member.id);
+        member.map_or(0.0, |member| modes[r].loads[member][k % 2] / divisor(&modes[r]))
+    });
+    own.with_uniform_loads(&loads)
 }

@@ -62,6 +62,19 @@ impl Excitation {
             [(Axis::Vertical, true), (Axis::Lateral, self.lateral), (Axis::Longitudinal, self.longitudinal)];
         loaded.into_iter().filter(|(_, is_loaded)| *is_loaded).map(|(axis, _)| axis).collect()
     }
+
+    /// The forces on the FE model: on its rails, and of inertia in the free motions of the carrier.
+    pub fn forces(self) -> fea::ExcitingForces {
+        let unit = |k: usize| std::array::from_fn(|i| f64::from(u8::from(i == k)));
+        let motions = self.carrier.map_or_else(Vec::new, |on| {
+            let of_origin: [[f64; 6]; 6] =
+                std::array::from_fn(|k| Carrier::load_about_origin(&unit(k), on.at));
+            // load_about_origin is linear: row i has the factors of the six loads about the global origin
+            let rows = (0..6).map(|i| of_origin.map(|column| column[i]));
+            rows.zip(on.may_move).filter(|(_, moves)| *moves).map(|(row, _)| row).collect()
+        });
+        fea::ExcitingForces { axes: self.axes(), motions }
+    }
 }
 
 /// Coupling of every mode with each free motion of its carrier, divided by sqrt(m_i m), where m_i is the carried mass

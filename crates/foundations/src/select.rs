@@ -1,30 +1,22 @@
 //! The choice of a fidelity for structures whose foundation is "auto".
 //!
-//! The algorithm is that of [`sim::choose`]: it predicts the error of leaving mass or compliance out, runs the scene
-//! at the lowest fidelity whose prediction is within the tolerance of the structure, estimates the error by a run at
-//! a higher one, and refines until the estimate is within the tolerance. The fidelities in ascending order are rigid,
-//! influence functions, natural modes, a mesh of half the elements, and the full mesh. This file builds the requested
-//! foundations from the solutions of a scene's specs, caches their modes for all trials, and explains the choice in
-//! words.
+//! The algorithm is that of [`sim::choose`]: the scene is run with influence functions, the wheel forces act on the
+//! natural modes to estimate the error of leaving the mass out, and runs with modes follow where it is not small. This
+//! file builds the requested foundations from the solutions of a scene's specs, caches their modes for all trials, and
+//! explains the choice in words.
 
 use std::ops::ControlFlow;
 
-use sim::{Choice, Fidelity, FoundationProvider, PredictedErrors, Reason, Run};
-use splines::Compliance;
+use sim::{
+    Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance, TrialCheck,
+};
 
-use crate::build::build;
-use crate::built::BuiltFoundation;
+use crate::build::{build, coarse_modes};
+use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
-use crate::modal::{self, Dampers, ModeCache};
-use crate::mount::Excitation;
-use crate::solved::{SolvedModel, SolvedStructure, solution_of};
+use crate::modal::ModeCache;
+use crate::solved::{SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
-
-/// Number of elements of the finest mesh, within the limits for each member.
-const ELEMENTS: usize = 192;
-/// Least and largest number of elements of a member in the finest mesh. Half of the least number must still be a
-/// mesh.
-const PER_MEMBER: [usize; 2] = [2, 64];
 
 /// A run of a scene and the foundations of its structures.
 pub struct AutoRun {
@@ -36,11 +28,45 @@ pub struct AutoRun {
     pub built: Vec<BuiltFoundation>,
 }
 
+/// The quantities by which the runs of a choice are judged.
+pub trait TrialObserver {
+    /// The quantities of a run with this history, in which the degrees of freedom of structure s represent the motions
+    /// `bases[s]`.
+    ///
+    /// # Errors
+    /// A quantity that cannot be computed.
+    fn record(&mut self, history: &History, bases: &[Option<MotionBasis>]) -> Result<Record, Error>;
+
+    /// Reactions and internal forces of a structure by name, with minus their values per unit acceleration of each of
+    /// the motions of `basis`.
+    ///
+    /// # Errors
+    /// An effect that cannot be computed.
+    fn effects(&mut self, structure: usize, basis: &MotionBasis) -> Result<Vec<(String, Vec<f64>)>, Error>;
+
+    /// Receives the description of each run before it starts.
+    fn begin(&mut self, trial: &str);
+}
+
+/// Judges runs by the quantities of the simulator alone, without reactions and internal forces.
+impl TrialObserver for () {
+    fn record(&mut self, history: &History, _: &[Option<MotionBasis>]) -> Result<Record, Error> {
+        Ok(Record::of(history))
+    }
+
+    fn effects(&mut self, _: usize, _: &MotionBasis) -> Result<Vec<(String, Vec<f64>)>, Error> {
+        Ok(Vec::new())
+    }
+
+    fn begin(&mut self, _: &str) {}
+}
+
 /// Chooses the foundation of every structure of `scene` that is "auto", enters it in `scene`, and runs the scene.
 ///
 /// `input` is the simulation input made from `scene`; `known` has the solutions of its specs. The history contains
 /// the degrees of freedom of those structures for which `recorded` (index of the structure, its foundation) is true.
-/// `watch` is called with the simulated time after every step of every trial, and can stop the run.
+/// `observer` gives the quantities by which the runs are judged. `watch` is called with the simulated time after every
+/// step of every trial, and can stop the run.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -57,8 +83,8 @@ pub struct AutoRun {
 /// let input = simulation_input(&scene).expect("trucks with equal wheels");
 ///
 /// let all = |_: usize, _: &sim::Foundation| true;
-/// let found = select_and_run(&mut scene, &input.scene, &solved, &all, &mut |_| ControlFlow::Continue(()))
-///     .expect("a scene that starts");
+/// let watch = &mut |_| ControlFlow::Continue(());
+/// let found = select_and_run(&mut scene, &input.scene, &solved, &all, &mut (), watch).expect("a scene that starts");
 /// assert!(found.run.status.is_complete());
 /// assert!(selection_reason(&found.choices[0]).starts_with("auto: "));
 /// ```
@@ -70,19 +96,22 @@ pub fn select_and_run(
     input: &sim::Scene,
     known: &[SolvedStructure],
     recorded: &dyn Fn(usize, &sim::Foundation) -> bool,
+    observer: &mut dyn TrialObserver,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<AutoRun, Error> {
-    let tolerances: Vec<Option<f64>> =
-        scene.structures.iter().map(|structure| structure.auto.then_some(structure.tolerance)).collect();
+    let tolerance =
+        |structure: &Structure| Tolerance { value: structure.tolerance, measure: structure.measure };
+    let tolerances: Vec<Option<Tolerance>> =
+        scene.structures.iter().map(|structure| structure.auto.then(|| tolerance(structure))).collect();
     let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
     let lateral = scene.has_flanges();
-    let mut provider = SceneFoundations { scene, known, lateral, mode_caches, recorded };
+    let bases = scene.structures.iter().map(|_| None).collect();
+    let mut provider = SceneFoundations { scene, known, lateral, mode_caches, bases, recorded, observer };
     let sim::Selection { choices, run, .. } = sim::choose(input, &tolerances, &mut provider, watch)?;
     let mut mode_caches = provider.mode_caches;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
-        let solved = solution_of(known, &structure.origin);
-        structure.foundation = scene_foundation(structure, choice.fidelity, mesh_elements(solved));
+        structure.foundation = scene_foundation(structure, choice.fidelity);
     }
     // the run does not return its foundations; they are built again from the cached modes
     let built = scene
@@ -94,71 +123,13 @@ pub fn select_and_run(
     Ok(AutoRun { choices, run, built })
 }
 
-/// Number of elements of each member in the finest mesh of "auto": about 192 in total, 2 to 64 per member.
-#[must_use]
-pub fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
-    let members = solved.map_or(1, |solved| solved.model.members.len());
-    (ELEMENTS / members.max(1)).clamp(PER_MEMBER[0], PER_MEMBER[1])
-}
-
-/// The foundation of a solved structure at one fidelity, for vertical wheel forces.
-///
-/// `cache` stores its modes between calls; `damping` is the fraction of critical damping of each mode; the finest
-/// mesh has `finer` times as many elements as that of "auto".
-///
-/// # Errors
-/// [`Error::Modes`] for modes of a structure without mass or with too many unknowns; [`Error::NoSurface`] for
-/// influence functions of a structure whose surface has not been computed.
-pub fn foundation_at(
-    cache: &mut ModeCache,
-    solved: &SolvedModel,
-    fidelity: Fidelity,
-    damping: f64,
-    finer: usize,
-) -> Result<sim::Foundation, Error> {
-    let name = "structure";
-    let rails = solved.rails.iter().enumerate();
-    let elements = finer * mesh_elements(Some(solved));
-    match (fidelity, &solved.surface) {
-        (Fidelity::Modal(modes), _) => {
-            Ok(cache.lowest(name, solved, modes, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
-        }
-        (Fidelity::Half, _) => Ok(cache
-            .full(name, solved, elements / 2, damping, Dampers::NONE, Excitation::VERTICAL)?
-            .foundation),
-        (Fidelity::Full, _) => {
-            Ok(cache.full(name, solved, elements, damping, Dampers::NONE, Excitation::VERTICAL)?.foundation)
-        }
-        (Fidelity::Influence, Some(surface)) => {
-            Ok(sim::Foundation::massless(Box::new(surface.clone()), rails.len()))
-        }
-        (Fidelity::Influence, None) => Err(Error::NoSurface { structure: name.to_owned() }),
-        (Fidelity::Rigid, surface) => {
-            let range = |rail| surface.as_ref().and_then(|surface| surface.range(rail));
-            let extent = |(rail, _)| sim::Extent { range: range(rail), breaks: Vec::new() };
-            Ok(sim::Foundation { rails: rails.map(extent).collect(), ..sim::Foundation::rigid() })
-        }
-    }
-}
-
-/// Approximately the lowest `count` modes of a solved structure that vertical wheel forces excite, with frequencies
-/// within 1 %; `None` for a structure without mass.
-///
-/// # Errors
-/// [`Error::Modes`] for modes that cannot be computed.
-pub fn excited_modes(solved: &SolvedModel, count: usize) -> Result<Option<sim::Structure>, Error> {
-    modal::coarse_modes("structure", solved, count)
-}
-
 /// The foundation in terms of scene files that corresponds to a fidelity.
-fn scene_foundation(structure: &Structure, fidelity: Fidelity, elements: usize) -> Foundation {
+fn scene_foundation(structure: &Structure, fidelity: Fidelity) -> Foundation {
     let damping = structure.damping;
     match fidelity {
         Fidelity::Rigid => Foundation::Rigid,
         Fidelity::Influence => Foundation::Influence,
         Fidelity::Modal(modes) => Foundation::Modal { modes, damping },
-        Fidelity::Half => Foundation::Full { elements: elements / 2, damping },
-        Fidelity::Full => Foundation::Full { elements, damping },
     }
 }
 
@@ -169,33 +140,48 @@ struct SceneFoundations<'a> {
     lateral: bool,
     /// Modes of each structure.
     mode_caches: Vec<ModeCache>,
+    /// Motions of the degrees of freedom of the foundations that were built last.
+    bases: Vec<Option<MotionBasis>>,
     recorded: &'a dyn Fn(usize, &sim::Foundation) -> bool,
+    observer: &'a mut dyn TrialObserver,
 }
 
 impl SceneFoundations<'_> {
-    fn solved(&self, structure: usize) -> Option<&SolvedModel> {
-        solution_of(self.known, &self.scene.structures[structure].origin)
+    /// Builds the foundation of a structure at a fidelity, which is ignored where the foundation is fixed.
+    fn build(&mut self, structure: usize, fidelity: Fidelity) -> Result<BuiltFoundation, Error> {
+        let mut own = self.scene.structures[structure].clone();
+        if own.auto {
+            own.foundation = scene_foundation(&own, fidelity);
+        }
+        let solved = solution_of(self.known, &own.origin);
+        build(&mut self.mode_caches[structure], &own, solved, self.lateral)
     }
 }
 
 impl FoundationProvider for SceneFoundations<'_> {
     type Error = Error;
 
-    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<sim::Structure>, Error> {
-        Ok(match self.solved(structure) {
-            Some(solved) => modal::coarse_modes(&self.scene.structures[structure].name, solved, count)?,
-            None => None,
-        })
+    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<ModalBasis>, Error> {
+        let own = &self.scene.structures[structure];
+        let Some(solved) = solution_of(self.known, &own.origin) else { return Ok(None) };
+        let cache = &mut self.mode_caches[structure];
+        let BuiltFoundation { foundation, basis } =
+            match coarse_modes(cache, own, solved, self.lateral, count) {
+                Ok(built) => built,
+                Err(Error::Modes { source: fea::Error::NoMass, .. }) => return Ok(None),
+                Err(error) => return Err(error),
+            };
+        let (Some(modes), Some(basis)) = (foundation.structure, basis) else { return Ok(None) };
+        let is_whole = modes.dynamics.dofs() < count;
+        let coupling = foundation.carrier.map_or_else(Vec::new, |carrier| carrier.coupling);
+        let effects = self.observer.effects(structure, &basis)?;
+        Ok(Some(ModalBasis { structure: modes, coupling, effects, is_whole }))
     }
 
     fn foundation(&mut self, structure: usize, fidelity: Fidelity) -> Result<sim::Foundation, Error> {
-        let mut own = self.scene.structures[structure].clone();
-        if own.auto {
-            own.foundation = scene_foundation(&own, fidelity, mesh_elements(self.solved(structure)));
-        }
-        let solved = solution_of(self.known, &own.origin);
-        let mut foundation = build(&mut self.mode_caches[structure], &own, solved, self.lateral)?.foundation;
+        let BuiltFoundation { mut foundation, basis } = self.build(structure, fidelity)?;
         foundation.recorded = (self.recorded)(structure, &foundation);
+        self.bases[structure] = basis;
         Ok(foundation)
     }
 
@@ -207,6 +193,20 @@ impl FoundationProvider for SceneFoundations<'_> {
     ) -> Result<Run, sim::Error> {
         sim::run_by(self.scene.stepping, scene, foundations, watch)
     }
+
+    fn observe(&mut self, history: &History) -> Result<Record, Error> {
+        self.observer.record(history, &self.bases)
+    }
+
+    fn begin(&mut self, fidelities: &[(usize, Fidelity)]) {
+        let is_single = self.scene.structures.len() == 1;
+        let words = fidelities.iter().map(|(structure, fidelity)| {
+            let name = &self.scene.structures[*structure].name;
+            let fidelity = fidelity_name(*fidelity);
+            if is_single { fidelity } else { format!("{name} {fidelity}") }
+        });
+        self.observer.begin(&words.collect::<Vec<_>>().join(", "));
+    }
 }
 
 /// A fidelity in words.
@@ -215,9 +215,17 @@ pub fn fidelity_name(fidelity: Fidelity) -> String {
     match fidelity {
         Fidelity::Rigid => "rigid".to_owned(),
         Fidelity::Influence => "influence".to_owned(),
+        Fidelity::Modal(1) => "modal, 1 mode".to_owned(),
         Fidelity::Modal(modes) => format!("modal, {modes} modes"),
-        Fidelity::Half => "full, half the elements".to_owned(),
-        Fidelity::Full => "full".to_owned(),
+    }
+}
+
+/// How an error was estimated, in words.
+#[must_use]
+pub fn check_name(check: TrialCheck) -> String {
+    match check {
+        TrialCheck::Replay(modes) => format!("{modes} natural modes under its wheel forces"),
+        TrialCheck::Run(fidelity) => fidelity_name(fidelity),
     }
 }
 
@@ -225,60 +233,51 @@ pub fn fidelity_name(fidelity: Fidelity) -> String {
 #[must_use]
 pub fn selection_reason(choice: &Choice) -> String {
     let chosen = fidelity_name(choice.fidelity);
-    let mut text = match (choice.reason, choice.estimate) {
-        (Reason::NoMass, _) => {
+    let error = || {
+        let of = if choice.quantity.is_empty() { String::new() } else { format!(" of {}", choice.quantity) };
+        format!("the estimated error{of}, {:.1e},", choice.estimate.unwrap_or_default())
+    };
+    match choice.reason {
+        Reason::NoMass => {
             format!(
                 "auto: {chosen}; the mass is not known, so the error of neglecting it is not known either"
             )
         }
-        (Reason::QuasiStatic, _) => format!("auto: {chosen}; a quasi-static sweep has no inertia"),
-        (Reason::Predicted, estimate) => format!(
-            "auto: {chosen}; its predicted error, {:.1e}, is so far below the tolerance that no higher fidelity \
-             was run",
-            estimate.unwrap_or_default()
-        ),
-        (Reason::Sufficient, estimate) => format!(
-            "auto: {chosen}; it is the lowest fidelity tried whose estimated error, {:.1e}, is within the tolerance",
-            estimate.unwrap_or_default()
-        ),
-        (Reason::Highest, Some(estimate)) => format!(
-            "auto: {chosen}; no lower fidelity was within the tolerance, and a mesh of half the elements differs by \
-             {estimate:.1e}, which is more than the tolerance"
-        ),
-        (Reason::Highest, None) => {
+        Reason::QuasiStatic => format!("auto: {chosen}; a quasi-static sweep has no inertia"),
+        Reason::Sufficient => {
             format!(
-                "auto: {chosen}; no lower fidelity was within the tolerance, and its own error is not known"
+                "auto: {chosen}; it is the lowest fidelity tried for which {} is within the tolerance",
+                error()
             )
         }
-        (Reason::Unchecked, _) => {
-            format!("auto: {chosen}; no higher fidelity could be run to check it, so its error is not known")
+        Reason::Kept => format!(
+            "auto: {chosen}; {} of influence functions is within the tolerance as well, but the run that showed it is \
+             kept",
+            error().trim_end_matches(',')
+        ),
+        Reason::Limit => format!(
+            "auto: {chosen}; {} exceeds the tolerance, and the limit of three runs with natural modes was reached",
+            error()
+        ),
+        Reason::Unchecked => {
+            format!("auto: {chosen}; no other fidelity could be run to check it, so its error is not known")
         }
-    };
-    if let Some(predicted) = &choice.predicted {
-        let PredictedErrors { deflection, speed, ripple, step, track, .. } = predicted;
-        text += &format!(
-            "; predicted errors without mass: deflection {deflection:.1e}, speed {speed:.1e}, ripple {ripple:.1e}, \
-             load step {step:.1e}, track {track:.1e}"
-        );
     }
-    text
 }
 
 /// Warning about a choice whose error is not known to be within `tolerance`; `None` where it is.
 #[must_use]
 pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
     let chosen = fidelity_name(choice.fidelity);
-    let why = match (choice.reason, choice.estimate) {
-        (Reason::Highest, Some(estimate)) => format!(
-            "the estimated error is above the tolerance: {chosen} is the highest fidelity, and a mesh of half the \
-             elements differs by {estimate:.1e}, which is more than {tolerance}"
+    let why = match choice.reason {
+        Reason::Limit => format!(
+            "the estimated error of {} on the foundation {chosen} is {:.1e}, which is more than the tolerance \
+             {tolerance}; it was not possible to reduce it in three runs",
+            if choice.quantity.is_empty() { "the run" } else { &choice.quantity },
+            choice.estimate.unwrap_or(f64::INFINITY)
         ),
-        (Reason::Highest, None) => format!(
-            "the error of {chosen} is not known: it is the highest fidelity, and no coarser mesh could be run \
-             to check it"
-        ),
-        (Reason::Unchecked, _) => {
-            format!("the error of {chosen} is not known: no higher fidelity could be run to check it")
+        Reason::Unchecked => {
+            format!("the error of {chosen} is not known: no other fidelity could be run to check it")
         }
         _ => return None,
     };

@@ -14,14 +14,24 @@ use crate::case_result::CaseResult;
 use crate::codes::CodeCheck;
 use crate::columns::NamedColumns;
 use crate::fatigue;
+use crate::observe::ColumnObserver;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
 use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
-/// Runs every case, on at most `threads` threads (`None`: as many as the machine has). `progress` is called, from any
-/// thread, with the fraction of all simulated time that is done, 0 to 1. `known` has the solutions of the specs of
+/// SimulationProgress of a simulation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum SimulationProgress<'a> {
+    /// Fraction of all simulated time that is done, 0 to 1.
+    Fraction(f64),
+    /// A run with these foundations begins, as one of several from which "auto" chooses.
+    Trial(&'a str),
+}
+
+/// Runs every case, on at most `threads` threads (`None`: as many as the machine has). `progress` is called from any
+/// thread. `known` has the solutions of the specs of
 /// all cases.
 ///
 /// ```
@@ -44,7 +54,7 @@ pub fn simulate(
     document: &Document,
     known: &[SolvedStructure],
     threads: Option<u16>,
-    progress: &(dyn Fn(f64) + Sync),
+    progress: &(dyn Fn(SimulationProgress<'_>) + Sync),
 ) -> Result<Vec<CaseResult>, Error> {
     let cases = &document.cases;
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
@@ -53,10 +63,10 @@ pub fn simulate(
             // with "auto" a case is run several times, and its time starts again from zero in each run
             done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
             let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
-            progress(sum as f64 / (1000.0 * cases.len() as f64));
+            progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)));
             ControlFlow::Continue(())
         };
-        run_case(case, known, &mut watch)
+        run_case(case, known, &|trial| progress(SimulationProgress::Trial(trial)), &mut watch)
     });
     outcomes.into_iter().collect()
 }
@@ -79,12 +89,15 @@ pub fn records_dofs(scene: &Scene, known: &[SolvedStructure]) -> impl Fn(usize, 
 fn run_case(
     case: &Case,
     known: &[SolvedStructure],
+    trial: &dyn Fn(&str),
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<CaseResult, Error> {
     let mut scene = case.scene.clone();
     let input = simulation_input(&scene)?;
     let recorded = records_dofs(&scene, known);
-    let chosen = foundations::select_and_run(&mut scene, &input.scene, known, &recorded, watch);
+    let mut observer = ColumnObserver::new(&case.scene, &input, known, trial);
+    let chosen =
+        foundations::select_and_run(&mut scene, &input.scene, known, &recorded, &mut observer, watch);
     let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));
     let foundations::AutoRun { choices, run, built } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {

@@ -24,7 +24,7 @@
 //! ```
 //!
 //! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, warning,
-//! summary, cases
+//! summary, observe, cases
 
 pub mod case_result;
 pub mod cases;
@@ -33,6 +33,7 @@ pub mod columns;
 mod error;
 pub mod fatigue;
 pub mod layout;
+pub mod observe;
 pub mod response;
 pub mod run_error;
 pub mod summary;

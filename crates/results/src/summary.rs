@@ -1,7 +1,7 @@
 //! `summary.json`: the results of a document's cases in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Choice, Fidelity, FidelityTrial, PredictedErrors};
+use sim::{Choice, Fidelity, FidelityTrial, Measure};
 
 use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
@@ -109,13 +109,15 @@ fn foundation(structure: &Structure, choices: &[Choice], s: usize) -> Value {
         entry["tolerance"] = json!(structure.tolerance);
         entry["estimate"] = json!(choice.estimate);
         entry["tried"] = choice.tried.iter().map(tried).collect();
-        if let Some(own) = &choice.predicted {
-            entry["predicted"] = predicted(own);
+        entry["measure"] = json!(match structure.measure {
+            Measure::Extremes => "extremes",
+            Measure::History => "history",
+        });
+        if !choice.quantity.is_empty() {
+            entry["quantity"] = json!(choice.quantity);
         }
-        for (key, fidelities) in [("skipped", &choice.skipped), ("failed", &choice.failed)] {
-            if !fidelities.is_empty() {
-                entry[key] = fidelities.iter().map(|one| foundations::fidelity_name(*one)).collect();
-            }
+        if !choice.failed.is_empty() {
+            entry["failed"] = choice.failed.iter().map(|one| foundations::fidelity_name(*one)).collect();
         }
     }
     entry
@@ -132,7 +134,6 @@ const fn fidelity_word(fidelity: Fidelity) -> &'static str {
         Fidelity::Rigid => "rigid",
         Fidelity::Influence => "influence",
         Fidelity::Modal(_) => "modal",
-        Fidelity::Half | Fidelity::Full => "full",
     }
 }
 
@@ -142,22 +143,9 @@ fn tried(tried: &FidelityTrial) -> Value {
         "fidelity": foundations::fidelity_name(tried.fidelity),
         // infinite where the runs could not be compared
         "estimate": tried.estimate.is_finite().then_some(tried.estimate),
-        "against": foundations::fidelity_name(tried.against),
+        "quantity": tried.quantity,
+        "against": foundations::check_name(tried.against),
         "stages": tried.stages,
-    })
-}
-
-/// Errors of each fidelity, predicted before any run.
-fn predicted(own: &PredictedErrors) -> Value {
-    let errors: Map<String, Value> =
-        own.errors.iter().map(|(one, error)| (foundations::fidelity_name(*one), json!(error))).collect();
-    json!({
-        "compliance": own.deflection,
-        "speed": own.speed,
-        "ripple": own.ripple,
-        "step": own.step,
-        "track": own.track,
-        "errors": errors,
     })
 }
 

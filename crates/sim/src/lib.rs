@@ -94,8 +94,10 @@ pub use scene::schedule::Schedule;
 pub use scene::structure::{Dynamics, Shapes, Structure};
 pub use scene::wheel::{Damper, Flange, Friction, FrictionLaw, LawValue, NormalLaw, Wheel};
 pub use select::choose::choose;
-pub use select::distance::distance;
 pub use select::fidelity::Fidelity;
-pub use select::predict::PredictedErrors;
-pub use select::selection::{Choice, FidelityTrial, FoundationProvider, RUN_ACCURACY, Reason, Selection};
+pub use select::measure::{Bounces, Difference, Measure, Record, RecordedQuantity, difference};
+pub use select::replay::ModalBasis;
+pub use select::selection::{
+    Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck,
+};
 pub use time::counts::Counts;

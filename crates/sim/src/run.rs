@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use crate::contact::solver::{RailMemory, Solver};
 use crate::contact::system::System;
 use crate::instant::hang::{equilibrate, place_below_ropes};
-use crate::instant::settle::settle;
+use crate::instant::settle::{settle, settle_start};
 use crate::instant::uneven::{follow_rigid_rails, locate_wheels};
 use crate::mechanics::state::State;
 use crate::record::energy::Audit;
@@ -239,16 +239,18 @@ fn integrate(
 }
 
 /// Sets `state` to the start of a dynamic run: static equilibrium unless a body has a given displacement, with the
-/// starting speeds and the elements that are active with them.
+/// starting speeds, and the elements that are active and the forces that act with them.
 fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), Error> {
-    if !placed(system) {
+    let is_placed = placed(system);
+    if !is_placed {
         equilibrate(solver, state)?;
     }
     set(system, &mut state.v, |body| body.start_speed);
     if system.traits.is_uneven {
         follow_rigid_rails(solver, state);
     }
-    if settle(solver, state)? { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0 }) }
+    let is_settled = if is_placed { settle(solver, state)? } else { settle_start(solver, state)? };
+    if is_settled { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0 }) }
 }
 
 /// Takes steps to the end of the scene, recording samples at the output times and executing rules; returns how the

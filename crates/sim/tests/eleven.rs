@@ -234,6 +234,7 @@ fn scene(accuracy: f64) -> Scene {
         analysis: Analysis::Dynamic,
         end: 22.0,
         output_dt: 0.1,
+        output_parts: 1,
         accuracy,
     }
 }

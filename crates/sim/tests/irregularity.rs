@@ -283,6 +283,48 @@ fn bump_and_step_on_a_rail_that_gives_follow_an_independent_integration() {
     assert!(found.audit.residual() < 1e-8, "{:e}", found.audit.residual());
 }
 
+/// Integral of f from a to b by Gauss's rule with four points.
+fn gauss(f: impl Fn(f64) -> f64, [a, b]: [f64; 2]) -> f64 {
+    let points = [[0.339981043584856, 0.652145154862546], [0.861136311594053, 0.347854845137454]];
+    let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
+    points.iter().map(|[at, weight]| half * weight * (f(middle - half * at) + f(middle + half * at))).sum()
+}
+
+#[test]
+fn wheel_that_turns_back_meets_every_corner_of_a_long_profile_twice() {
+    // Analytic: y(T) = omega times the integral of sin(omega (T - t)) y0(x(t)), by Gauss's rule between corners.
+    let (height, omega, count) = (1e-3, (K / MASS).sqrt(), 400_u32);
+    // x = 4 t - t^2 turns at x = 4, t = 2, between two rows.
+    let rows: Vec<[f64; 2]> = (0..=count)
+        .map(|i| [0.497 + 0.01 * f64::from(i), height * f64::from(i * i % 17) / 17.0])
+        .chain([[4.51, 0.0]])
+        .collect();
+    let end = 4.0;
+    let way = |t: f64| 4.0 * t - t * t;
+    let out = rows.iter().filter(|[x, _]| *x < 4.0).map(|[x, _]| 2.0 - (4.0 - x).sqrt());
+    let mut times: Vec<f64> = out.clone().chain(out.map(|t| end - t)).chain([0.0, 2.0, end]).collect();
+    times.sort_by(f64::total_cmp);
+    let shape = |x: f64| {
+        let next = rows.partition_point(|row| row[0] <= x);
+        let (Some(&[x1, y1]), true) = (rows.get(next), next > 0) else { return 0.0 };
+        let [x0, y0] = rows[next - 1];
+        y0 + (y1 - y0) * (x - x0) / (x1 - x0)
+    };
+    let part = |t: f64| omega * (omega * (end - t)).sin() * shape(way(t));
+    let exact: f64 = times.windows(2).map(|ends| gauss(part, [ends[0], ends[1]])).sum();
+    for (accuracy, allowed) in [(1e-9, 1e-6), (1e-4, 1e-3)] {
+        let mut scene = mass(0.0, end);
+        scene.bodies[0].motion =
+            Some(Profile::new(MotionKind::Speed, &[[0.0, 4.0], [end, -4.0]], 0.0, 0.0).expect("rows"));
+        scene.accuracy = accuracy;
+        let found = run(&scene, uneven(&rows, &[]));
+        let y = found.history.column(Channel::Displacement(0, BodyDof::Y));
+        let off = (y[y.len() - 1] - y[0] - exact).abs();
+        println!("out and back: {off:.2e} of {exact:.3e}, {:?}", found.counts);
+        assert!(off < allowed * height, "{off:e}");
+    }
+}
+
 #[test]
 fn steps_between_corners_keep_order_four() {
     let (slope, omega) = (0.004, (K / MASS).sqrt());

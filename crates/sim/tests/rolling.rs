@@ -71,7 +71,7 @@ fn freely_rolling_bogie_crosses_hinges_at_order_four_and_keeps_its_energy() {
     assert!(exact[0] > 40.0, "both wheels have passed three hinges: {}", exact[0]);
     assert!(residual < 1e-8, "{residual}");
     // The error against the steps taken, from the coarsest to the finest.
-    let pairs = [1e-5, 1e-7, 1e-9].map(|accuracy| {
+    let pairs = [1e-3, 1e-5, 1e-7].map(|accuracy| {
         let (end, counts, residual) = at(accuracy);
         let error = (0..3).map(|i| (end[i] - exact[i]).abs()).fold(0.0_f64, f64::max);
         println!("accuracy {accuracy:.0e}: {error:.2e} ft, {counts:?}, audit {residual:.1e}");

@@ -60,6 +60,7 @@ fn wheel() -> Scene {
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1e-3,
+        output_parts: 1,
         accuracy: 1e-7,
     }
 }

@@ -140,6 +140,7 @@ fn crossing(theta: f64, rise: f64) -> (Scene, Foundation) {
         analysis: Analysis::Dynamic,
         end: rise + held,
         output_dt: 0.05,
+        output_parts: 1,
         accuracy: 1e-6,
     };
     let foundation = Foundation {

@@ -62,12 +62,13 @@ pub use curve::{CurveValue, PiecewiseCubic, akima, natural_spline};
 pub use error::Error;
 pub use probe::{Axis, Probe};
 pub use quality::{StationSearch, StationSet, fewest_stations};
-pub use rail::{ElementMember, Flexibility, RailElement, Rails, ShapeRow};
+pub use rail::{ElementFunctions, ElementMember, Flexibility, RailElement, Rails, RoundingSizes, ShapeRow};
 pub use surface::{
-    Couplings, ExactSurface, ForceComponent, InfluenceLines, InternalForce, RailShapes, ResidualFlexibility,
-    Uncoupled,
+    Couplings, ElementResidual, ExactSurface, ForceComponent, InfluenceLines, InternalForce, RailShapes,
+    ResidualFlexibility, Uncoupled,
 };
 pub use table::{
     BeamFit, FactorCurves, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable, TableFactor,
     TableReading, fit_beam,
 };
+pub use vector::RealNumber;

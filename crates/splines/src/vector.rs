@@ -1,4 +1,42 @@
-//! Products of small vectors, each written once.
+//! Products of small vectors, each written once, and the number types that they are written for.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A real number type in which shape functions and Green's function can be evaluated: doubles, or a wider one.
+///
+/// ```
+/// fn is_number<T: splines::RealNumber>() {}
+/// is_number::<f64>();
+/// ```
+pub trait RealNumber:
+    Copy
+    + PartialOrd
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+}
+
+impl<T> RealNumber for T where
+    T: Copy
+        + PartialOrd
+        + From<f64>
+        + Add<Output = T>
+        + Sub<Output = T>
+        + Mul<Output = T>
+        + Div<Output = T>
+        + Neg<Output = T>
+{
+}
+
+/// Scalar product of two vectors of space.
+#[inline]
+pub(crate) fn dot3<T: RealNumber>(a: &[T; 3], b: &[T; 3]) -> T {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
 
 /// Scalar product a . b, summed from the first entry to the last. Entries beyond the shorter one do not
 /// count.
@@ -16,13 +54,13 @@ pub(crate) fn dot4(a: &[f64; 4], b: &[f64; 4]) -> f64 {
 }
 
 /// Vector product a x b.
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
+pub(crate) fn cross<T: RealNumber>(a: [T; 3], b: [T; 3]) -> [T; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// Unit vector along `axis`, 0, 1 or 2.
-pub(crate) fn unit(axis: usize) -> [f64; 3] {
-    let mut e = [0.0; 3];
-    e[axis] = 1.0;
+pub(crate) fn unit<T: RealNumber>(axis: usize) -> [T; 3] {
+    let mut e = [T::from(0.0); 3];
+    e[axis] = T::from(1.0);
     e
 }

@@ -21,7 +21,7 @@ use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, sol
 use report::figures::run::{OmittedFigure, figures};
 use report::text::run_report;
 use results::case_result::CaseResult;
-use results::cases::simulate;
+use results::cases::{SimulationProgress, simulate};
 use results::columns::peak;
 use results::response::RunComparison;
 use results::threads::parallel_map;
@@ -53,7 +53,10 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let known = structures(&document, &path, &progress)?;
     clock.lap("fea");
     let bar = progress.bar("simulating", 1000);
-    let outcomes = simulate(&document, &known, global.threads, &|share| bar.set((1000.0 * share) as u64))?;
+    let outcomes = simulate(&document, &known, global.threads, &|now| match now {
+        SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
+        SimulationProgress::Trial(foundations) => bar.name(&format!("simulating, trial on {foundations}")),
+    })?;
     drop(bar);
     clock.lap("simulation");
 

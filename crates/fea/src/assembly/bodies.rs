@@ -1,10 +1,11 @@
 //! Rigid bodies of linked points, and what the supports leave of their motion.
 
 use nalgebra::Vector3;
+use num_traits::{One, Zero};
 
 use crate::assembly::combination::Combination;
 use crate::assembly::element::{Matrix6, vector};
-use crate::assembly::precision::Real;
+use crate::assembly::precision::{Extended, Real};
 use crate::assembly::turning::TurnedAxes;
 use crate::dof::DofSet;
 use crate::model::Model;
@@ -34,8 +35,8 @@ pub(crate) struct Bodies<T: Real = f64> {
     pub list: Vec<Body<T>>,
     /// Body of each point.
     pub of_point: Vec<usize>,
-    /// From the reference of its body to each point, global.
-    pub arms: Vec<Vector3<T>>,
+    /// From the reference of its body to each point, global: exact, however far both are from the origin.
+    pub arms: Vec<Vector3<Extended>>,
 }
 
 impl<T: Real> Bodies<T> {
@@ -87,23 +88,38 @@ impl<T: Real> Bodies<T> {
 
     /// Motion of a place rigidly attached to `point` at `offset`, by that of the reference of its body.
     pub fn motion(&self, point: usize, offset: &Vector3<T>) -> Matrix6<T> {
-        arm(&(self.arms[point] + offset))
+        arm(&(self.arms[point] + offset.map(T::wide)).map(T::rounded))
+    }
+
+    /// The same in double-doubles.
+    pub fn exact_motion(&self, point: usize, offset: &Vector3<T>) -> Matrix6<Extended> {
+        arm(&(self.arms[point] + offset.map(T::wide)))
     }
 }
 
-impl Bodies {
+impl<T: Real> Bodies<T> {
     /// Six displacements, given by the motion of the reference of the body of `point`, as combinations.
-    pub fn combinations(&self, point: usize, motion: &Matrix6) -> [Combination; 6] {
+    pub fn combinations(&self, point: usize, motion: &Matrix6<T>) -> [Combination<T>; 6] {
+        self.sized_combinations(point, motion, &motion.map(|x| x.double().abs()))
+    }
+
+    /// The same, with the sums of the magnitudes that the entries of the motion were added up from.
+    pub fn sized_combinations<U: Real>(
+        &self,
+        point: usize,
+        motion: &Matrix6<U>,
+        sizes: &Matrix6,
+    ) -> [Combination<U>; 6] {
         let columns = 6 * self.of_point[point];
         std::array::from_fn(|i| {
             let mut row = Combination::default();
-            (0..6).for_each(|k| row.add(columns + k, motion[(i, k)]));
+            (0..6).for_each(|k| row.add_sized(columns + k, motion[(i, k)], sizes[(i, k)]));
             row
         })
     }
 
     /// What the supports leave of a combination of the motions of the references.
-    pub fn supported(&self, row: &Combination) -> Combination {
+    pub fn supported(&self, row: &Combination<T>) -> Combination<T> {
         let mut out = Combination::default();
         for &(column, value) in &row.terms {
             let basis = &self.list[column / 6].basis;
@@ -146,35 +162,37 @@ impl<T: Real> Body<T> {
     /// The reference is the point with the most fixed degrees of freedom. Every fixed degree of freedom of
     /// any point is one linear constraint a . u = 0 on the six motions u of the reference. Gauss-Jordan
     /// elimination solves the constraints for as many of the motions; the others are free.
-    fn new(m: &Model, group: &[usize], fixed: &[DofSet], arms: &mut [Vector3<T>]) -> Body<T> {
+    ///
+    /// All of it is computed in double-doubles, and rounded at the end.
+    fn new(m: &Model, group: &[usize], fixed: &[DofSet], arms: &mut [Vector3<Extended>]) -> Body<T> {
         let count = |point: usize| fixed[point].iter().filter(|&&fixed| fixed).count();
         let reference = group.iter().copied().fold(group[0], |a, b| if count(b) > count(a) { b } else { a });
-        let at = |point: usize| vector::<T>(m.points[point]);
+        let at = |point: usize| vector::<Extended>(m.points[point]);
         let mut size = 0.0_f64;
         for &point in group {
             arms[point] = at(point) - at(reference);
             size = arms[point].iter().fold(size, |a, x| a.max(x.double().abs()));
         }
         // Rotations are measured by the displacement of the farthest point: then all motions have one unit.
-        let scale = if size > 0.0 { T::from(size) } else { T::one() };
-        let unit = |k: usize| if k < 3 { T::one() } else { scale };
-        let mut rows: Vec<[T; 6]> = Vec::new();
+        let scale = if size > 0.0 { Extended::from(size) } else { Extended::one() };
+        let unit = |k: usize| if k < 3 { Extended::one() } else { scale };
+        let mut rows: Vec<[Extended; 6]> = Vec::new();
         let mut names = Vec::new();
         let others = group.iter().copied().filter(|&point| point != reference);
         for point in std::iter::once(reference).chain(others) {
-            let motion: Matrix6<T> = arm(&arms[point]);
+            let motion: Matrix6<Extended> = arm(&arms[point]);
             for (dof, _) in fixed[point].iter().enumerate().filter(|(_, fixed)| **fixed) {
                 rows.push(std::array::from_fn(|k| motion[(dof, k)] / unit(k)));
                 names.push((point, dof));
             }
         }
         let pivots = gauss_jordan(&mut rows);
-        let mut basis = Matrix6::identity();
+        let mut basis = Matrix6::<T>::identity();
         let mut free = [true; 6];
         for &(row, pivot) in &pivots {
             free[pivot] = false;
             for k in 0..6 {
-                basis[(pivot, k)] = -rows[row][k] * (unit(k) / unit(pivot));
+                basis[(pivot, k)] = T::rounded(-rows[row][k] * (unit(k) / unit(pivot)));
             }
         }
         for &(_, pivot) in &pivots {
@@ -187,7 +205,7 @@ impl<T: Real> Body<T> {
 
 /// Gauss-Jordan elimination with the largest pivot of each row: leaves the independent `rows` solved for
 /// their pivots and returns these rows and pivots, in the order of the rows.
-fn gauss_jordan<T: Real>(rows: &mut [[T; 6]]) -> Vec<(usize, usize)> {
+fn gauss_jordan(rows: &mut [[Extended; 6]]) -> Vec<(usize, usize)> {
     let mut pivots: Vec<(usize, usize)> = Vec::new();
     for row in 0..rows.len() {
         let own = rows[row];
@@ -204,7 +222,7 @@ fn gauss_jordan<T: Real>(rows: &mut [[T; 6]]) -> Vec<(usize, usize)> {
         let factor = rest[pivot];
         for value in &mut rest {
             let small = value.double().abs() <= DEPENDENT * before;
-            *value = if small { T::zero() } else { *value / factor };
+            *value = if small { Extended::zero() } else { *value / factor };
         }
         // Jordan step: earlier rows no longer depend on the new pivot.
         for &(other, _) in &pivots {
@@ -217,10 +235,10 @@ fn gauss_jordan<T: Real>(rows: &mut [[T; 6]]) -> Vec<(usize, usize)> {
 }
 
 /// Subtracts the multiple of `other`, which is 1 at `pivot`, that makes `row` zero there.
-fn eliminate<T: Real>(row: &mut [T; 6], other: &[T; 6], pivot: usize) {
+fn eliminate(row: &mut [Extended; 6], other: &[Extended; 6], pivot: usize) {
     let factor = row[pivot];
     for k in 0..6 {
         row[k] -= factor * other[k];
     }
-    row[pivot] = T::zero();
+    row[pivot] = Extended::zero();
 }

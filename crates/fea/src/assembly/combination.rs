@@ -2,6 +2,8 @@
 
 use nalgebra::SVector;
 
+use crate::assembly::precision::Real;
+
 /// Size of a term, in roundings of the magnitudes it was added up from, at which it counts as zero.
 const CANCELLED: f64 = 16.0 * f64::EPSILON;
 
@@ -9,33 +11,45 @@ const CANCELLED: f64 = 16.0 * f64::EPSILON;
 ///
 /// As a row it is a displacement, as a column a load: a unit force along a displacement acts on the bodies
 /// by the same coefficients.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Combination {
+#[derive(Clone, Debug)]
+pub(crate) struct Combination<T: Real = f64> {
     /// Column and value of each term.
-    pub terms: Vec<(usize, f64)>,
+    pub terms: Vec<(usize, T)>,
     /// Sum of the magnitudes that were added up for each term.
     magnitudes: Vec<f64>,
 }
 
-impl Combination {
+impl<T: Real> Default for Combination<T> {
+    fn default() -> Self {
+        Combination { terms: Vec::new(), magnitudes: Vec::new() }
+    }
+}
+
+impl<T: Real> Combination<T> {
     /// Adds `value` times a column.
     #[inline]
-    pub fn add(&mut self, column: usize, value: f64) {
-        if value == 0.0 {
+    pub fn add(&mut self, column: usize, value: T) {
+        self.add_sized(column, value, value.double().abs());
+    }
+
+    /// Adds `value` times a column; `size` is the sum of the magnitudes that `value` was added up from.
+    #[inline]
+    pub fn add_sized(&mut self, column: usize, value: T, size: f64) {
+        if value == T::zero() {
             return;
         }
         // A combination has few terms, so that a linear search suffices.
         if let Some(k) = self.terms.iter().position(|term| term.0 == column) {
             self.terms[k].1 += value;
-            self.magnitudes[k] += value.abs();
+            self.magnitudes[k] += size;
         } else {
             self.terms.push((column, value));
-            self.magnitudes.push(value.abs());
+            self.magnitudes.push(size);
         }
     }
 
     /// Adds `factor` times another combination.
-    pub fn add_scaled(&mut self, other: &Combination, factor: f64) {
+    pub fn add_scaled(&mut self, other: &Combination<T>, factor: T) {
         for &(column, value) in &other.terms {
             self.add(column, factor * value);
         }
@@ -45,7 +59,9 @@ impl Combination {
     pub fn magnitudes(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         self.terms.iter().zip(&self.magnitudes).map(|(term, &size)| (term.0, size))
     }
+}
 
+impl Combination {
     /// Terms that are more than the rounding of what cancelled.
     pub fn significant(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
         let terms = self.terms.iter().zip(&self.magnitudes);

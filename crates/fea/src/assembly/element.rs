@@ -1,12 +1,13 @@
 //! The straight uniform member: exact 12 x 12 stiffness, releases, local axes.
 
 use nalgebra::{Matrix3, SMatrix, Vector3};
+use num_traits::Zero;
 use splines::Flexibility;
 
-use crate::assembly::precision::Real;
+use crate::assembly::precision::{Extended, Real, exact_sum};
 use crate::dof::{Dof, DofSet};
 use crate::error::{EntryFault, Error, ModelEntry};
-use crate::model::{MemberKind, Model};
+use crate::model::{Member, MemberKind, Model};
 
 pub(crate) type Matrix6<T = f64> = SMatrix<T, 6, 6>;
 pub(crate) type Matrix12<T = f64> = SMatrix<T, 12, 12>;
@@ -25,12 +26,14 @@ const PARALLEL: f64 = 1e-6;
 pub(crate) struct Element<T: Real = f64> {
     /// Indices of its points.
     pub points: [usize; 2],
-    /// Ends of the flexible part, global.
-    pub ends: [Vector3<T>; 2],
+    /// Its geometry, to all digits.
+    pub geometry: Geometry,
     /// From the points to the ends, global.
     pub offsets: [Vector3<T>; 2],
     /// Rows: local axes.
     pub axes: Matrix3<T>,
+    /// Error of the components of each local axis, in roundings of T; 0 where only their own digits are rounded.
+    pub axes_error: [f64; 3],
     /// Length of the flexible part.
     pub length: T,
     pub flexibility: Flexibility,
@@ -38,8 +41,69 @@ pub(crate) struct Element<T: Real = f64> {
     pub stiffness: Matrix12<T>,
     /// Diagonal of the stiffness before releases: the scale of its rounding.
     pub unreleased_diagonal: [f64; 12],
+    /// Factor by which the releases enlarge this rounding.
+    pub release_growth: f64,
     /// Effect of its releases; `None` if it has none.
     pub released: Option<Box<Released<T>>>,
+}
+
+/// Where a member lies. It is evaluated in double-doubles: coordinates and offsets can be far larger than the member.
+#[derive(Clone, Debug)]
+pub(crate) struct Geometry {
+    /// Largest coordinate of the ends of the flexible part, absolute value.
+    pub far: f64,
+    /// Rows: local axes.
+    pub axes: Matrix3<Extended>,
+    /// Error of the components of each of them, in roundings of double-doubles; 0 where they are exact.
+    pub axes_error: [f64; 3],
+    /// Length of the flexible part.
+    pub length: Extended,
+}
+
+impl Geometry {
+    /// The geometry of a member of a checked model.
+    fn new(m: &Model, member: &Member) -> Result<Geometry, EntryFault> {
+        let [[p, q], [a, b]] = [member.points.map(|point| m.points[point]), member.offsets];
+        let along: Vector3<Extended> =
+            Vector3::from(std::array::from_fn(|k| exact_sum([q[k], -p[k], b[k], -a[k]])));
+        let length = norm(&along);
+        let sizes = (0..3).flat_map(|k| [(p[k] + a[k]).abs(), (q[k] + b[k]).abs()]);
+        let far = sizes.fold(0.0_f64, f64::max);
+        // Points that are equal up to the rounding of their coordinates have no distance.
+        if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
+            return Err(EntryFault::NoLength);
+        }
+        let Triad { axes, error } = local_axes(along / length, vector(member.orientation), member.kind)
+            .ok_or(EntryFault::Orientation)?;
+        // The first axis keeps all its digits.
+        Ok(Geometry { far, axes, axes_error: [0.0, error, error], length })
+    }
+}
+
+impl Geometry {
+    /// The axes in the precision T, and their error in roundings of T.
+    ///
+    /// Components that are only rounding in T are set to zero, so that exact zeros of the stiffness stay.
+    fn rounded_axes<T: Real>(&self) -> (Matrix3<T>, [f64; 3]) {
+        let rounded = without_rounding(&self.axes, 4.0 * T::ROUNDING);
+        let error = std::array::from_fn(|row| {
+            let changed = (0..3).fold(0.0_f64, |most, k| {
+                let lost = if rounded[(row, k)] == Extended::zero() {
+                    self.axes[(row, k)]
+                } else {
+                    Extended::zero()
+                };
+                most.max(lost.double().abs())
+            });
+            (changed + self.axes_error[row] * Extended::ROUNDING) / T::ROUNDING
+        });
+        (rounded.map(T::rounded), error)
+    }
+}
+
+/// Axes with components of at most `size` set to zero.
+pub(crate) fn without_rounding(axes: &Matrix3<Extended>, size: f64) -> Matrix3<Extended> {
+    axes.map(|a| if a.double().abs() <= size { Extended::zero() } else { a })
 }
 
 /// Motion of the flexible ends of a member with releases, local axes.
@@ -52,6 +116,8 @@ pub(crate) struct Released<T: Real = f64> {
     /// K_rr^-1: displacements of the flexible ends per load on them while the tips are fixed. It is zero
     /// except between released degrees of freedom.
     pub compliance: Matrix12<T>,
+    /// Largest ratio of a diagonal entry before the releases to its pivot: what rounding grows by.
+    pub growth: f64,
 }
 
 /// One of the two planes in which a member bends: local x-y or x-z.
@@ -99,18 +165,9 @@ impl<T: Real> Element<T> {
     pub fn new(m: &Model, index: usize) -> Result<Element<T>, Error> {
         let member = &m.members[index];
         let invalid = |fault| Error::Invalid { entry: ModelEntry::Member(index), fault };
-        let offsets = member.offsets.map(vector);
-        let place = |k: usize| vector::<T>(m.points[member.points[k]]) + offsets[k];
-        let ends = [place(0), place(1)];
-        let along = ends[1] - ends[0];
-        let length = norm(&along);
-        // Coordinates are rounded relative to the distance from the origin: so is the length.
-        let far = ends.iter().flat_map(|end| end.iter()).fold(0.0_f64, |a, x| a.max(x.double().abs()));
-        if length.double() <= NO_LENGTH * far || !length.double().is_finite() {
-            return Err(invalid(EntryFault::NoLength));
-        }
-        let axes = local_axes(along / length, vector(member.orientation), member.kind)
-            .ok_or(invalid(EntryFault::Orientation))?;
+        let geometry = Geometry::new(m, member).map_err(invalid)?;
+        let length = T::rounded(geometry.length);
+        let (axes, axes_error) = geometry.rounded_axes();
         let mut flexibility = m.sections[member.section].flexibility(m.theory);
         match member.kind {
             MemberKind::Beam => {}
@@ -124,16 +181,17 @@ impl<T: Real> Element<T> {
             end: k / 6,
             dof: Dof::ALL[k % 6],
         })?;
-        let points = member.points;
         Ok(Element {
-            points,
-            ends,
-            offsets,
+            points: member.points,
+            offsets: member.offsets.map(vector),
+            geometry,
             axes,
+            axes_error,
             length,
             flexibility,
             stiffness,
             unreleased_diagonal,
+            release_growth: released.as_ref().map_or(1.0, |released| released.growth),
             released,
         })
     }
@@ -152,12 +210,28 @@ impl Element {
 }
 
 /// Doubles in the precision T.
-pub(super) fn vector<T: Real>(v: [f64; 3]) -> Vector3<T> {
+pub(crate) fn vector<T: Real>(v: [f64; 3]) -> Vector3<T> {
     Vector3::from(v.map(T::from))
 }
 
-fn norm<T: Real>(v: &Vector3<T>) -> T {
-    v.dot(v).root()
+/// Length of a vector; exact for one along a global axis.
+pub(crate) fn norm(v: &Vector3<Extended>) -> Extended {
+    if only_component(v).is_some() {
+        v.iter().fold(Extended::zero(), |sum, x| sum + x.magnitude())
+    } else {
+        v.dot(v).root()
+    }
+}
+
+/// The component of a vector that is not zero, if there is exactly one.
+fn only_component(v: &Vector3<Extended>) -> Option<usize> {
+    let zero = v.map(|x| x == Extended::zero());
+    match [zero.x, zero.y, zero.z] {
+        [false, true, true] => Some(0),
+        [true, false, true] => Some(1),
+        [true, true, false] => Some(2),
+        _ => None,
+    }
 }
 
 /// The same 3 x 3 matrix for the displacement and for the rotation.
@@ -168,29 +242,68 @@ pub(crate) fn diagonal_blocks<T: Real>(q: &Matrix3<T>) -> Matrix6<T> {
     b
 }
 
-/// Right-handed axes as rows: the unit vector `x`, the part of `y` normal to it, their cross product.
-///
-/// Components that are only rounding are set to zero, so that exact zeros of the stiffness stay. `None` if
-/// `y` is zero, not finite, or parallel to `x`.
-pub(crate) fn triad<T: Real>(x: Vector3<T>, y: Vector3<T>) -> Option<Matrix3<T>> {
-    let clean = |v: Vector3<T>| v.map(|a| if a.double().abs() <= 4.0 * T::ROUNDING { T::zero() } else { a });
-    let x = clean(x);
-    let size = norm(&y);
-    let normal = y - x * x.dot(&y);
-    let least = norm(&normal);
-    if !(size > T::zero() && size.double().is_finite() && least.double() > PARALLEL * size.double()) {
-        return None;
+/// Right-handed axes as rows.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Triad {
+    pub axes: Matrix3<Extended>,
+    /// Error of the components, in roundings; 0 where the axes are those of the coordinates.
+    pub error: f64,
+}
+
+impl Triad {
+    /// The unit vector `x`, the part of `y` normal to it, their cross product.
+    ///
+    /// Components that are only rounding are set to zero, so that exact zeros of the stiffness stay. `None` if
+    /// `y` is zero, not finite, or parallel to `x`.
+    pub fn new(x: Vector3<Extended>, y: Vector3<Extended>) -> Option<Triad> {
+        let zero = Extended::zero();
+        let clean = |v: Vector3<Extended>| {
+            v.map(|a| if a.double().abs() <= 4.0 * Extended::ROUNDING { zero } else { a })
+        };
+        let size = norm(&y);
+        if let Some(along) = only_component(&x) {
+            let mut across = y;
+            across[along] = zero;
+            if let Some(up) = only_component(&across)
+                && across[up].double().abs() > PARALLEL * size.double()
+                && size.double().is_finite()
+            {
+                return Some(Triad::along_coordinates([along, up], [x[along], y[up]]));
+            }
+        }
+        let x = clean(x);
+        let normal = y - x * x.dot(&y);
+        let least = norm(&normal);
+        if !(size > zero && size.double().is_finite() && least.double() > PARALLEL * size.double()) {
+            return None;
+        }
+        let y = clean(normal / least);
+        let z = clean(x.cross(&y));
+        let error = 4.0 * size.double() / least.double();
+        Some(Triad { axes: Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]), error })
     }
-    let y = clean(normal / least);
-    let z = clean(x.cross(&y));
-    Some(Matrix3::from_rows(&[x.transpose(), y.transpose(), z.transpose()]))
+}
+
+impl Triad {
+    /// Axes along those of the coordinates: the indices of x and y, and numbers that have their signs.
+    fn along_coordinates(index: [usize; 2], signs: [Extended; 2]) -> Triad {
+        let axis = |k: usize| {
+            let mut axis = Vector3::zeros();
+            axis[index[k]] = if signs[k] < Extended::zero() { -1.0 } else { 1.0 };
+            axis
+        };
+        let (x, y): (Vector3<f64>, Vector3<f64>) = (axis(0), axis(1));
+        let axes = Matrix3::from_rows(&[x.transpose(), y.transpose(), x.cross(&y).transpose()]);
+        // Adding 0.0 turns -0.0 into 0.0.
+        Triad { axes: axes.map(|a| Extended::from(a + 0.0)), error: 0.0 }
+    }
 }
 
 /// Local axes of a member. Trusses and rods do not use their y axis: without an orientation any normal will do.
-fn local_axes<T: Real>(x: Vector3<T>, orientation: Vector3<T>, kind: MemberKind) -> Option<Matrix3<T>> {
+fn local_axes(x: Vector3<Extended>, orientation: Vector3<Extended>, kind: MemberKind) -> Option<Triad> {
     let least = (0..3).fold(0, |a, b| if x[b].magnitude() < x[a].magnitude() { b } else { a });
-    let any = || triad(x, Matrix3::identity().column(least).into());
-    triad(x, orientation).or_else(|| if kind == MemberKind::Beam { None } else { any() })
+    let any = || Triad::new(x, Matrix3::identity().column(least).into());
+    Triad::new(x, orientation).or_else(|| if kind == MemberKind::Beam { None } else { any() })
 }
 
 /// The flexibility of a member that resists its change of length, twist with the flexibility `torsion`, and no bending.
@@ -254,8 +367,8 @@ fn release<T: Real>(
     if !ends.contains(&true) {
         return Ok(None);
     }
-    let (recovery, compliance) = condense(stiffness, releases)?;
-    Ok(Some(Box::new(Released { ends, recovery, compliance })))
+    condense(stiffness, releases)
+        .map(|(recovery, compliance, growth)| Some(Box::new(Released { ends, recovery, compliance, growth })))
 }
 
 /// Static condensation of the released degrees of freedom r of a member, one after the other:
@@ -263,15 +376,16 @@ fn release<T: Real>(
 /// K' = K_oo - K_or K_rr^-1 K_ro,   u_r = -K_rr^-1 K_ro u_o + K_rr^-1 f_r
 ///
 /// Replaces `k` by K'. Returns the recovery matrix (all displacements of the flexible ends by those of the
-/// tips of the rigid offsets) and K_rr^-1. A released degree of freedom for which the section has no
-/// stiffness stays at rest.
+/// tips of the rigid offsets), K_rr^-1, and the largest ratio of a diagonal entry to its pivot. A released degree of
+/// freedom for which the section has no stiffness stays at rest.
 fn condense<T: Real>(
     k: &mut Matrix12<T>,
     releases: &[DofSet; 2],
-) -> Result<(Matrix12<T>, Matrix12<T>), usize> {
+) -> Result<(Matrix12<T>, Matrix12<T>, f64), usize> {
     let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)].double());
     let mut recovery = Matrix12::identity();
     let mut compliance = Matrix12::zeros();
+    let mut growth = 1.0_f64;
     for r in (0..12).filter(|&r| releases[r / 6][r % 6]) {
         let pivot = k[(r, r)];
         if before[r] == 0.0 {
@@ -281,6 +395,7 @@ fn condense<T: Real>(
         if pivot.double() <= LEAST_RELEASE_PIVOT * before[r] {
             return Err(r);
         }
+        growth = growth.max(before[r] / pivot.double());
         let mut row = -k.row(r) / pivot;
         row[r] = T::zero();
         let column = k.column(r).into_owned();
@@ -302,5 +417,5 @@ fn condense<T: Real>(
     }
     // Symmetric to the last bit, whatever the order of the products above.
     *k = (*k + k.transpose()) * T::from(0.5);
-    Ok((recovery, compliance))
+    Ok((recovery, compliance, growth))
 }

@@ -22,7 +22,10 @@ mod turning;
 
 pub(crate) use bodies::{Bodies, arm};
 pub(crate) use combination::Combination;
-pub(crate) use element::{BendingPlane, Element, Matrix6, Matrix12, bending_planes, diagonal_blocks, triad};
-pub(crate) use precision::{Extended, Real};
+pub(crate) use element::{
+    BendingPlane, Element, Geometry, Matrix6, Matrix12, Released, Triad, bending_planes, diagonal_blocks,
+    vector, without_rounding,
+};
+pub(crate) use precision::{Extended, Real, exact_sum};
 pub(crate) use sparse::{column_norm, irregular_vector, symmetric_product};
-pub(crate) use stiffness::{Numbering, ScaledStiffness, transformation};
+pub(crate) use stiffness::{Numbering, ScaledStiffness, transformation, transformation_and_size};

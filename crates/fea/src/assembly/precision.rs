@@ -41,6 +41,12 @@ pub(crate) trait Real:
     /// The nearest double.
     fn double(self) -> f64;
 
+    /// The same number as a double-double.
+    fn wide(self) -> Extended;
+
+    /// A double-double rounded to this type.
+    fn rounded(wide: Extended) -> Self;
+
     /// Square root.
     fn root(self) -> Self;
 
@@ -58,6 +64,14 @@ impl Real for f64 {
         self
     }
 
+    fn wide(self) -> Extended {
+        self.into()
+    }
+
+    fn rounded(wide: Extended) -> f64 {
+        wide.double()
+    }
+
     fn root(self) -> f64 {
         self.sqrt()
     }
@@ -72,14 +86,52 @@ impl Real for Extended {
         self.0 + self.1
     }
 
+    fn wide(self) -> Extended {
+        self
+    }
+
+    fn rounded(wide: Extended) -> Extended {
+        wide
+    }
+
     fn root(self) -> Extended {
         self.sqrt()
     }
 }
 
+/// Sum of doubles, to all digits of a double-double however much cancels.
+///
+/// The sum is kept as an expansion of doubles that do not overlap, to which one term after the other is added without
+/// error.
+///
+/// # Source
+/// Shewchuk (1997), Discrete Comput. Geom. 18, theorem 10.
+pub(crate) fn exact_sum<const N: usize>(terms: [f64; N]) -> Extended {
+    let mut expansion = [0.0; N];
+    for (count, term) in terms.into_iter().enumerate() {
+        let mut carried = term;
+        for part in &mut expansion[..count] {
+            let sum = carried + *part;
+            let virtual_part = sum - carried;
+            *part = (carried - (sum - virtual_part)) + (*part - virtual_part);
+            carried = sum;
+        }
+        expansion[count] = carried;
+    }
+    expansion.into_iter().fold(Extended::zero(), |sum, part| sum + Extended::from(part))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{Extended, Real};
+    use super::{Extended, Real, exact_sum};
+
+    #[test]
+    fn sums_keep_what_is_left_of_large_terms() {
+        let [large, small, tiny] = [1e30, 3.0, f64::powi(2.0, -60)];
+        let sum = exact_sum([large, small, -large, tiny]);
+        assert_eq!((sum - Extended::from(small)).double(), tiny);
+        assert_eq!(exact_sum([0.1, -1e6, 1e6]).double(), 0.1);
+    }
 
     #[test]
     fn extended_numbers_keep_what_doubles_lose() {

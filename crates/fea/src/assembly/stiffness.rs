@@ -1,10 +1,10 @@
 //! Stiffness of a whole frame, scaled, in elimination order.
 
-use nalgebra::{SMatrix, Vector3};
+use nalgebra::{Matrix3, SMatrix, Vector3};
 use sprs::CsMat;
 
 use crate::assembly::bodies::{Bodies, Body};
-use crate::assembly::element::{Element, Matrix12};
+use crate::assembly::element::{Element, Matrix12, diagonal_blocks};
 use crate::assembly::ordering::{Graph, order};
 use crate::assembly::precision::{Extended, Real};
 use crate::assembly::sparse::{Triplets, column_norm};
@@ -53,15 +53,20 @@ pub(crate) fn transformation<T: Real>(element: &Element<T>, bodies: &Bodies<T>) 
 }
 
 /// The same, with the sum of the magnitudes behind each entry. Entries that are only rounding are zero.
-fn transformation_and_size<T: Real>(element: &Element<T>, bodies: &Bodies<T>) -> (Matrix12<T>, Matrix12) {
+pub(crate) fn transformation_and_size<T: Real>(
+    element: &Element<T>,
+    bodies: &Bodies<T>,
+) -> (Matrix12<T>, Matrix12) {
     let mut out = Matrix12::zeros();
     let mut size = Matrix12::zeros();
     let rotation = element.rotation();
     let magnitudes = |m: SMatrix<T, 6, 6>| m.map(|x| x.double().abs());
+    let errors = Matrix3::from_fn(|row, _| element.axes_error[row]);
+    let axes_error = diagonal_blocks(&errors);
     for end in 0..2 {
         let motion = bodies.motion(element.points[end], &element.offsets[end]);
         let value = product(&rotation, &motion);
-        let bulk = magnitudes(rotation) * magnitudes(motion);
+        let bulk = (magnitudes(rotation) + axes_error) * magnitudes(motion);
         let clean =
             value.zip_map(
                 &bulk,
@@ -151,13 +156,19 @@ impl<T: Real> Contributions<T> {
         let basis = bases(pair, bodies);
         let (b, size) = (product(&b, &basis), size * basis.map(|x| x.double().abs()));
         let k = congruence(&element.stiffness, &b);
-        // |K_ij| <= sqrt(K_ii K_jj) bounds what the congruence adds up for a diagonal entry.
-        let roots = SMatrix::<f64, 1, 12>::from_fn(|_, i| element.unreleased_diagonal[i].sqrt());
-        let most = roots * size;
+        // |K_ij| <= sqrt(K_ii K_jj) bounds what the congruence adds up for a diagonal entry. An error dB of the
+        // transformation changes the entry by 2 B^T K dB + dB^T K dB.
+        let growth = element.release_growth;
+        let roots = SMatrix::<f64, 1, 12>::from_fn(|_, i| (growth * element.unreleased_diagonal[i]).sqrt());
+        let (own, behind) = (roots * b.map(|x| x.double().abs()), roots * size);
         for i in 0..12 {
             let column = 6 * pair[i / 6] + i % 6;
-            self.diagonal[column] += k[(i, i)].double();
-            self.bulk[column] += most[i] * most[i];
+            let diagonal = k[(i, i)].double();
+            // What has cancelled in the transformation.
+            let lost = (behind[i] - own[i]).max(0.0);
+            let moved = 2.0 * diagonal.max(0.0).sqrt() + T::ROUNDING * lost;
+            self.diagonal[column] += diagonal;
+            self.bulk[column] += own[i] * own[i] + moved * lost;
         }
         self.members.push((pair, k));
     }
@@ -330,8 +341,7 @@ fn turned_axes(
             continue;
         }
         adjacent.push(Element::<Extended>::new(m, index)?);
-        let far = element.ends.iter().fold(0.0_f64, |most, end| most.max(end.amax()));
-        let angle = 4.0 * f64::EPSILON * far / element.length;
+        let angle = 4.0 * f64::EPSILON * element.geometry.far / element.length;
         for body in pair {
             tolerances[body] = tolerances[body].max(angle * angle).min(LARGEST_NO_PIVOT);
         }

@@ -118,17 +118,32 @@ impl Factored {
                 Err(FactorError::TooLarge(entries)) => return Err(too_large(unknowns, entries, DOUBLE)),
             }
         }
-        // The stiffness must be formed again: its doubles have lost the digits already.
-        let extended = ScaledStiffness::<Extended>::in_precision(m, &stiffness.numbering)?;
-        let factor = match Factor::new(&extended.upper) {
-            Ok(factor) if factor.least_pivot() > LEAST_PIVOT_EXTENDED => factor,
-            Ok(_) | Err(FactorError::Indefinite) => return Err(mechanism(stiffness, bodies)),
-            Err(FactorError::TooLarge(entries)) => return Err(too_large(unknowns, entries, 2 * DOUBLE)),
-        };
-        let (certificate, inverse_norm) = Certificate::new(&extended, &factor);
-        if certificate.error_bound > accuracy {
-            return Err(ill_conditioned(certificate, accuracy, stiffness, bodies));
+        let factored = Factored::extended(m, stiffness).map_err(|fault| match fault {
+            FactorError::Indefinite => mechanism(stiffness, bodies),
+            FactorError::TooLarge(entries) => too_large(unknowns, entries, 2 * DOUBLE),
+        })?;
+        if factored.certificate.error_bound > accuracy {
+            return Err(ill_conditioned(factored.certificate, accuracy, stiffness, bodies));
         }
+        Ok(factored)
+    }
+
+    /// The factor in double-doubles of a stiffness that is formed again from the model: its doubles have lost the
+    /// digits already.
+    ///
+    /// # Errors
+    /// Pivots that are only rounding; a factor that is too large, also in operations.
+    pub fn extended(m: &Model, stiffness: &ScaledStiffness) -> Result<Factored, FactorError> {
+        if stiffness.numbering.operations > MOST_OPERATIONS {
+            return Err(FactorError::TooLarge(0));
+        }
+        let extended = ScaledStiffness::<Extended>::in_precision(m, &stiffness.numbering)
+            .map_err(|_| FactorError::Indefinite)?;
+        let factor = Factor::new(&extended.upper)?;
+        if factor.least_pivot() <= LEAST_PIVOT_EXTENDED {
+            return Err(FactorError::Indefinite);
+        }
+        let (certificate, inverse_norm) = Certificate::new(&extended, &factor);
         Ok(Factored { solver: Solver::Extended(factor), certificate, inverse_norm })
     }
 }

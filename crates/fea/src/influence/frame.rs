@@ -1,14 +1,14 @@
 //! A frame with its rails, factored once.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::{SVector, Vector3};
 use splines::{Axis, Probe, Rails};
 
-use crate::assembly::{Bodies, Combination, Element, ScaledStiffness};
+use crate::assembly::{Bodies, Combination, Element, Extended, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
-use crate::influence::layout::Layout;
+use crate::influence::layout::{ExactLayout, Layout};
 use crate::model::{Model, Rail};
 
 /// Accuracy of [`FactoredFrame::new`]: largest relative error bound of a compliance.
@@ -42,6 +42,18 @@ pub struct FactoredFrame {
     accuracy: f64,
     line: Option<Arc<Rails>>,
     states: Vec<[Combination; 6]>,
+    exact: ExactLayout,
+    /// The model, for what is formed again in double-doubles.
+    model: Model,
+    extended: OnceLock<Option<ExtendedFrame>>,
+}
+
+/// What the evaluation in double-doubles needs beside the frame.
+#[derive(Debug)]
+pub(crate) struct ExtendedFrame {
+    /// The factor; `None` where that of the frame is in double-doubles.
+    pub factored: Option<Factored>,
+    pub bodies: Bodies<Extended>,
 }
 
 impl FactoredFrame {
@@ -74,11 +86,23 @@ impl FactoredFrame {
         }
         let stiffness = ScaledStiffness::new(m, &elements, &mut bodies)?;
         let factored = Factored::new(m, &stiffness, &bodies, accuracy)?;
-        let (line, states) = match layout {
-            Some(layout) => (Some(Arc::new(layout.line)), layout.states),
+        let (line, states, exact) = match layout {
+            Some(layout) => (Some(Arc::new(layout.line)), layout.states, layout.exact),
             None => Default::default(),
         };
-        Ok(FactoredFrame { elements, bodies, stiffness, factored, accuracy, line, states })
+        let (model, extended) = (m.clone(), OnceLock::new());
+        Ok(FactoredFrame {
+            elements,
+            bodies,
+            stiffness,
+            factored,
+            accuracy,
+            line,
+            states,
+            exact,
+            model,
+            extended,
+        })
     }
 
     /// Condition of the stiffness, and bound of the error of compliances.
@@ -124,6 +148,21 @@ impl FactoredFrame {
     /// Displacements and rotations of all states over the motions of the bodies.
     pub(crate) fn states(&self) -> &[[Combination; 6]] {
         &self.states
+    }
+
+    /// Rail elements and states to all digits.
+    pub(super) fn exact_layout(&self) -> &ExactLayout {
+        &self.exact
+    }
+
+    /// The model that the frame was made of.
+    pub(super) fn model(&self) -> &Model {
+        &self.model
+    }
+
+    /// What the evaluation in double-doubles needs, once it has been asked for.
+    pub(super) fn extended_cell(&self) -> &OnceLock<Option<ExtendedFrame>> {
+        &self.extended
     }
 
     /// The scaled stiffness.

@@ -1,16 +1,24 @@
 //! Influence coefficients between chosen places of the rails.
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
 
-use nalgebra::{DMatrix, Matrix3};
-use splines::{Compliance, ExactSurface, Influence, Probe, RailElement, Rails};
+use nalgebra::{DMatrix, SVector};
+use splines::{Probe, RailElement, ShapeRow};
 
-use crate::assembly::{Matrix12, diagonal_blocks};
+use crate::assembly::Matrix12;
 use crate::error::{EntryAttribute, Error};
 use crate::factor::{Certificate, ForwardSolution, allow_square, dot_products};
 use crate::influence::frame::FactoredFrame;
+use crate::influence::layout::to_rail_axes;
+use crate::influence::rounding::Evaluation;
 use crate::model::{Model, Rail};
+
+/// Bound up to which a grid in doubles is left as it is although its factor is in double-doubles.
+const SHARP: f64 = 2e-14;
+/// The same for more than [`FEW_PROBES`] probes: double-doubles take a time that grows with the square of their number.
+const SHARP_FOR_MANY: f64 = 1e-12;
+/// Probes whose coefficients in double-doubles take no longer than the factor of a small frame.
+const FEW_PROBES: usize = 16;
 
 /// Influence coefficients of a list of probes, with their certificate.
 ///
@@ -58,6 +66,30 @@ impl FactoredFrame {
     /// for a bound above the accuracy; [`Error::Memory`] for too many probes.
     pub fn grid(&self, at: &[Probe]) -> Result<InfluenceGrid, Error> {
         allow_square(EntryAttribute::Grid, at.len())?;
+        let InfluenceGrid { value, certificate } = self.grid_in_doubles(at)?;
+        let bound = certificate.error_bound;
+        // Double-doubles cost little where the factor already has them; elsewhere only where doubles do not do.
+        let sharp = if at.len() <= FEW_PROBES { SHARP } else { SHARP_FOR_MANY };
+        let enough = if certificate.extended { sharp.min(self.accuracy()) } else { self.accuracy() };
+        if bound <= enough {
+            return Ok(InfluenceGrid { value, certificate });
+        }
+        let (value, certificate) = match self.extended_grid(at)? {
+            Some((_, extended)) if bound <= extended.error_bound && bound.is_finite() => (value, certificate),
+            Some(extended) => extended,
+            None => {
+                let diagonal: Vec<f64> = value.diagonal().iter().copied().collect();
+                let stiff = Evaluation::DoublesWhereStiff;
+                let rounding = self.rounding(at, self.unknowns(), &diagonal, stiff)?;
+                let error_bound = self.certificate().error_bound + rounding;
+                (value, Certificate { error_bound, ..certificate })
+            }
+        };
+        Ok(InfluenceGrid { value, certificate: self.require(certificate)? })
+    }
+
+    /// The grid by arithmetic in doubles, whatever its bound.
+    fn grid_in_doubles(&self, at: &[Probe]) -> Result<InfluenceGrid, Error> {
         let mut loads = Vec::with_capacity(at.len());
         // Member, rail element and index of each probe on a member.
         let mut places = Vec::with_capacity(at.len());
@@ -73,18 +105,13 @@ impl FactoredFrame {
         places.sort_unstable();
         // Places on the same member also act on each other between its fixed ends.
         for same in places.chunk_by(|a, b| a.0 == b.0) {
-            let probes: Vec<(Probe, usize)> = same.iter().map(|&(_, cell, k)| (at[k], cell)).collect();
-            let local = self.clamped(&probes)?;
-            for (i, &(_, _, a)) in same.iter().enumerate() {
-                for (j, &(_, _, b)) in same.iter().enumerate() {
-                    value[(a, b)] += local[(i, j)];
-                }
-            }
+            self.add_clamped(at, same, &mut value)?;
         }
         let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
+        let longest = solutions.iter().map(|solution| solution.values.len()).max().unwrap_or(0);
         let mut certificate = self.certificate();
-        certificate.error_bound += self.rounding(at, &solutions, &diagonal)?;
-        Ok(InfluenceGrid { value, certificate: self.require(certificate)? })
+        certificate.error_bound += self.rounding(at, longest, &diagonal, Evaluation::Doubles)?;
+        Ok(InfluenceGrid { value, certificate })
     }
 
     /// Products of all pairs of forward solutions.
@@ -103,31 +130,32 @@ impl FactoredFrame {
         value
     }
 
-    /// b: influence coefficients of places on one member, each with its rail element, while the tips of the
-    /// rigid offsets at both ends of the member are fixed.
-    fn clamped(&self, at: &[(Probe, usize)]) -> Result<DMatrix<f64>, Error> {
-        let mut distinct: Vec<usize> = at.iter().map(|&(_, cell)| cell).collect();
-        distinct.dedup();
-        let cells = self.line()?.elements();
-        // Each rail element becomes a rail of its own with two states of its own.
-        let alone: Vec<RailElement> = distinct
-            .iter()
-            .enumerate()
-            .map(|(k, &cell)| RailElement { rail: k, ends: [2 * k, 2 * k + 1], ..cells[cell].clone() })
-            .collect();
-        let mut nodal = DMatrix::zeros(12 * alone.len(), 12 * alone.len());
-        for (a, b) in self.released_pairs(&alone) {
-            let compliance = self.release_compliance(&alone[a], &alone[b]);
-            nodal.view_mut((12 * a, 12 * b), (12, 12)).copy_from(&compliance);
-        }
-        let probes = at.iter().map(|&(probe, cell)| {
-            let rail = distinct.iter().position(|&other| other == cell).unwrap_or_default();
-            Probe { rail, ..probe }
+    /// Adds b: influence coefficients of places on one member, each with its rail element and its index among the
+    /// probes, while the tips of the rigid offsets at both ends of the member are fixed.
+    fn add_clamped(
+        &self,
+        at: &[Probe],
+        same: &[(usize, usize, usize)],
+        value: &mut DMatrix<f64>,
+    ) -> Result<(), Error> {
+        let line = self.line()?;
+        let rows = same.iter().map(|&(_, _, k)| Ok(line.row(at[k])?)).collect::<Result<Vec<_>, Error>>()?;
+        let releases = self.elements[same[0].0].released.as_deref();
+        let released = releases.map(|released| {
+            let loads = rows.iter().map(|row| released_load(&line.elements()[row.element], row));
+            (&released.compliance, loads.collect::<Vec<_>>())
         });
-        let probes: Vec<Probe> = probes.collect();
-        let mut out = Influence::zeros(probes.len());
-        ExactSurface::new(Arc::new(Rails::new(alone)?), nodal)?.fill(&probes, &mut out)?;
-        Ok(out.value)
+        for (i, &(_, _, a)) in same.iter().enumerate() {
+            for (j, &(_, _, b)) in same[..=i].iter().enumerate() {
+                let mut own = line.clamped_between(&rows[i], &rows[j]);
+                if let Some((compliance, loads)) = &released {
+                    own += (loads[i].transpose() * *compliance * loads[j])[0];
+                }
+                value[(a, b)] += own;
+                value[(b, a)] = value[(a, b)];
+            }
+        }
+        Ok(())
     }
 
     /// Pairs of rail elements, each with itself too, on the same member with releases.
@@ -154,14 +182,12 @@ impl FactoredFrame {
     }
 }
 
-/// From the flexible ends of a member, local axes, to the ends of a rail element on it, rail axes.
-fn to_rail_axes(cell: &RailElement) -> Matrix12 {
-    let axes = cell.member_axes();
-    let back = Matrix3::from_fn(|i, j| axes[j][i]);
-    let mut out = Matrix12::zeros();
-    for end in 0..2 {
-        let own = if cell.is_reversed() { 1 - end } else { end };
-        out.fixed_view_mut::<6, 6>(6 * end, 6 * own).copy_from(&diagonal_blocks(&back));
+/// Load on the flexible ends of a member, local axes, of a unit force with the shape row `row`.
+fn released_load(cell: &RailElement, row: &ShapeRow) -> SVector<f64, 12> {
+    let mut shapes = SVector::zeros();
+    for (&index, &shape) in row.indices().iter().zip(row.values()) {
+        shapes[if index / 6 == cell.ends[0] { index % 6 } else { 6 + index % 6 }] = shape;
     }
-    out
+    let to_rail: Matrix12 = to_rail_axes(cell);
+    to_rail.transpose() * shapes
 }

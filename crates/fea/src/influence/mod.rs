@@ -9,9 +9,10 @@
 //! with the Green's function b of the member between fixed ends. `grid` evaluates it at chosen places,
 //! `surface` keeps the compliance of all states, `effects` does the same for reactions and internal forces.
 //!
-//! Order of the files: `layout`, `frame`, `rounding`, `grid`, `surface`, `functional`, `effects`.
+//! Order of the files: `layout`, `frame`, `rounding`, `extended`, `grid`, `surface`, `functional`, `effects`.
 
 mod effects;
+mod extended;
 mod frame;
 mod functional;
 mod grid;

@@ -1,80 +1,208 @@
-//! Error that the evaluation of a grid in doubles adds to that of the factor.
+//! Error that the evaluation of a grid adds to that of the factor.
 
 use std::collections::BTreeMap;
 
-use splines::Probe;
+use nalgebra::SVector;
+use splines::{Probe, RailElement, RoundingSizes};
 
-use crate::assembly::Combination;
+use crate::assembly::{Combination, Extended, Matrix12, Real, Released};
 use crate::error::Error;
-use crate::factor::{ForwardSolution, Solver};
+use crate::factor::Solver;
 use crate::influence::frame::FactoredFrame;
+use crate::influence::layout::{StateRows, tip_rows, to_rail_axes};
 
 /// Largest relative error of one rounding: half the spacing of doubles at one.
 const UNIT: f64 = 0.5 * f64::EPSILON;
-/// Roundings in an entry of a load, relative to the magnitudes that it is added up from: cubic, place, arms.
+/// Roundings in an entry of a load, relative to the magnitudes that it is added up from: cubic, place, arms; and half
+/// of those at which a term counts as zero.
 const LOAD: f64 = 12.0;
 /// Roundings in the Green's function of the fixed rail element.
 const ELEMENT: f64 = 16.0;
 /// Roundings in products and reciprocals of the sections, and in the last sum.
-const SECTION: f64 = 4.0;
+pub(super) const SECTION: f64 = 4.0;
 /// Roundings in the four lanes of a product, beside one for every fourth term.
 const LANES: f64 = 8.0;
+/// Roundings in the compliance of the releases of a member, relative to those of Green's function.
+const RELEASE: f64 = 4.0;
+/// Roundings of double-doubles in loads, Green's function and products: more than there are, for they cost nothing.
+const EXTENDED: f64 = 1024.0;
+/// Rounding of coordinates in double-doubles, in roundings of their sizes.
+const COORDINATE: f64 = 1.0;
+
+/// The precision whose rounding is bounded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Evaluation {
+    /// Doubles. The bound is infinite for a place whose compliance is only rounding.
+    Doubles,
+    /// Doubles, without such places.
+    DoublesWhereStiff,
+    /// Double-doubles, without such places.
+    Extended,
+}
+
+impl Evaluation {
+    /// Relative errors of an entry of a load and of Green's function.
+    fn units(self) -> [f64; 2] {
+        match self {
+            Evaluation::Extended => [EXTENDED * Extended::ROUNDING; 2],
+            _ => [LOAD * UNIT, ELEMENT * UNIT],
+        }
+    }
+}
 
 impl FactoredFrame {
-    /// Bound of |error of G_ij| / sqrt(G_ii G_jj) from the rounding of loads, products and rail elements, for
-    /// the probes `at` with L^-1 p = `solutions` and G_ii = `diagonal`.
+    /// Bound of |error of G_ij| / sqrt(G_ii G_jj) from the rounding of loads, products and rail elements in doubles,
+    /// for the probes `at` with G_ii = `diagonal`; `longest` is the number of terms of a product.
     ///
     /// With w = L^-1 p an error dp changes w by |L^-1 dp| <= sum |dp_k| |L^-1 e_k|, and G_ij by that times
-    /// |w_j|. A place whose compliance is itself only rounding does not count. The norms |L^-1 e_k| are at
-    /// first bounded by sqrt(|K^-1|); only if that bound does not meet the accuracy are they computed.
+    /// |w_j|. An error of the place changes the load by its derivative. The norms |L^-1 e_k| are at first bounded by
+    /// sqrt(|K^-1|); only if that bound does not meet the accuracy are they computed.
     ///
     /// # Source
     /// Higham, Accuracy and Stability of Numerical Algorithms (2002), sections 3.1 and 5.1.
-    pub(crate) fn rounding(
+    pub(super) fn rounding(
         &self,
         at: &[Probe],
-        solutions: &[ForwardSolution],
+        longest: usize,
         diagonal: &[f64],
+        evaluation: Evaluation,
     ) -> Result<f64, Error> {
+        let products = UNIT * (SECTION + 0.25 * longest as f64 + LANES);
         let bound = match self.solver() {
             Solver::Double(_) => Some(self.inverse_norm().sqrt()),
             Solver::Extended(_) => None,
         };
-        let rough = self.rounding_with(&mut UnitNorms::new(self, bound), at, solutions, diagonal)?;
+        let rough =
+            products + self.place_rounding(&mut UnitNorms::new(self, bound), at, diagonal, evaluation)?;
         if bound.is_none() || self.certificate().error_bound + rough <= self.accuracy() {
             return Ok(rough);
         }
-        self.rounding_with(&mut UnitNorms::new(self, None), at, solutions, diagonal)
+        Ok(products + self.place_rounding(&mut UnitNorms::new(self, None), at, diagonal, evaluation)?)
     }
 
-    fn rounding_with(
+    /// The same in double-doubles, with `inverse_norm` of their stiffness, rounded to doubles at the end.
+    pub(super) fn extended_rounding(
+        &self,
+        at: &[Probe],
+        diagonal: &[f64],
+        inverse_norm: f64,
+    ) -> Result<f64, Error> {
+        let bounds = [Some(inverse_norm.sqrt()), None];
+        let mut places = f64::INFINITY;
+        for bound in bounds {
+            places =
+                self.place_rounding(&mut UnitNorms::new(self, bound), at, diagonal, Evaluation::Extended)?;
+            if places <= UNIT {
+                break;
+            }
+        }
+        Ok(SECTION * UNIT + places)
+    }
+
+    /// Largest relative error of loads and Green's function over the places.
+    fn place_rounding(
         &self,
         norms: &mut UnitNorms,
         at: &[Probe],
-        solutions: &[ForwardSolution],
         diagonal: &[f64],
+        evaluation: Evaluation,
     ) -> Result<f64, Error> {
+        let [load_unit, element_unit] = evaluation.units();
         let mut worst = 0.0_f64;
-        let mut longest = 0;
-        for ((&probe, solution), &own) in at.iter().zip(solutions).zip(diagonal) {
-            longest = longest.max(solution.values.len());
-            let (row, magnitudes, element) = self.line()?.rounding_magnitudes(probe)?;
+        for (&probe, &own) in at.iter().zip(diagonal) {
+            let (index, axes, sizes) = self.rounding_sizes(probe, evaluation)?;
+            let carrier = &self.line()?.elements()[index];
             let mut moved = 0.0;
-            for (&index, magnitude) in row.indices().iter().zip(magnitudes) {
-                let state = &self.states()[index / 6][index % 6];
-                moved += magnitude * self.load_norm(state, norms);
+            let errors: [f64; 12] = std::array::from_fn(|k| load_unit * sizes.row[k] + sizes.moved_row[k]);
+            for (k, &error) in errors.iter().enumerate().filter(|(_, error)| **error > 0.0) {
+                moved += error * self.state_norm(carrier.ends[k / 6], k % 6, norms, evaluation);
             }
-            let moved = LOAD * UNIT * moved;
-            let size = own.sqrt();
-            if own > 0.0 && moved < 0.5 * size {
-                worst = worst.max(2.0 * moved / size + ELEMENT * UNIT * element / own);
+            let [ends, growth] = self.released_errors(carrier, &sizes.row, &errors, axes * load_unit);
+            moved += ends.sqrt();
+            let element = element_unit * (sizes.green + RELEASE * growth * own) + sizes.moved_green;
+            if moved == 0.0 && element == 0.0 {
+                continue;
+            }
+            let turned = 2.0 * load_unit * (sizes.turned_green / own).sqrt();
+            let relative = 2.0 * moved / own.sqrt() + element / own + turned;
+            if relative < 1.0 {
+                worst = worst.max(relative);
+            } else if evaluation == Evaluation::Doubles {
+                return Ok(f64::INFINITY);
             }
         }
-        Ok(worst + UNIT * (SECTION + 0.25 * longest as f64 + LANES))
+        Ok(worst)
     }
 
-    /// Sum of |p_k| |L^-1 e_k| over the unknowns of a load with the magnitudes of `row`.
-    fn load_norm(&self, row: &Combination, norms: &mut UnitNorms) -> f64 {
+    /// Compliance of the releases of the member that carries an element, under the `errors` of a shape row with the
+    /// sizes `row`; and by how much the releases enlarge the rounding of this compliance.
+    fn released_errors(
+        &self,
+        carrier: &RailElement,
+        row: &[f64; 12],
+        errors: &[f64; 12],
+        turned: f64,
+    ) -> [f64; 2] {
+        let released = carrier.member.and_then(|member| self.elements[member.id].released.as_deref());
+        let Some(Released { compliance, growth, .. }) = released else { return [0.0; 2] };
+        let to_rail: Matrix12 = to_rail_axes(carrier);
+        let all = Matrix12::from_fn(|i, j| if i / 3 == j / 3 { turned } else { 0.0 });
+        let (row, errors) = (SVector::<f64, 12>::from(*row), SVector::<f64, 12>::from(*errors));
+        // A load at one end of the rail element acts at the other end of the member where that runs against it.
+        let errors = to_rail.abs().transpose() * errors + swapped_if(all * row, carrier.is_reversed());
+        [(errors.transpose() * compliance.abs() * errors)[0] * growth, *growth]
+    }
+
+    /// Element of a probe, the error of its axes in roundings, and sizes behind its functions there.
+    fn rounding_sizes(
+        &self,
+        probe: Probe,
+        evaluation: Evaluation,
+    ) -> Result<(usize, f64, RoundingSizes), Error> {
+        let line = self.line()?;
+        let near = line.row(probe)?.element;
+        let layout = self.exact_layout();
+        if evaluation == Evaluation::Extended {
+            let element = self.carrier(near, probe);
+            let [first, last] = layout.elements[element].x;
+            let x = Extended::from(probe.x);
+            let distances = [(x - first).double(), (last - x).double()];
+            let errors = layout.coordinates[element].map(|x| COORDINATE * Extended::ROUNDING * x);
+            let (fractions, shift) = place_and_shift(distances, (last - first).double(), errors);
+            let axes = layout.axes_error[element];
+            return Ok((
+                element,
+                axes,
+                line.rounding_sizes(element, probe.axis, fractions, [axes, shift], false),
+            ));
+        }
+        let [first, last] = line.elements()[near].x;
+        let distances = [probe.x - first, last - probe.x];
+        // The rounding of the ends to doubles is known.
+        let errors = layout.rounding(near);
+        let (fractions, shift) = place_and_shift(distances, last - first, errors);
+        let axes = layout.axes_error[near] * Extended::ROUNDING / UNIT;
+        let mut sizes = line.rounding_sizes(near, probe.axis, fractions, [axes, shift], true);
+        // The place may be on the next element.
+        let unsure = distances.iter().zip(errors).any(|(x, error)| error > 0.0 && *x <= 2.0 * error);
+        if unsure && evaluation == Evaluation::Doubles {
+            sizes.moved_green = f64::INFINITY;
+        }
+        Ok((near, axes, sizes))
+    }
+
+    /// Sum of |p_k| |L^-1 e_k| over the unknowns of a load along degree of freedom `dof` of a state, with the
+    /// magnitudes of its row.
+    fn state_norm(&self, state: usize, dof: usize, norms: &mut UnitNorms, evaluation: Evaluation) -> f64 {
+        match &self.exact_layout().states[state] {
+            StateRows::Tip { point, offset, rail } if evaluation == Evaluation::Extended => {
+                self.load_norm(&tip_rows(&self.bodies, *point, offset, rail)[dof], norms)
+            }
+            _ => self.load_norm(&self.states()[state][dof], norms),
+        }
+    }
+
+    fn load_norm<T: Real>(&self, row: &Combination<T>, norms: &mut UnitNorms) -> f64 {
         let mut total = 0.0;
         for (column, size) in row.magnitudes() {
             let (body, own) = (&self.bodies.list[column / 6], column % 6);
@@ -89,6 +217,23 @@ impl FactoredFrame {
         }
         total
     }
+}
+
+/// Distances of a place from both ends in lengths of the element, and the error of the smaller distance by those of the
+/// coordinates of the ends.
+fn place_and_shift(distances: [f64; 2], extent: f64, errors: [f64; 2]) -> ([f64; 2], f64) {
+    let fractions = distances.map(|x| x / extent);
+    let near = usize::from(fractions[1] < fractions[0]);
+    // Places beyond an end count as the end.
+    if distances[near] < -errors[near] {
+        return (fractions, 0.0);
+    }
+    (fractions, errors[near] + fractions[near].max(0.0) * (errors[0] + errors[1]))
+}
+
+/// Loads on both ends of a member, exchanged where it runs against its rail element.
+fn swapped_if(loads: SVector<f64, 12>, reversed: bool) -> SVector<f64, 12> {
+    SVector::from_fn(|k, _| loads[if reversed { (k + 6) % 12 } else { k }])
 }
 
 /// |L^-1 e_k|: one bound for all, or computed for each unknown that is asked for.

@@ -7,6 +7,7 @@ use sprs::CsMat;
 use crate::error::Error;
 use crate::influence::FactoredFrame;
 use crate::model::Model;
+use crate::modes::decoupled::{ExcitingForces, Part};
 use crate::modes::mass::ScaledMass;
 use crate::modes::mode::{Count, Mode, Modes};
 
@@ -24,27 +25,46 @@ impl FactoredFrame {
     /// # Errors
     /// As [`FactoredFrame::modes`]; [`Error::TooManyModes`] for more than [`MOST_DENSE_UNKNOWNS`] unknowns.
     pub fn all_modes(&self, m: &Model) -> Result<Modes, Error> {
-        let stiffness = self.stiffness();
-        let mass = ScaledMass::new(m, &self.elements, &self.bodies, stiffness)?;
-        let unknowns = stiffness.len();
+        let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
+        self.all_of(&Part::whole(self, &mass), &mass)
+    }
+
+    /// All modes of finite frequency of the unknowns that `forces` can move, as [`FactoredFrame::all_modes`].
+    ///
+    /// # Errors
+    /// As [`FactoredFrame::all_modes`], where only the unknowns that `forces` can move are counted.
+    pub fn all_excited_modes(&self, m: &Model, forces: &ExcitingForces) -> Result<Modes, Error> {
+        let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
+        self.all_of(&Part::moved_by(forces, self, &mass), &mass)
+    }
+
+    fn all_of(&self, part: &Part, mass: &ScaledMass) -> Result<Modes, Error> {
+        let unknowns = part.len();
         if unknowns > MOST_DENSE_UNKNOWNS {
             return Err(Error::TooManyModes { unknowns, most: MOST_DENSE_UNKNOWNS });
         }
-        let norms = self.norms(&mass)?;
-        let modes: Vec<Mode> = spectrum(&stiffness.upper, &mass.upper)
+        let norms = self.norms(mass)?;
+        let modes: Vec<Mode> = spectrum(&part.stiffness, &part.mass, usize::MAX)
             .ok_or(Error::Modes { asked: unknowns, found: 0 })?
             .into_iter()
-            .map(|(lambda, phi)| self.mode(&mass, norms, lambda, &phi))
+            .map(|(lambda, phi)| self.mode(part, mass, norms, lambda, &phi))
             .collect();
         let shift = modes.last().map_or(0.0, |mode| mode.omega);
         let count = Count { shift, below: modes.len(), next: None };
-        Ok(self.collect_modes(modes, count, &mass))
+        Ok(self.collect_modes(modes, count, mass))
     }
 }
 
-/// All (lambda, phi) of K phi = lambda M phi with finite lambda, phi^T M phi = 1, lowest first; K and M by their
-/// upper triangles. `None` where the factor or the eigenvalues fail.
-fn spectrum(stiffness: &CsMat<f64>, mass: &CsMat<f64>) -> Option<Vec<(f64, DVector<f64>)>> {
+/// The lowest `count` (lambda, phi) of K phi = lambda M phi with finite lambda, phi^T M phi = 1, lowest first; K and M
+/// by their upper triangles. `None` where the factor or the eigenvalues fail.
+pub(super) fn spectrum(
+    stiffness: &CsMat<f64>,
+    mass: &CsMat<f64>,
+    count: usize,
+) -> Option<Vec<(f64, DVector<f64>)>> {
+    if stiffness.cols() == 0 {
+        return Some(Vec::new());
+    }
     let dense = |upper: &CsMat<f64>| {
         let mut full = Mat::<f64>::zeros(upper.rows(), upper.rows());
         for (value, (i, j)) in upper.iter() {
@@ -63,8 +83,8 @@ fn spectrum(stiffness: &CsMat<f64>, mass: &CsMat<f64>) -> Option<Vec<(f64, DVect
     let (values, mut vectors) = (eigen.S(), eigen.U().to_owned());
     lower.transpose().solve_upper_triangular_in_place(&mut vectors);
     let size = vectors.nrows();
-    let largest = if size == 0 { 0.0 } else { values[size - 1] };
-    let finite = (0..size).rev().filter(|&k| values[k] > MASSLESS * largest);
+    let largest = values[size - 1];
+    let finite = (0..size).rev().filter(|&k| values[k] > MASSLESS * largest).take(count);
     // phi = L^-T y has y^T y = 1 and phi^T M phi = 1/lambda: scale it to modal mass 1.
     Some(
         finite

@@ -6,11 +6,12 @@ use crate::assembly::{BendingPlane, Element, Matrix12, arm, bending_planes, tran
 use crate::error::Error;
 use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
-use crate::modes::mass::{Cubic, bending_shapes, release_shapes, unreleased_mass};
+use crate::modes::interior::InteriorMotion;
+use crate::modes::mass::{release_shapes, unreleased_mass};
 use crate::modes::mode::Mode;
+use crate::modes::shapes::{Cubic, Vector12, bending_shapes, uniform_load_shape};
 
 type Vector6 = SVector<f64, 6>;
-type Vector12 = SVector<f64, 12>;
 
 /// Places and weights of Gauss quadrature on -1 to 1, exact to degree five.
 const GAUSS: [[f64; 2]; 3] =
@@ -34,10 +35,12 @@ pub struct InertialEffects {
     pub modes: DMatrix<f64>,
 }
 
-/// Forces M a on the references of the bodies, and the acceleration of the flexible ends of each member, local.
+/// Forces M a on the references of the bodies, and the acceleration of each member, local: of its flexible ends, and by
+/// the uniform loads under which it deflects between them.
 struct InertiaForces {
     on_bodies: Vec<Vector6>,
     end_accelerations: Vec<Vector12>,
+    loads: Vec<[f64; 2]>,
 }
 
 impl FactoredFrame {
@@ -62,7 +65,8 @@ impl FactoredFrame {
         let rigid = self.inertia_forces(m, &[0, 1, 2, 3, 4, 5], |&k, body| {
             arm(&Vector3::from(m.points[reference(body)])).column(k).into_owned()
         });
-        let shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
+        let mut shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
+        self.add_interior_motions(m, modes, &mut shapes);
         let mut out = InertialEffects {
             rigid: DMatrix::zeros(effects.len(), 6),
             modes: DMatrix::zeros(effects.len(), modes.len()),
@@ -92,6 +96,7 @@ impl FactoredFrame {
         let zero = || InertiaForces {
             on_bodies: vec![SVector::zeros(); bodies],
             end_accelerations: vec![Vector12::zeros(); self.elements.len()],
+            loads: vec![[0.0; 2]; self.elements.len()],
         };
         let mut out: Vec<InertiaForces> = all.iter().map(|_| zero()).collect();
         for (index, (element, member)) in self.elements.iter().zip(&m.members).enumerate() {
@@ -111,6 +116,24 @@ impl FactoredFrame {
             self.add_rigid_mass(mass, &motions, &mut out);
         }
         out
+    }
+
+    /// Adds the forces of the interior motions of members in modes.
+    fn add_interior_motions(&self, m: &Model, modes: &[Mode], out: &mut [InertiaForces]) {
+        for motion in InteriorMotion::all(m, &self.elements, &self.bodies) {
+            let InteriorMotion { member, plane, ref coupling, .. } = motion;
+            let element = &self.elements[member];
+            let b = transformation(element, &self.bodies);
+            let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
+            let force = ends.transpose() * coupling;
+            for (forces, mode) in out.iter_mut().zip(modes) {
+                let Some(load) = mode.loads.get(member).map(|loads| loads[plane]) else { continue };
+                forces.loads[member][plane] = load;
+                for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
+                    forces.on_bodies[body] += force.fixed_rows::<6>(6 * end) * load;
+                }
+            }
+        }
     }
 
     fn add_rigid_mass(&self, mass: &PointMass, motions: &[Vec<Vector6>], out: &mut [InertiaForces]) {
@@ -136,16 +159,14 @@ impl FactoredFrame {
         forces: &InertiaForces,
     ) -> f64 {
         let elastic: f64 = motions.iter().zip(&forces.on_bodies).map(|(u, f)| u.dot(f)).sum();
-        let own = functional
-            .section
-            .as_ref()
-            .map_or(0.0, |section| self.own_member(m, section, &forces.end_accelerations[section.member]));
+        let own = functional.section.as_ref().map_or(0.0, |section| self.own_member(m, section, forces));
         elastic - functional.direct.evaluate(&forces.on_bodies) + own
     }
 
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
     /// integral of m N a over the part before the section.
-    fn own_member(&self, m: &Model, section: &splines::InternalForce, ends: &Vector12) -> f64 {
+    fn own_member(&self, m: &Model, section: &splines::InternalForce, forces: &InertiaForces) -> f64 {
+        let (ends, loads) = (&forces.end_accelerations[section.member], &forces.loads[section.member]);
         let (element, member) = (&self.elements[section.member], &m.members[section.member]);
         let pair = self.bodies.pair(element.points);
         let cross_section = &m.sections[member.section];
@@ -154,7 +175,11 @@ impl FactoredFrame {
         }
         let distributed =
             DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
-        let fixed = unreleased_mass(element, cross_section, m.theory, member.kind) * ends;
+        let mut fixed = unreleased_mass(element, cross_section, m.theory, member.kind) * ends;
+        if *loads != [0.0; 2] {
+            let interior = InteriorMotion::of_member(m, section.member, element);
+            interior.iter().for_each(|motion| fixed += motion.coupling * loads[motion.plane]);
+        }
         let end_forces: f64 = section.ends.iter().zip(fixed.iter()).map(|(a, b)| a * b).sum();
         let to = section.place * element.length;
         end_forces
@@ -162,7 +187,7 @@ impl FactoredFrame {
                 .iter()
                 .map(|[place, weight]| {
                     let z = 0.5 * to * (1.0 + place);
-                    let load = distributed.force(ends, z / element.length);
+                    let load = distributed.force(ends, loads, z / element.length);
                     let balance = section.component.balance(to - z);
                     0.5 * to * weight * balance.iter().zip(load).map(|(a, b)| a * b).sum::<f64>()
                 })
@@ -201,8 +226,8 @@ struct DistributedMass<'a> {
 
 impl DistributedMass<'_> {
     /// Force and moment per length, local, at the fraction `at` of the length, for accelerations `ends` of the
-    /// flexible ends.
-    fn force(&self, ends: &Vector12, at: f64) -> [f64; 6] {
+    /// flexible ends and those under the uniform loads `loads`.
+    fn force(&self, ends: &Vector12, loads: &[f64; 2], at: f64) -> [f64; 6] {
         let section = self.section;
         let linear = |k: usize| section.mass * ((1.0 - at) * ends[k] + at * ends[k + 6]);
         let mut out = [0.0; 6];
@@ -210,13 +235,13 @@ impl DistributedMass<'_> {
         if self.kind == MemberKind::Beam {
             out[3] = linear(3) * section.gyration_squared(section.iy + section.iz);
         }
-        for (plane, second) in bending_planes(&self.element.flexibility).iter().zip([section.iz, section.iy])
-        {
+        let planes = bending_planes(&self.element.flexibility);
+        for ((plane, second), load) in planes.iter().zip([section.iz, section.iy]).zip(loads) {
             if plane.bending.is_infinite() {
                 out[plane.deflection] = linear(plane.deflection);
                 continue;
             }
-            let [deflection, rotation] = self.bending(plane, ends, at);
+            let [deflection, rotation] = self.bending(plane, ends, *load, at);
             out[plane.deflection] = section.mass * deflection;
             if self.theory == BeamTheory::Timoshenko {
                 out[plane.rotation] = plane.sign * section.mass * section.gyration_squared(second) * rotation;
@@ -226,15 +251,19 @@ impl DistributedMass<'_> {
     }
 
     /// Accelerations of deflection and rotation of the section at the fraction `at` of the length.
-    fn bending(&self, plane: &BendingPlane, ends: &Vector12, at: f64) -> [f64; 2] {
+    fn bending(&self, plane: &BendingPlane, ends: &Vector12, load: f64, at: f64) -> [f64; 2] {
         let length = self.element.length;
         let shapes = bending_shapes(plane.shear_ratio(length), length);
         let (v, turn, sign) = (plane.deflection, plane.rotation, plane.sign);
         let moved = [ends[v], sign * ends[turn], ends[v + 6], sign * ends[turn + 6]];
-        let value = |cubic: &Cubic| cubic.iter().rev().fold(0.0, |sum, c| sum * at + c);
+        let value = |powers: &[f64]| powers.iter().rev().fold(0.0, |sum, c| sum * at + c);
         let sum = |pick: fn(&(Cubic, Cubic)) -> &Cubic| -> f64 {
             shapes.iter().zip(moved).map(|(pair, moved)| value(pick(pair)) * moved).sum()
         };
-        [sum(|pair| &pair.0), sum(|pair| &pair.1)]
+        if load == 0.0 {
+            return [sum(|pair| &pair.0), sum(|pair| &pair.1)];
+        }
+        let (deflection, rotation) = uniform_load_shape(plane, length);
+        [sum(|pair| &pair.0) + load * value(&deflection), sum(|pair| &pair.1) + load * value(&rotation)]
     }
 }

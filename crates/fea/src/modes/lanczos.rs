@@ -5,8 +5,9 @@ use nalgebra::{DMatrix, DVector, DVectorView};
 use sprs::CsMat;
 
 use crate::assembly::symmetric_product;
-use crate::factor::{FactorError, Solver};
+use crate::factor::{Factor, FactorError, Solver};
 use crate::modes::count::negative_eigenvalues;
+use crate::modes::decoupled::Part;
 
 /// Number of vectors in a block.
 const BLOCK: usize = 8;
@@ -33,19 +34,33 @@ pub(super) struct Pencil<'a> {
     /// Upper triangle of M.
     pub mass: &'a CsMat<f64>,
     /// Factor of K.
-    pub factor: &'a Solver,
+    pub factor: PencilFactor<'a>,
+}
+
+/// A factor of K, or of a larger matrix of which K is a diagonal block without entries beside it.
+#[derive(Clone, Copy)]
+pub(super) enum PencilFactor<'a> {
+    /// Of K.
+    Own(&'a Factor<f64>),
+    /// Of the stiffness of the frame to which the part belongs.
+    OfFrame(&'a Solver, &'a Part),
 }
 
 impl Pencil<'_> {
     /// Number of unknowns.
     pub fn len(&self) -> usize {
-        self.factor.len()
+        self.stiffness.cols()
     }
 
     /// K^-1 x.
     pub fn solve(&self, mut x: DVector<f64>) -> DVector<f64> {
-        self.factor.solve(x.as_mut_slice());
-        x
+        match self.factor {
+            PencilFactor::Own(factor) => {
+                factor.solve(x.as_mut_slice());
+                x
+            }
+            PencilFactor::OfFrame(solver, part) => part.solve(solver, &x),
+        }
     }
 }
 

@@ -1,10 +1,14 @@
 //! The lowest natural modes, with a proof that none is missing.
 
+use nalgebra::DVector;
+
 use crate::error::Error;
-use crate::factor::{Factor, Solver};
+use crate::factor::Factor;
 use crate::influence::FactoredFrame;
 use crate::model::{Model, Rail};
-use crate::modes::lanczos::{Lanczos, Pencil};
+use crate::modes::all::{MOST_DENSE_UNKNOWNS, spectrum};
+use crate::modes::decoupled::{ExcitingForces, Part};
+use crate::modes::lanczos::{Lanczos, Pencil, PencilFactor};
 use crate::modes::mass::ScaledMass;
 use crate::modes::mode::{Count, Modes};
 
@@ -18,10 +22,15 @@ const MOST_EXTRA: usize = 64;
 const GAPS: usize = 3;
 /// Number of further eigenvalues that are computed if none of the gaps can be used.
 const STEP: usize = 8;
-/// Error of a frequency (eps times condition) that is accepted from a factor in doubles.
-const DOUBLES_SUFFICE: f64 = 1e-9;
+/// Error of a frequency (eps times condition) that is accepted from a factor in doubles: of modes that are asked for,
+/// and of modes that are the degrees of freedom of a simulation, whose members are cut for the same error.
+const DOUBLES_SUFFICE: [f64; 2] = [1e-9, 1e-6];
 /// Most searches, each continued after a count that found more.
 const ATTEMPTS: usize = 12;
+/// Number of unknowns for each mode up to which dense matrices are faster than the search.
+const DENSE_UNKNOWNS_PER_MODE: usize = 16;
+/// Number of unknowns up to which dense matrices are always faster.
+const FEW_UNKNOWNS: usize = 100;
 
 /// The `count` lowest modes of a frame: K phi = omega^2 M phi, M the consistent mass of the members (mass per
 /// length of their sections) and the rigid masses.
@@ -37,8 +46,20 @@ pub fn modes(m: &Model, rails: &[Rail], count: usize) -> Result<Modes, Error> {
 impl FactoredFrame {
     /// [`modes`] of a frame that is already factored; `m` is the model that the frame was made of.
     ///
-    /// Shift-invert block Lanczos finds the modes. Then L D L^T of K - sigma^2 M is formed, with sigma between
-    /// the last frequency and the next: its negative pivots count the modes below sigma.
+    /// # Errors
+    /// As [`FactoredFrame::excited_modes`].
+    pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
+        let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
+        self.lowest_of(&Part::whole(self, &mass), &mass, count, DOUBLES_SUFFICE[0])
+    }
+
+    /// The `count` lowest modes among those of the unknowns that `forces` can move; `m` is the model that the frame
+    /// was made of. Modes of the other unknowns do not move under these forces.
+    ///
+    /// Small problems are solved with dense matrices. Otherwise shift-invert block Lanczos finds the modes. Then
+    /// L D L^T of K - sigma^2 M is formed, with sigma between the last frequency and the next: its negative pivots
+    /// count the modes below sigma. If rounding does not allow the count, dense matrices show that none is missing,
+    /// provided that there are at most [`MOST_DENSE_UNKNOWNS`] unknowns.
     ///
     /// # Errors
     /// [`Error::Mechanism`] for a degree of freedom with mass that nothing stiffens; [`Error::NoMass`];
@@ -46,27 +67,64 @@ impl FactoredFrame {
     ///
     /// # Source
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
-    pub fn modes(&self, m: &Model, count: usize) -> Result<Modes, Error> {
-        let (stiffness, solver) = (self.stiffness(), self.solver());
-        // Inverse iterations need many solves: double-doubles only where doubles would cost digits.
-        let double = match solver {
-            Solver::Extended(_) if self.certificate().condition * f64::EPSILON < DOUBLES_SUFFICE => {
-                Factor::new(&stiffness.upper).ok().map(Solver::Double)
+    pub fn excited_modes(&self, m: &Model, forces: &ExcitingForces, count: usize) -> Result<Modes, Error> {
+        let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
+        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count, DOUBLES_SUFFICE[1])
+    }
+
+    /// The lowest modes of `part`; its frequencies may have the relative error `error`.
+    fn lowest_of(&self, part: &Part, mass: &ScaledMass, count: usize, error: f64) -> Result<Modes, Error> {
+        let norms = self.norms(mass)?;
+        let suffices = self.certificate().condition * f64::EPSILON < error;
+        let is_small = part.len() <= FEW_UNKNOWNS.max(DENSE_UNKNOWNS_PER_MODE * count);
+        let pairs = if suffices && is_small && part.len() <= MOST_DENSE_UNKNOWNS {
+            dense(part, count)
+        } else {
+            match self.lanczos(part, count, suffices) {
+                Err(error @ Error::Modes { .. }) if part.len() <= MOST_DENSE_UNKNOWNS => {
+                    dense(part, count).or(Err(error))
+                }
+                found => found,
             }
-            _ => None,
         };
-        let factor = double.as_ref().unwrap_or(solver);
-        let mass = ScaledMass::new(m, &self.elements, &self.bodies, stiffness)?;
-        let norms = self.norms(&mass)?;
-        let pencil = Pencil { stiffness: &stiffness.upper, mass: &mass.upper, factor };
-        let mut lanczos = Lanczos::new(pencil);
+        let (pairs, shown) = pairs?;
+        let mode = |(lambda, phi)| self.mode(part, mass, norms, lambda, &phi);
+        Ok(self.collect_modes(pairs.into_iter().map(mode).collect(), shown, mass))
+    }
+
+    /// The lowest modes by Lanczos, counted. Inverse iterations need many solves: where doubles suffice, the factor
+    /// is in doubles.
+    fn lanczos(&self, part: &Part, count: usize, doubles_suffice: bool) -> Result<(Pairs, Count), Error> {
+        let double = if doubles_suffice { Factor::new(&part.stiffness).ok() } else { None };
+        let factor = match &double {
+            Some(factor) => PencilFactor::Own(factor),
+            None => PencilFactor::OfFrame(self.solver(), part),
+        };
+        let mut lanczos = Lanczos::new(Pencil { stiffness: &part.stiffness, mass: &part.mass, factor });
         let cut = search(&mut lanczos, count)?;
         let found = count.min(lanczos.pairs.converged);
         let next = lanczos.converged_values().get(found).map(|lambda| lambda.sqrt());
-        let mode = |(lambda, phi)| self.mode(&mass, norms, lambda, &phi);
-        let modes = lanczos.modes(found).into_iter().map(mode).collect();
-        Ok(self.collect_modes(modes, Count { shift: cut.lambda.sqrt(), below: cut.below, next }, &mass))
+        Ok((lanczos.modes(found), Count { shift: cut.lambda.sqrt(), below: cut.below, next }))
     }
+}
+
+/// Eigenvalues lambda and their vectors.
+type Pairs = Vec<(f64, DVector<f64>)>;
+
+/// The lowest modes from dense matrices, which give all of them.
+///
+/// # Errors
+/// [`Error::Modes`] if the matrices have no factor or no eigenvalues in doubles.
+fn dense(part: &Part, count: usize) -> Result<(Pairs, Count), Error> {
+    let mut pairs = spectrum(&part.stiffness, &part.mass, count.saturating_add(1))
+        .ok_or(Error::Modes { asked: count, found: 0 })?;
+    let next = pairs.get(count).map(|pair| pair.0);
+    pairs.truncate(count);
+    let last = pairs.last().map_or(0.0, |pair| pair.0);
+    // In the middle of the gap behind the last mode, which may be of no width.
+    let shift = next.map_or(2.0 * last, |next| 0.5 * (last + next)).sqrt();
+    let below = pairs.iter().filter(|pair| pair.0.sqrt() < shift).count();
+    Ok((pairs, Count { shift, below, next: next.map(f64::sqrt) }))
 }
 
 /// A shift, and the number of eigenvalues below it.

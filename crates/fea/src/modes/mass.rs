@@ -10,16 +10,23 @@ use crate::assembly::{
 use crate::dof::Dof;
 use crate::error::Error;
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
+use crate::modes::interior::InteriorMotion;
+use crate::modes::shapes::{bending_shapes, integral_of_product};
 
 /// Mass of a degree of freedom that nothing stiffens, relative to what was added up, that is only rounding.
 const ROUNDING: f64 = 1e-24;
 
-/// The mass of a frame: S M S of the unknowns, S the scale of the stiffness, and that of the whole.
+/// The mass of a frame: S M S of the coordinates, and that of the whole.
+///
+/// The coordinates are the amplitudes of the interior motions, each scaled to twice the strain energy one, then the
+/// unknowns of the stiffness, scaled by S as there.
 #[derive(Debug)]
 pub(crate) struct ScaledMass {
+    /// The interior motions of members.
+    pub(super) interior: Vec<InteriorMotion>,
     /// Upper triangle of S M S.
     pub upper: CsMat<f64>,
-    /// S M r of the unknowns for six rigid motions r of the whole structure, supports included: three
+    /// S M r of the coordinates for six rigid motions r of the whole structure, supports included: three
     /// translations along the global axes, three rotations about the global origin.
     pub rigid: [Vec<f64>; 6],
     /// r^T M r.
@@ -79,18 +86,21 @@ struct MassSum<'a> {
     total: Matrix6,
     /// For each column that nothing stiffens: its mass, and the magnitudes behind it.
     unstiffened: Vec<[f64; 2]>,
+    interior: Vec<InteriorMotion>,
 }
 
 impl<'a> MassSum<'a> {
     fn new(m: &Model, elements: &[Element], bodies: &'a Bodies, numbering: &'a Numbering) -> MassSum<'a> {
-        let n = numbering.column.len();
+        let interior = InteriorMotion::all(m, elements, bodies);
+        let n = interior.len() + numbering.column.len();
         let mut sum = MassSum {
             bodies,
             numbering,
-            triplets: TriMat::with_capacity((n, n), 78 * elements.len() + 21 * m.masses.len()),
+            triplets: TriMat::with_capacity((n, n), 90 * elements.len() + 21 * m.masses.len()),
             rigid: std::array::from_fn(|_| vec![0.0; n]),
             total: Matrix6::zeros(),
             unstiffened: vec![[0.0; 2]; numbering.unknown.len()],
+            interior,
         };
         for (element, member) in elements.iter().zip(&m.members) {
             let section = &m.sections[member.section];
@@ -103,7 +113,33 @@ impl<'a> MassSum<'a> {
             sum.add(m, bodies.pair(element.points), &b, &resisted, &(resisted + unresisted));
         }
         m.masses.iter().for_each(|mass| sum.add_rigid(m, mass));
+        (0..sum.interior.len()).for_each(|index| sum.add_interior(m, elements, index));
         sum
+    }
+
+    /// Adds the mass of an interior motion and what couples it with the ends of its member.
+    fn add_interior(&mut self, m: &Model, elements: &[Element], index: usize) {
+        let motion = &self.interior[index];
+        let element = &elements[motion.member];
+        let load = motion.unit_load();
+        self.triplets.add_triplet(index, index, load * load * motion.mass);
+        let b = transformation(element, self.bodies);
+        let ends = release_shapes(element).map_or(b, |shape| shape * b);
+        let row = ends.transpose() * motion.coupling * load;
+        let first = self.interior.len();
+        for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
+            let own = row.fixed_rows::<6>(6 * end);
+            let moved = self.bodies.list[body].basis.transpose() * own;
+            let reference = Vector3::from(m.points[self.bodies.list[body].reference]);
+            let whole = arm(&reference).transpose() * own;
+            self.rigid.iter_mut().zip(&whole).for_each(|(rigid, &part)| rigid[index] += part);
+            for (k, &value) in moved.iter().enumerate().filter(|(_, value)| **value != 0.0) {
+                if let Some(unknown) = self.numbering.unknown[6 * body + k] {
+                    let scale = self.numbering.scale[unknown];
+                    self.triplets.add_triplet(index, first + unknown, scale * value);
+                }
+            }
+        }
     }
 
     fn add_rigid(&mut self, m: &Model, mass: &PointMass) {
@@ -150,13 +186,15 @@ impl<'a> MassSum<'a> {
                 self.unstiffened[column(i)][1] += bulk[(i, i)];
                 continue;
             };
+            let first = self.interior.len();
             for (k, rigid) in self.rigid.iter_mut().enumerate() {
-                rigid[row] += scale[row] * momentum[(i, k)];
+                rigid[first + row] += scale[row] * momentum[(i, k)];
             }
             for j in 0..12 {
                 let value = 0.5 * (mass[(i, j)] + mass[(j, i)]);
                 if let Some(other) = unknown[column(j)].filter(|&other| row <= other && value != 0.0) {
-                    self.triplets.add_triplet(row, other, scale[row] * value * scale[other]);
+                    let value = scale[row] * value * scale[other];
+                    self.triplets.add_triplet(first + row, first + other, value);
                 }
             }
         }
@@ -164,29 +202,16 @@ impl<'a> MassSum<'a> {
 
     fn finish(self) -> Result<ScaledMass, Error> {
         let total = self.symmetric_total();
-        for (column, [own, bulk]) in self.unstiffened.into_iter().enumerate() {
+        for (column, &[own, bulk]) in self.unstiffened.iter().enumerate() {
             let body = &self.bodies.list[column / 6];
             if body.free[column % 6] && own > ROUNDING * bulk {
                 let freedom = Dof::ALL[column % 6];
                 return Err(Error::Mechanism { point: body.reference, dof: freedom });
             }
         }
-        Ok(ScaledMass { upper: self.triplets.to_csc(), rigid: self.rigid, total })
+        let MassSum { interior, triplets, rigid, .. } = self;
+        Ok(ScaledMass { interior, upper: triplets.to_csc(), rigid, total })
     }
-}
-
-/// A cubic in the fraction of the length: the coefficient of each power.
-pub(super) type Cubic = [f64; 4];
-
-/// Integral of a product of two cubics over 0 to 1.
-fn integral_of_product(a: &Cubic, b: &Cubic) -> f64 {
-    let mut sum = 0.0;
-    for (p, x) in a.iter().enumerate() {
-        for (q, y) in b.iter().enumerate() {
-            sum += x * y / (p + q + 1) as f64;
-        }
-    }
-    sum
 }
 
 /// Consistent mass between the tips of the rigid offsets, releases included:
@@ -293,20 +318,4 @@ impl MemberMass {
             }
         }
     }
-}
-
-/// Deflection and rotation of the member without load, for a unit deflection and a unit rotation of its first
-/// end, then of its last; phi = 12 EI / (G As L^2).
-pub(super) fn bending_shapes(phi: f64, length: f64) -> [(Cubic, Cubic); 4] {
-    let (d, h) = (1.0 / (1.0 + phi), length);
-    let scaled = |factor: f64, cubic: Cubic| cubic.map(|x| factor * x);
-    [
-        (scaled(d, [1.0 + phi, -phi, -3.0, 2.0]), scaled(d / h, [0.0, -6.0, 6.0, 0.0])),
-        (
-            scaled(d * h, [0.0, 1.0 + 0.5 * phi, -2.0 - 0.5 * phi, 1.0]),
-            scaled(d, [1.0 + phi, -4.0 - phi, 3.0, 0.0]),
-        ),
-        (scaled(d, [0.0, phi, 3.0, -2.0]), scaled(d / h, [0.0, 6.0, -6.0, 0.0])),
-        (scaled(d * h, [0.0, -0.5 * phi, 0.5 * phi - 1.0, 1.0]), scaled(d, [0.0, phi - 2.0, 3.0, 0.0])),
-    ]
 }

@@ -3,22 +3,29 @@
 //! M is the consistent mass of the members plus the rigid masses, assembled in the unknowns of the
 //! stiffness. Block Lanczos with the factor of K finds the lowest modes; the number of negative pivots of
 //! K - sigma^2 M proves that none is missing. `refined` cuts members until the mesh no longer shows in the
-//! frequencies; `inertial` gives reactions and internal forces of weight and inertia.
+//! frequencies; `inertial` gives reactions and internal forces of weight and inertia. `decoupled` restricts the
+//! search to the unknowns that given forces can move, and `interior` lets Timoshenko members deflect between nodes
+//! under their own inertia.
 //!
-//! Order of the files: `mass`, `count`, `lanczos`, `mode`, `lowest`, `all`, `refined`, `inertial`.
+//! Order of the files: `shapes`, `interior`, `mass`, `count`, `decoupled`, `lanczos`, `mode`, `all`, `lowest`,
+//! `refined`, `inertial`.
 
 mod all;
 mod count;
+mod decoupled;
 mod inertial;
+mod interior;
 mod lanczos;
 mod lowest;
 mod mass;
 mod mode;
 mod refined;
+mod shapes;
 
 pub use all::MOST_DENSE_UNKNOWNS;
+pub use decoupled::ExcitingForces;
 pub use inertial::InertialEffects;
 pub use lowest::modes;
 pub use mass::rigid_mass;
 pub use mode::{Mode, Modes};
-pub use refined::{RefinedModes, full_modes, refined_modes};
+pub use refined::{RefinedModes, excited_modes, full_modes, refined_modes};

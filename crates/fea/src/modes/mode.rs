@@ -3,11 +3,12 @@
 use std::sync::Arc;
 
 use nalgebra::{DVector, DVectorView, Vector3};
-use splines::{Axis, ExactSurface, Probe, Rails};
+use splines::{Axis, ElementResidual, ExactSurface, Probe, Rails};
 
 use crate::assembly::{Combination, column_norm, symmetric_product};
 use crate::error::Error;
 use crate::influence::FactoredFrame;
+use crate::modes::decoupled::Part;
 use crate::modes::mass::{ScaledMass, rows};
 
 /// A natural mode with modal mass 1: phi^T M phi = 1, K phi = omega^2 M phi.
@@ -16,10 +17,13 @@ pub struct Mode {
     /// Circular frequency, radian/time.
     pub omega: f64,
     /// For each state of the rails its three displacements and three rotations, in the axes of its rail.
-    /// Along a rail element the shape is that of the member without load ([`Modes::at`]).
+    /// Along a rail element the shape is that of the member without load, and under `loads` ([`Modes::at`]).
     pub states: Vec<[f64; 6]>,
     /// For each point its three displacements and three rotations, global.
     pub points: Vec<[f64; 6]>,
+    /// For each member the intensities of uniform loads along its local y and z axes, force/length, under which it
+    /// deflects between its ends. Empty if no member with mass is flexible in shear.
+    pub loads: Vec<[f64; 2]>,
     /// phi^T M r for six rigid motions r of the whole structure with its supports: three translations along
     /// the global axes, three rotations about the global origin. Its squares are the effective modal masses.
     pub coupling: [f64; 6],
@@ -98,23 +102,35 @@ impl FactoredFrame {
         }
     }
 
-    /// A mode from its eigenvalue and its scaled unknowns with modal mass 1.
-    pub(super) fn mode(&self, mass: &ScaledMass, norms: [f64; 2], lambda: f64, phi: &DVector<f64>) -> Mode {
-        let stiffness = &self.stiffness().upper;
-        let force = symmetric_product(stiffness, phi.as_view());
-        let momentum = symmetric_product(&mass.upper, phi.as_view());
+    /// A mode from its eigenvalue and its scaled unknowns, those of `part`, with modal mass 1.
+    pub(super) fn mode(
+        &self,
+        part: &Part,
+        mass: &ScaledMass,
+        norms: [f64; 2],
+        lambda: f64,
+        phi: &DVector<f64>,
+    ) -> Mode {
+        let force = symmetric_product(&part.stiffness, phi.as_view());
+        let momentum = symmetric_product(&part.mass, phi.as_view());
         let size = (norms[0] + lambda * norms[1]) * phi.norm();
         let residual = (force - momentum * lambda).norm() / size;
+        let phi = part.expand(phi.as_slice());
         let coupling =
-            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(phi));
-        let motions = self.body_motions(phi.as_slice());
+            mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(&phi));
+        let (amplitudes, unknowns) = phi.as_slice().split_at(mass.interior.len());
+        let motions = self.body_motions(unknowns);
+        let mut loads = vec![[0.0; 2]; if amplitudes.is_empty() { 0 } else { self.elements.len() }];
+        for (motion, amplitude) in mass.interior.iter().zip(amplitudes) {
+            loads[motion.member][motion.plane] = amplitude * motion.unit_load();
+        }
         let value = |row: &Combination| row.evaluate(&motions);
         let states = self.states().iter().map(|state| state.each_ref().map(value)).collect();
         let points = (0..self.bodies.of_point.len()).map(|point| {
             let motion = self.bodies.motion(point, &Vector3::zeros());
             (motion * motions[self.bodies.of_point[point]]).into()
         });
-        Mode { omega: lambda.sqrt(), states, points: points.collect(), coupling, residual }
+        Mode { omega: lambda.sqrt(), states, points: points.collect(), loads, coupling, residual }
     }
 }
 
@@ -130,11 +146,15 @@ impl Modes {
     /// [`Error::NoRails`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that nothing resists.
     pub fn at(&self, probe: Probe) -> Result<Vec<[f64; 2]>, Error> {
         let row = self.line()?.row(probe)?;
-        let sum = |mode: &Mode, weights: &[f64]| -> f64 {
+        let (element, between) = self.line()?.uniform_load(probe)?;
+        let member = self.line()?.elements()[element].member.map(|member| member.id);
+        let sum = |mode: &Mode, weights: &[f64], k: usize| -> f64 {
             let terms = row.indices().iter().zip(weights);
-            terms.map(|(&index, weight)| weight * mode.states[index / 6][index % 6]).sum()
+            let ends: f64 = terms.map(|(&index, weight)| weight * mode.states[index / 6][index % 6]).sum();
+            let loads = member.and_then(|member| mode.loads.get(member));
+            ends + loads.map_or(0.0, |loads| loads[0] * between[0][k] + loads[1] * between[1][k])
         };
-        Ok(self.modes.iter().map(|mode| [sum(mode, row.values()), sum(mode, row.slopes())]).collect())
+        Ok(self.modes.iter().map(|mode| [sum(mode, row.values(), 0), sum(mode, row.slopes(), 1)]).collect())
     }
 
     /// Rotation of every mode about the rail at x, linear along a rail element: exact if the element runs
@@ -157,11 +177,14 @@ impl Modes {
     ///
     /// G_res = G - sum phi_r phi_r^T / omega_r^2
     ///
-    /// Guarantee: positive semi-definite up to the rounding of G, whatever the number of modes.
+    /// Products of deflections by [`Mode::loads`] with other motions are left out: their sum over all modes is zero.
+    ///
+    /// Guarantee: positive semi-definite up to the rounding of G, for all modes, or for any number of modes without
+    /// such loads.
     ///
     /// # Errors
     /// [`Error::NoRails`]; [`Error::Rail`] for a surface of another frame, by its number of states.
-    pub fn residual(&self, surface: &ExactSurface) -> Result<ExactSurface, Error> {
+    pub fn residual(&self, surface: &ExactSurface) -> Result<ElementResidual, Error> {
         let line = self.line()?;
         let mut nodal = surface.nodal().clone();
         let expected = 6 * line.state_count();
@@ -177,6 +200,17 @@ impl Modes {
                 }
             }
         }
-        Ok(ExactSurface::new(Arc::clone(surface.rails()), nodal)?)
+        let squares = |member: usize| {
+            let sum = |plane: usize| -> f64 {
+                let all =
+                    self.modes.iter().filter_map(|mode| Some(mode.loads.get(member)?[plane] / mode.omega));
+                all.map(|load| load * load).sum()
+            };
+            [sum(0), sum(1)]
+        };
+        let elements = line.elements().iter();
+        let loads = elements.map(|element| element.member.map_or([0.0; 2], |member| squares(member.id)));
+        let rest = ExactSurface::new(Arc::clone(surface.rails()), nodal)?;
+        Ok(ElementResidual::new(rest, loads.collect()))
     }
 }

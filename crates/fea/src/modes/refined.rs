@@ -1,17 +1,29 @@
 //! Modes of a model whose members are cut, so that they are those of the structure and not of its mesh.
 
+use std::sync::Arc;
+
 use nalgebra::Vector3;
 
 use crate::error::Error;
 use crate::influence::{Effect, FactoredFrame};
 use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, Rail, cut_members, flexible_ends};
-use crate::modes::lowest::modes;
-use crate::modes::mode::Modes;
+use crate::modes::decoupled::{Directions, ExcitingForces};
+use crate::modes::mode::{Mode, Modes};
 
 /// Most parts of a member.
 const MOST_PARTS: usize = 128;
-/// Parts of each member while no frequency is known.
+/// Least parts of each member while no frequency is known.
 const FIRST_PARTS: usize = 3;
+/// Least number of parts for each mode while no frequency is known: the highest frequency asked for then errs by a few
+/// per cent.
+const PARTS_PER_MODE: f64 = 1.5;
+
+/// Largest estimated error of a frequency, relative, up to which a mesh is taken to resolve the shape of the mode.
+const RESOLVED: f64 = 2e-3;
+/// Fraction of the modes of a mesh that is kept whatever their errors: on a uniform girder, those up to this estimate.
+const LEAST_RESOLVED: f64 = 1.0 / 8.0;
+/// Factor on the leading errors of a part that deflects under its own inertia, which leave out their coupling.
+const COUPLING: f64 = 1.4;
 
 /// A model with its members cut into parts, and its modes.
 #[derive(Clone, Debug)]
@@ -25,11 +37,41 @@ pub struct RefinedModes {
     /// Largest relative error of a frequency due to the length of the parts, estimated for the highest mode. It
     /// exceeds the accuracy asked for if a member would need more than 128 parts. `None` if not estimated.
     pub error: Option<f64>,
+    /// The factored stiffness of the model with these rails.
+    pub frame: Arc<FactoredFrame>,
     /// Modes of the model.
     pub modes: Modes,
 }
 
 impl RefinedModes {
+    /// Drops the modes that the mesh does not resolve, if members of `m`, the given model, are flexible in shear. Without
+    /// such members all modes are kept.
+    ///
+    /// The shear force of a mode that varies over few elements jumps where elements meet, and so do the slope of its
+    /// shape and the generalised force of a wheel that passes. The static part of these jumps cancels against those of
+    /// the residual flexibility, the dynamic part does not: a wheel with a damper feels it at every node, however fine
+    /// the mesh. The modes below the frequency at which the mesh errs by the fraction 1/500 have nearly smooth shapes.
+    /// The motion in the others is static, and belongs to the residual flexibility of the members as given.
+    ///
+    /// [`RefinedModes::error`] is then the estimate for the highest mode kept.
+    ///
+    /// # Errors
+    /// As [`FactoredFrame::modes`].
+    pub fn keep_resolved(&mut self, m: &Model, forces: &ExcitingForces) -> Result<(), Error> {
+        let all = &mut self.modes.modes;
+        if all.iter().all(|mode| mode.loads.is_empty()) {
+            return Ok(());
+        }
+        let directions = member_directions(&self.frame, &self.model, Some(forces), &self.parts)?;
+        let error = |mode: &Mode| largest_error(m, &self.parts, &directions, mode.omega);
+        let least = (LEAST_RESOLVED * all.len() as f64).ceil() as usize;
+        let count = all.iter().take_while(|mode| error(mode) <= RESOLVED).count().max(least);
+        self.error = all.get(..count).and_then(<[Mode]>::last).map(error);
+        self.modes.next = all.get(count).map(|mode| mode.omega);
+        all.truncate(count);
+        Ok(())
+    }
+
     /// An effect of the given model as one of the model cut into parts. A section where two parts meet is just
     /// inside the second.
     #[must_use]
@@ -55,55 +97,118 @@ impl RefinedModes {
 /// of members with evenly distributed mass.
 ///
 /// Between points the shapes are those of the member without load. In a part of length h this raises omega by
-/// the fraction (k h)^4 / 1440 in bending, with k^4 = m omega^2 / EI; m omega^2 h^2 / (24 G As) in shear; and
-/// m omega^2 h^2 / (24 EA), or the like for twist. Starting from a coarse mesh, whose frequencies are too high,
+/// the fraction (k h)^4 / 1440 in bending, with k^4 = m omega^2 / EI; and m omega^2 h^2 / (24 EA), or the like for twist.
+/// In a part that is flexible in shear and deflects under its own inertia too, the fractions are those of the parts of
+/// the inertia that this deflection leaves out: m omega^2 k^2 h^4 / (1440 G As) + m omega^2 k^2 h^6 / (201600 EI) for
+/// the linear part of the load, with k the wavenumber of the beam, and m omega^2 r^4 k^2 h^2 / (24 EI) for the moment of
+/// the rotation, with r the radius of gyration. Starting from a coarse mesh, whose frequencies are too high,
 /// members are cut until each term is below `accuracy` at the highest frequency asked for. Trusses and rods are
 /// not cut, nor are beams without an axial or bending stiffness that others have: their mass acts at their ends.
 ///
 /// # Errors
-/// As [`modes`].
+/// As [`FactoredFrame::modes`].
 ///
 /// # Source
 /// Leading terms of the dispersion of cubic and linear elements: Belytschko and Mindle (1987), in Reliability of
 /// Methods for Engineering Analysis; Hughes, The Finite Element Method (1987), section 9.1.
 pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> Result<RefinedModes, Error> {
-    let mut parts = first_parts(m, rails, FIRST_PARTS)?;
+    refine(m, rails, None, count, accuracy)
+}
+
+/// The `count` lowest modes among those of the unknowns that `forces` can move, with members cut as by
+/// [`refined_modes`]. Only deformations in which these forces can move a member are refined.
+///
+/// # Errors
+/// As [`FactoredFrame::excited_modes`].
+pub fn excited_modes(
+    m: &Model,
+    rails: &[Rail],
+    forces: &ExcitingForces,
+    count: usize,
+    accuracy: f64,
+) -> Result<RefinedModes, Error> {
+    refine(m, rails, Some(forces), count, accuracy)
+}
+
+fn refine(
+    m: &Model,
+    rails: &[Rail],
+    forces: Option<&ExcitingForces>,
+    count: usize,
+    accuracy: f64,
+) -> Result<RefinedModes, Error> {
+    let each = (PARTS_PER_MODE * count as f64 / m.members.len().max(1) as f64).ceil();
+    let mut parts = first_parts(m, rails, FIRST_PARTS.max((each as usize).min(MOST_PARTS)))?;
+    let mut directions = None;
     loop {
         let (model, rails) = cut_members(m, rails, &parts);
-        let found = modes(&model, &rails, count)?;
+        let frame = FactoredFrame::new(&model, &rails)?;
+        let directions = match &directions {
+            Some(known) => known,
+            None => directions.insert(member_directions(&frame, &model, forces, &parts)?),
+        };
+        let found = match forces {
+            Some(forces) => frame.excited_modes(&model, forces, count)?,
+            None => frame.modes(&model, count)?,
+        };
         let highest = found.modes.last().map_or(0.0, |mode| mode.omega);
         // If the coarse mesh has fewer modes than asked for, its highest says nothing about those.
         let short = found.modes.len() < count;
         let next: Vec<usize> = m
             .members
             .iter()
+            .zip(directions)
             .zip(&parts)
-            .map(|(member, &now)| match divisible(m, member) {
+            .map(|((member, &directions), &now)| match divisible(m, member) {
+                true if short && directions != Directions::NONE => (2 * now).min(MOST_PARTS),
+                true => now.max(parts_needed(m, member, directions, highest, accuracy)),
                 false => 1,
-                true if short => (2 * now).min(MOST_PARTS),
-                true => now.max(parts_needed(m, member, highest, accuracy)),
             })
             .collect();
         if next == parts {
-            let error = largest_error(m, &parts, highest);
-            return Ok(RefinedModes { model, rails, parts, error: Some(error), modes: found });
+            let error = Some(largest_error(m, &parts, directions, highest));
+            return Ok(RefinedModes { model, rails, parts, error, frame: Arc::new(frame), modes: found });
         }
         parts = next;
     }
 }
 
-/// All modes of a frame whose beams are cut into `parts` equal parts each: the whole finite-element model in
-/// uncoupled coordinates.
+/// The deformations of each given member that `forces` can cause, from a frame with the members in `parts`.
+fn member_directions(
+    frame: &FactoredFrame,
+    model: &Model,
+    forces: Option<&ExcitingForces>,
+    parts: &[usize],
+) -> Result<Vec<Directions>, Error> {
+    let Some(forces) = forces else { return Ok(vec![Directions::ALL; parts.len()]) };
+    let of_parts = frame.moved_directions(model, forces)?;
+    let mut rest = of_parts.as_slice();
+    let members = parts.iter().map(|&count| {
+        let (own, others) = rest.split_at(count);
+        rest = others;
+        own.iter().fold(Directions::NONE, |all, &part| all.with(part))
+    });
+    Ok(members.collect())
+}
+
+/// All modes that `forces` can excite of a frame whose beams are cut into `parts` equal parts each: the whole
+/// finite-element model in uncoupled coordinates.
 ///
 /// [`RefinedModes::error`] is not estimated: the highest modes of any mesh belong to the mesh.
 ///
 /// # Errors
-/// As [`FactoredFrame::all_modes`].
-pub fn full_modes(m: &Model, rails: &[Rail], parts: usize) -> Result<RefinedModes, Error> {
+/// As [`FactoredFrame::all_excited_modes`].
+pub fn full_modes(
+    m: &Model,
+    rails: &[Rail],
+    forces: &ExcitingForces,
+    parts: usize,
+) -> Result<RefinedModes, Error> {
     let parts = first_parts(m, rails, parts.max(1))?;
     let (model, rails) = cut_members(m, rails, &parts);
-    let modes = FactoredFrame::new(&model, &rails)?.all_modes(&model)?;
-    Ok(RefinedModes { model, rails, parts, error: None, modes })
+    let frame = FactoredFrame::new(&model, &rails)?;
+    let modes = frame.all_excited_modes(&model, forces)?;
+    Ok(RefinedModes { model, rails, parts, error: None, frame: Arc::new(frame), modes })
 }
 
 /// `count` parts for each member that may be cut, 1 for the others.
@@ -124,38 +229,56 @@ fn divisible(m: &Model, member: &Member) -> bool {
         && (0..3).all(|k| own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0))
 }
 
-/// Relative errors of a frequency with a member in one part; each with the power of the number of parts by
-/// which it falls.
-fn errors_of_one_part(m: &Model, member: &Member, omega: f64) -> Vec<(f64, i32)> {
+/// Relative errors of a frequency with a member in one part, for the deformations `directions`; each with the power
+/// of the number of parts by which it falls.
+fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega: f64) -> Vec<(f64, i32)> {
     let section = &m.sections[member.section];
     let ends = flexible_ends(member.points.map(|point| m.points[point]), member.offsets).map(Vector3::from);
     let square = (ends[1] - ends[0]).norm_squared();
     let inertia = section.mass * omega * omega;
     let f = section.flexibility(m.theory);
     let polar = section.gyration_squared(section.iy + section.iz);
-    let fourth = |bending: f64| (inertia * bending * square * square / 1440.0, 4);
     let second = |flexibility: f64| (inertia * flexibility * square / 24.0, 2);
-    let mut all = vec![fourth(f.bending_y), fourth(f.bending_z), second(f.axial), second(f.torsion * polar)];
-    if m.theory == BeamTheory::Timoshenko {
-        all.extend([second(f.shear_y), second(f.shear_z)]);
+    let Directions { axial, torsion, bending } = directions;
+    let mut all = Vec::new();
+    if axial {
+        all.push(second(f.axial));
+    }
+    if torsion {
+        all.push(second(f.torsion * polar));
+    }
+    let planes = [(f.bending_z, f.shear_y, section.iz), (f.bending_y, f.shear_z, section.iy)];
+    for ((c, g, area), _) in planes.into_iter().zip(bending).filter(|(_, moves)| *moves) {
+        if m.theory == BeamTheory::Timoshenko && g > 0.0 {
+            // EI k^4 = m omega^2 (1 + k^2 EI/(G As))
+            let sheared = 0.5 * inertia * g;
+            let wave = sheared + (sheared * sheared + inertia * c).sqrt();
+            let gyration = section.gyration_squared(area);
+            let leading = COUPLING * inertia * wave * square;
+            all.push((leading * g * square / 1440.0, 4));
+            all.push((leading * c * square * square / 201_600.0, 6));
+            all.push((leading * c * gyration * gyration / 24.0, 2));
+        } else {
+            all.push((inertia * c * square * square / 1440.0, 4));
+        }
     }
     all.retain(|(size, _)| size.is_finite());
     all
 }
 
 /// Largest of these errors over all members that may be cut.
-fn largest_error(m: &Model, parts: &[usize], omega: f64) -> f64 {
-    let cut = m.members.iter().zip(parts).filter(|(member, _)| divisible(m, member));
-    let errors = cut.flat_map(|(member, &parts)| {
-        let all = errors_of_one_part(m, member, omega).into_iter();
+fn largest_error(m: &Model, parts: &[usize], directions: &[Directions], omega: f64) -> f64 {
+    let cut = m.members.iter().zip(parts).zip(directions).filter(|((member, _), _)| divisible(m, member));
+    let errors = cut.flat_map(|((member, &parts), &directions)| {
+        let all = errors_of_one_part(m, member, directions, omega).into_iter();
         all.map(move |(size, power)| size / (parts as f64).powi(power))
     });
     errors.fold(0.0, f64::max)
 }
 
 /// Parts of a member for an accuracy at a frequency.
-fn parts_needed(m: &Model, member: &Member, omega: f64, accuracy: f64) -> usize {
-    let parts = errors_of_one_part(m, member, omega)
+fn parts_needed(m: &Model, member: &Member, directions: Directions, omega: f64, accuracy: f64) -> usize {
+    let parts = errors_of_one_part(m, member, directions, omega)
         .into_iter()
         .map(|(size, power)| (size / accuracy).powf(1.0 / f64::from(power)).ceil());
     parts.fold(1.0, f64::max).min(MOST_PARTS as f64) as usize

@@ -89,6 +89,7 @@ pub fn simulation_input(scene: &Scene) -> Result<SimulationInput, UnequalFractio
         },
         end: scene.end,
         output_dt: scene.dt,
+        output_parts: 1,
         accuracy: scene.accuracy,
     };
     Ok(SimulationInput { scene, wheels: names })

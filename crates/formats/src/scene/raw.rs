@@ -115,8 +115,11 @@ pub(crate) struct RawStructure {
     /// Couplings of the foundation "influence" that are taken into account: "all" (default), "within rails" or
     /// "none".
     pub couplings: Option<String>,
-    /// Relative error that the foundation chosen by "auto" may have, at least 1e-7 and below 1; by default 1e-3.
+    /// Relative error that the foundation chosen by "auto" may have, at least 1e-7 and below 1; by default 1e-2.
     pub tolerance: Option<f64>,
+    /// Measure of this error: "extremes" (default), the largest and smallest values and envelopes of every recorded
+    /// quantity, or "history", its values at equal times.
+    pub measure: Option<String>,
     /// Number of rigid parts of the foundation "parts"; by default 2.
     pub count: Option<usize>,
     /// Transition of a wheel between rigid parts: "blend" (default) or "per-part".

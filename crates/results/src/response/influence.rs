@@ -47,6 +47,8 @@ const ROUNDING: f64 = 1e-12;
 pub struct ColumnInfluence {
     columns: Vec<Column>,
     effects: InfluenceLines,
+    /// The effects that `effects` has, in the FE model.
+    sources: Vec<Effect>,
     /// Column and factor of each effect. The springs and supports of one degree of freedom of a point form one
     /// column, and a stress is a sum of internal forces.
     terms: Vec<ColumnTerm>,
@@ -113,7 +115,6 @@ impl ColumnInfluence {
         terms: Vec<ColumnTerm>,
     ) -> Result<ColumnInfluence, fea::Error> {
         let model = &solved.model;
-        let inertia = inertia(effects, built, solved)?;
         let weight = frame.inertial(model, effects, &[])?.rigid;
         let up = Vector3::from(model.up).normalize();
         let dead: Vec<f64> = (0..effects.len())
@@ -121,19 +122,44 @@ impl ColumnInfluence {
             .collect();
         let lines = frame.influence_lines(model, effects)?;
         let mut out = ColumnInfluence {
-            inertia: DMatrix::zeros(columns.len(), inertia.ncols()),
+            inertia: DMatrix::zeros(columns.len(), 0),
             dead: vec![0.0; columns.len()],
             columns,
             effects: lines,
+            sources: effects.to_vec(),
             terms,
         };
         for (e, &ColumnTerm { column, weight }) in out.terms.iter().enumerate() {
             out.dead[column] += weight * dead[e];
-            for k in 0..inertia.ncols() {
-                out.inertia[(column, k)] += weight * inertia[(e, k)];
+        }
+        out.set_motion(built.basis.as_ref(), solved)?;
+        Ok(out)
+    }
+
+    /// Computes the effects of the inertia forces of the motions `basis` of the structure, in place of those of other
+    /// motions.
+    ///
+    /// # Errors
+    /// The errors of the frame solver.
+    pub fn set_motion(
+        &mut self,
+        basis: Option<&MotionBasis>,
+        solved: &SolvedModel,
+    ) -> Result<(), fea::Error> {
+        let effects = inertia(&self.sources, basis, solved)?;
+        self.inertia = DMatrix::zeros(self.columns.len(), effects.ncols());
+        for (e, &ColumnTerm { column, weight }) in self.terms.iter().enumerate() {
+            for k in 0..effects.ncols() {
+                self.inertia[(column, k)] += weight * effects[(e, k)];
             }
         }
-        Ok(out)
+        Ok(())
+    }
+
+    /// Minus the value of a column per unit acceleration of each degree of freedom.
+    #[must_use]
+    pub fn per_acceleration(&self, column: usize) -> Vec<f64> {
+        self.inertia.row(column).iter().copied().collect()
     }
 
     /// For each column, whether any load, weight or inertia force makes it nonzero beyond rounding errors.
@@ -190,6 +216,7 @@ impl ColumnInfluence {
             effects.iter().zip(&self.terms).filter(is_kept).map(|(e, term)| (*e, renumbered(term))).unzip();
         Ok(ColumnInfluence {
             effects: frame.influence_lines(model, &effects)?,
+            sources: effects,
             terms,
             inertia: self.inertia.select_rows(&rows),
             dead: rows.iter().map(|row| self.dead[*row]).collect(),
@@ -361,14 +388,14 @@ impl ColumnList {
 /// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
 fn inertia(
     effects: &[Effect],
-    built: &BuiltFoundation,
+    basis: Option<&MotionBasis>,
     solved: &SolvedModel,
 ) -> Result<DMatrix<f64>, fea::Error> {
-    match &built.basis {
+    match basis {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
-        Some(MotionBasis::Modes { frame, refined }) => {
+        Some(MotionBasis::Modes { refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            Ok(frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
+            Ok(refined.frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),

@@ -139,7 +139,7 @@ impl RailCompliance {
             }
             let is_free = |start: &[f64], end: &[f64]| {
                 !entries.iter().any(|Entry { wheel, probe, .. }| {
-                    foundation.breaks_between(probe.rail, start[*wheel], end[*wheel]).next().is_some()
+                    mechanics.breaks.between(s, probe.rail, start[*wheel], end[*wheel]).len() > 0
                 })
             };
             let inner = |end: &[f64]| -> [Vec<f64>; 2] {

@@ -352,6 +352,34 @@ impl Problem {
         }
     }
 
+    /// Sums of the magnitudes of the changes of the forces by each set of `errors` of penetrations and rates, times its
+    /// weight, with the W and Y of the last problem, into `out`. `forces` are the system, the local properties of the elements,
+    /// the active elements and the forces. Returns false if the Jacobian is singular.
+    pub fn add_responses(
+        &mut self,
+        (system, local, active, force): (&System, &[Local], &[bool], &[f64]),
+        errors: [(&[[f64; 2]], f64); 3],
+        out: &mut [f64],
+    ) -> bool {
+        out.fill(0.0);
+        self.evaluate(system, local, active, force);
+        if !self.factor() {
+            return false;
+        }
+        self.residuals.idle = 0.0;
+        for (errors, weight) in errors {
+            self.residuals.value.fill(0.0);
+            for (&i, law) in self.residuals.acting.iter().zip(&self.residuals.slopes) {
+                let by_other = law.by_other.map_or(0.0, |(other, slope)| slope * errors[other][0]);
+                self.residuals.value[i] =
+                    law.by_penetration * errors[i][0] + law.by_rate * errors[i][1] + by_other;
+            }
+            self.take_newton_step();
+            out.iter_mut().zip(&self.residuals.value).for_each(|(out, by)| *out += weight * by.abs());
+        }
+        true
+    }
+
     /// Whether a factored Jacobian is available.
     pub fn is_factored(&self) -> bool {
         !self.factors.elements.is_empty()

@@ -107,6 +107,17 @@ impl Geometry {
         self.rail_slope[i]
     }
 
+    /// Slope of the deflected rail under element `i` for the degrees of freedom `q` and the forces `force`, without
+    /// that of the unloaded rail's shape.
+    pub fn deflected_slope(&self, i: usize, q: &DVector<f64>, force: &[f64]) -> f64 {
+        along(&self.rails().slope, i, force) + self.shape_slope(i, q)
+    }
+
+    /// The part of this slope by the degrees of freedom of structures.
+    pub fn shape_slope(&self, i: usize, q: &DVector<f64>) -> f64 {
+        along(&self.shapes.all, i, q.as_slice())
+    }
+
     /// Approach of element `i` at the degrees of freedom `q`, without the deflection of the rails.
     pub fn approach(&self, i: usize, q: &DVector<f64>) -> f64 {
         self.rows.approach_at(i, q)

@@ -44,6 +44,41 @@ pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error>
     Ok(false)
 }
 
+/// Largest number of solutions for the rates of penetration at the start of a run.
+const ROUNDS: usize = 12;
+
+/// Finds the active elements and the forces at the start of a run at (t, q, v), as the limit of the motion for t -> 0+.
+/// A wheel on a rail with mass approaches its deflected rail from the start, and the force of a damper between them
+/// contains this rate. The rates depend on the forces, and both are found in turn. A rail without mass keeps its
+/// deflection for an instant, and the forces are those at rest. Returns whether a solution was found.
+///
+/// # Errors
+/// Any error from evaluating the rails.
+pub(crate) fn settle_start(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
+    if !settle(solver, at)? {
+        return Ok(false);
+    }
+    let scale = at.force.iter().fold(0.0_f64, |max, force| max.max(force.abs()));
+    let mut last = at.force.clone();
+    for _ in 0..ROUNDS {
+        if !solver.follow_rails(at) {
+            return Ok(true);
+        }
+        at.is_between = true;
+        let is_settled = settle(solver, at)?;
+        at.is_between = false;
+        if !is_settled {
+            return Ok(false);
+        }
+        let change = last.iter().zip(&at.force).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+        if change <= 1e-13 * scale {
+            break;
+        }
+        last.copy_from_slice(&at.force);
+    }
+    Ok(true)
+}
+
 /// Initial rate of penetration of a contact that closes. If the rail complies, penetration and force are continuous:
 /// the force starts at zero, on the side where the contact presses. On a rigid rail the rate is that of the wheel.
 fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {

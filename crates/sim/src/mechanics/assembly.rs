@@ -16,9 +16,10 @@ use super::inertia::Block;
 use super::kinematics::{Kinematics, Terms};
 use super::state::State;
 use super::wheels::{WheelGroup, WheelPoint, Wheels};
+use crate::scene::breaks::RailBreaks;
 use crate::scene::check::check_carriers;
 use crate::scene::dof::arm_rows;
-use crate::{BodyDof, Error, Foundation, Irregularity, Load, Scene, Travel};
+use crate::{BodyDof, Dynamics, Error, Foundation, Irregularity, Load, Scene, Travel};
 
 /// Cholesky pivot of the mass matrix, as a fraction of the diagonal entry, below which a degree of freedom is treated
 /// as massless.
@@ -28,6 +29,8 @@ const MASSLESS: f64 = 1e-13;
 pub(crate) struct Mechanics<'a> {
     pub scene: &'a Scene,
     pub foundations: &'a [Foundation],
+    /// Coordinates of the rails at which steps end.
+    pub breaks: RailBreaks,
     /// Displacements of the bodies as a linear map of the degrees of freedom.
     pub kinematics: Kinematics<'a>,
     /// All physical wheels.
@@ -40,6 +43,9 @@ pub(crate) struct Mechanics<'a> {
     pub carried: CarriedBodies,
     /// Range of the degrees of freedom of each structure.
     pub structures: Vec<Range<usize>>,
+    /// Frequency of each degree of freedom that is a natural mode, 0 of other ones of structures, and `None` of bodies
+    /// and spins.
+    pub omegas: Vec<Option<f64>>,
     /// Number of all degrees of freedom.
     pub dofs: usize,
     /// Whether the rail coordinate of any wheel depends on the degrees of freedom.
@@ -95,11 +101,13 @@ impl<'a> Mechanics<'a> {
         let mut mechanics = Mechanics {
             scene,
             foundations,
+            breaks: RailBreaks::new(foundations),
             kinematics,
             wheels,
             groups,
             of_contact,
             carried,
+            omegas: frequencies(foundations, &structures, dofs),
             structures,
             dofs,
             moves_freely: false,
@@ -221,6 +229,21 @@ impl<'a> Mechanics<'a> {
         }
         Ok(())
     }
+}
+
+/// Frequencies of the natural modes among `dofs` degrees of freedom.
+fn frequencies(foundations: &[Foundation], structures: &[Range<usize>], dofs: usize) -> Vec<Option<f64>> {
+    let mut omegas = vec![None; dofs];
+    for (range, foundation) in structures.iter().zip(foundations) {
+        omegas[range.clone()].fill(Some(0.0));
+        let dynamics = foundation.structure.as_ref().map(|structure| &structure.dynamics);
+        if let Some(Dynamics::Modes { omega, .. }) = dynamics {
+            for (own, omega) in omegas[range.clone()].iter_mut().zip(omega) {
+                *own = Some(*omega);
+            }
+        }
+    }
+    omegas
 }
 
 /// The first of `count` degrees of freedom that moves no mass independently of those before it. The function factors

@@ -86,6 +86,18 @@ impl State {
             *force = a + s * (b - a);
         }
     }
+
+    /// Sets q to the Bernstein coefficient `k`, 0 to 5, of the polynomial of degree five through q, v and a at both
+    /// ends, by which [`interpolate`](State::interpolate) finds q.
+    pub fn set_coefficient(&mut self, from: &State, to: &State, k: usize) {
+        let h = to.t - from.t;
+        let (at, s) = if k < 3 { (from, k as f64 / 5.0 * h) } else { (to, (k as f64 - 5.0) / 5.0 * h) };
+        // The second derivative is 20 (c0 - 2 c1 + c2) / h^2.
+        let bend = if k == 2 || k == 3 { h * h / 20.0 } else { 0.0 };
+        self.q.copy_from(&at.q);
+        self.q.axpy(s, &at.v, 1.0);
+        self.q.axpy(bend, &at.a, 1.0);
+    }
 }
 
 /// Constant terms of a stage: Q = `q` + (h gamma) V and V = `v` + (h gamma) A; the penetrations are treated in the
@@ -114,5 +126,29 @@ mod tests {
         middle.interpolate(&from, &to, 0.3);
         assert!((middle.q[0] - poly(0.95)).abs() < 1e-13);
         assert!((middle.v[0] - rate(0.95)).abs() < 1e-13);
+    }
+
+    #[test]
+    fn coefficients_are_those_of_a_quintic() {
+        // At t = h s, s^n has the Bernstein coefficients binomial(k, n) / binomial(5, n).
+        let (h, factors) = (2.0_f64, [1.0, -1.0, 2.0, -0.5, 0.3, -0.1]);
+        let derivative = |t: f64, order: i32| {
+            let falling = |n: i32| (0..order).map(|i| f64::from(n - i)).product::<f64>();
+            (order..6).map(|n| factors[n as usize] * falling(n) * t.powi(n - order)).sum::<f64>()
+        };
+        let at = |t: f64| {
+            let mut state = State::zeros(1, 0, 0);
+            state.t = t;
+            (state.q[0], state.v[0], state.a[0]) = (derivative(t, 0), derivative(t, 1), derivative(t, 2));
+            state
+        };
+        let (from, to, mut found) = (at(0.0), at(h), at(0.0));
+        let binomial =
+            |n: usize, k: usize| (0..k).map(|i| (n as f64 - i as f64) / (i as f64 + 1.0)).product::<f64>();
+        for k in 0..6 {
+            let power = |n: usize| factors[n] * h.powi(n as i32) * binomial(k, n) / binomial(5, n);
+            found.set_coefficient(&from, &to, k);
+            assert!((found.q[0] - (0..6).map(power).sum::<f64>()).abs() < 1e-13, "{k}");
+        }
     }
 }

@@ -1,6 +1,8 @@
 //! General numerical methods that do not depend on mechanics: dense products and linear systems, the linear
-//! complementarity problem, root finding in one variable, and the STEP function with its integral.
+//! complementarity problem, root finding in one variable, bounds of polynomials, and the STEP function with its
+//! integral.
 
+pub(crate) mod bernstein;
 pub(crate) mod complementarity;
 pub(crate) mod dense;
 pub(crate) mod root;

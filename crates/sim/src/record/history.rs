@@ -51,6 +51,18 @@ impl History {
         self.values = values;
     }
 
+    /// Every `step`-th sample from the first one, and the last one if `with_last`.
+    #[must_use]
+    pub(crate) fn every(self, step: usize, with_last: bool) -> History {
+        if step <= 1 {
+            return self;
+        }
+        let last = self.len().saturating_sub(1);
+        let kept = (0..self.len()).filter(|i| i % step == 0 || (with_last && *i == last));
+        let values = kept.flat_map(|i| self.sample(i).iter().copied()).collect();
+        History { channels: self.channels, values }
+    }
+
     /// The channels, in the order of each sample.
     #[must_use]
     pub fn channels(&self) -> &[Channel] {

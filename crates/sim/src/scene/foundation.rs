@@ -73,16 +73,6 @@ impl Foundation {
         }
     }
 
-    /// Coordinates along `rail` between `a` and `b`, in either order, at which time steps must end.
-    pub(crate) fn breaks_between(&self, rail: usize, a: f64, b: f64) -> impl Iterator<Item = f64> + '_ {
-        let (low, high) = (a.min(b), a.max(b));
-        let own = self.rails.get(rail).map_or(&[][..], |extent| &extent.breaks);
-        let corners = self.irregularities.get(rail).map_or(&[][..], Irregularity::breaks);
-        let first = corners.partition_point(|x| *x < low);
-        let near = corners[first..].iter().take_while(move |x| **x <= high);
-        own.iter().filter(move |x| (low..=high).contains(*x)).chain(near).copied()
-    }
-
     /// Number of degrees of freedom with mass.
     #[must_use]
     pub fn dofs(&self) -> usize {

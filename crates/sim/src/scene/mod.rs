@@ -6,6 +6,7 @@
 
 pub(crate) mod actuators;
 pub(crate) mod body;
+pub(crate) mod breaks;
 pub(crate) mod carrier;
 pub(crate) mod channel;
 pub(crate) mod check;

@@ -63,6 +63,8 @@ pub struct Scene {
     pub end: f64,
     /// Output interval of the history.
     pub output_dt: f64,
+    /// Number of samples of the history in each output interval, at least 1.
+    pub output_parts: usize,
     /// Required relative accuracy of displacements and forces.
     pub accuracy: f64,
 }
@@ -79,15 +81,20 @@ impl Default for Scene {
             analysis: Analysis::default(),
             end: 1.0,
             output_dt: 0.01,
+            output_parts: 1,
             accuracy: 1e-6,
         }
     }
 }
 
 impl Scene {
-    /// Time of output `k`. It is exactly the end time where the product differs from it by rounding only.
+    /// Time of sample `k`. It is exactly the end time where the product differs from it by rounding only.
     pub(crate) fn output_time(&self, k: u64) -> f64 {
-        let t = k as f64 * self.output_dt;
+        let parts = self.output_parts.max(1) as u64;
+        let mut t = (k / parts) as f64 * self.output_dt;
+        if !k.is_multiple_of(parts) {
+            t += (k % parts) as f64 / parts as f64 * self.output_dt;
+        }
         if (t - self.end).abs() <= 1e-12 * self.end { self.end } else { t }
     }
 

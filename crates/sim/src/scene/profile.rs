@@ -91,6 +91,21 @@ impl Profile {
         }
     }
 
+    /// Largest distance of x from x(`from`) at times from `from` to `to`.
+    #[must_use]
+    pub(crate) fn reach(&self, from: f64, to: f64) -> f64 {
+        let start = self.at(from).x;
+        let first = self.pieces.partition_point(|piece| piece.start <= from).saturating_sub(1);
+        let mut farthest = (self.at(to).x - start).abs();
+        for piece in self.pieces[first..].iter().take_while(|piece| piece.start < to) {
+            let turns = zeros(piece.jerk / 2.0, piece.a, piece.v).map(|s| piece.start + s);
+            for t in turns.chain([piece.start]).filter(|t| (from..=to).contains(t)) {
+                farthest = farthest.max((self.at(t).x - start).abs());
+            }
+        }
+        farthest
+    }
+
     /// The speed, where it is constant until `end` and x does not jump; `None` otherwise.
     #[must_use]
     pub(crate) fn uniform(&self, end: f64) -> Option<f64> {
@@ -241,6 +256,18 @@ mod tests {
             Profile::new(MotionKind::Position, &[[1.0, 2.0], [3.0, 6.0]], 0.0, 0.0).expect("a valid table");
         for (t, x) in [(0.0, 2.0), (1.0, 2.0), (2.0, 4.0), (3.0, 6.0), (9.0, 6.0)] {
             assert_eq!(travel.at(t).x, x, "t = {t}");
+        }
+    }
+
+    #[test]
+    fn reach_includes_turning_points() {
+        // x = 10 t - t^2 up to t = 10, then -10 (t - 10): turns at t = 5 with x = 25
+        let travel =
+            Profile::new(MotionKind::Speed, &[[0.0, 10.0], [10.0, -10.0]], 0.0, 0.0).expect("a valid table");
+        for (from, to, expected) in
+            [(0.0, 4.0, 24.0), (0.0, 9.0, 25.0), (4.0, 7.0, 3.0), (8.0, 12.0, 36.0), (1.0, 1.0, 0.0)]
+        {
+            assert!((travel.reach(from, to) - expected).abs() < 1e-12, "{from} to {to}");
         }
     }
 

@@ -1,78 +1,515 @@
-//! Choice of the foundations of a scene: the lowest fidelity whose error, predicted or measured against a higher
-//! fidelity, is within the tolerance.
+//! Choice of the foundations of a scene: the lowest fidelity whose estimated error is within the tolerance.
+//!
+//! 1. The scene is run with influence functions. This costs least of all flexible foundations.
+//! 2. The wheel forces of this run act on the natural modes ([`tail_errors`]). This costs little and estimates the
+//!    error of leaving out all modes but the lowest m, for each m, m = 0 being the run itself. If the estimate for
+//!    m = 0 is a tenth of the tolerance or less, the choice ends here.
+//! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a tenth of the tolerance. The
+//!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
+//!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
+//!    beyond m modes times that factor is the error of the new run.
+//! 4. The first run is chosen if the difference and the error of the new run together are within the tolerance, and
+//!    otherwise the new run if its error is within 0.8 of the tolerance. If neither is, the number of modes is raised by
+//!    the new estimates, and step 3 is repeated, up to three times. After that the error is reported as exceeding the
+//!    tolerance.
+//!
+//! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
+//! where the estimate of step 2 leaves it open whether they suffice, have only the accuracy of a tenth of the tolerance;
+//! the one that becomes the result is repeated with the accuracy of the result.
+//!
+//! Every structure has its own modes and its own number of them, and all structures are raised in the same run.
 
 use std::ops::ControlFlow;
 
-use super::fidelity::Fidelity;
-use super::joint;
-use super::search::{Candidate, Outcome, Search};
-use super::selection::{Choice, FoundationProvider, Reason, Selection};
-use crate::{Analysis, Scene};
+use super::fidelity::{Fidelity, fastest_bounce, slowest_bounce};
+use super::measure::{Bounces, Measure, Record, difference};
+use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
+use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
+use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
-/// Number of modes that are computed first; they suffice to decide between rigid, influence and two modes.
-const FEW: usize = 3;
+/// Number of modes that are computed first, and at the most.
+const MODES: [usize; 2] = [24, 96];
+/// Least ratio of the number of known modes to the number for which an estimate is used.
+const BEYOND: usize = 3;
+/// Ratio of the estimate for the highest known modes to the limit from which four times as many are computed, not twice.
+const FAR: f64 = 4.0;
+/// Estimate for which a number of modes is chosen, relative to the tolerance.
+const AIM: f64 = 0.1;
+/// Fraction of the tolerance that an estimated error may reach.
+const SAFE: f64 = 0.8;
+/// Estimate for influence functions, relative to the tolerance, above which they are not expected to suffice.
+const HOPELESS: f64 = 10.0;
+/// Estimate for which the number of modes is chosen in a run that only checks influence functions, relative to their own.
+const CHECKED: f64 = 0.02;
+/// Frequency below which modes interact with bodies that bounce on their wheels, relative to that of the fastest bounce.
+const ABOVE_CONTACT: f64 = 3.0;
+/// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
+const NEGLIGIBLE: f64 = 0.1;
+/// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
+const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
+/// The factor where there are no two runs to compare.
+const UNKNOWN: f64 = 3.0;
+/// Largest number of runs with modes.
+const MODAL_RUNS: usize = 3;
+/// Accuracy of the result on uneven rails, relative to the tolerance.
+const UNEVEN: f64 = 3e-3;
+/// Accuracy of a run that only checks influence functions, relative to the tolerance.
+const CHECK_ACCURACY: f64 = 0.1;
+/// Samples for each period of the fastest bounce, and the largest number of samples of a run.
+const SAMPLES: [f64; 2] = [10.0, 40_000.0];
+/// Stages of a run from which its cost counts: shorter runs take some hundredths of a second.
+const LONG: u64 = 10_000;
+/// Ratio of the costs of two runs from which the run of the costlier one, once made, is kept.
+const COSTLY: u64 = 2;
+
 /// Chooses a fidelity for every structure with a tolerance (`None`: the foundation of the structure is fixed) and
-/// runs the scene. Structures that are carried by bodies are chosen first. While one structure is chosen, the others
-/// keep the fidelity chosen for them, or influence before their turn. `watch` receives the time that every run has
-/// reached, and may stop the choice.
-///
-/// First the errors of the fidelities are predicted, see [`PredictedErrors`](crate::PredictedErrors). A fidelity
-/// whose predicted error is much larger than the tolerance is skipped; one whose predicted error is much smaller is
-/// accepted without a check against a higher fidelity. The remaining fidelities are compared by runs: rigid and
-/// influence with the first [`Fidelity::Modal`] whose highest frequency exceeds three times that of the bodies on
-/// their contacts, a number of modes with the next of 2, 4, 6, 8, 12, 16 and full, and full with a mesh of half as
-/// many elements. The run of the chosen fidelity is the result. Where several structures were refined, all are
-/// checked together and refined together until the sum of their tolerances is met. Errors of pitch, roll, lateral
-/// motion and forces, of gauges, and of values between output times are not controlled.
+/// runs the scene. `watch` receives the time that every run has reached, and may stop the choice.
 ///
 /// # Errors
-/// A fixed foundation or an influence foundation that cannot be built, or a scene that cannot be started on any
-/// foundation.
+/// A fixed foundation or an influence foundation that cannot be built, or a scene that cannot be started on it.
 pub fn choose<L: FoundationProvider>(
     scene: &Scene,
-    tolerances: &[Option<f64>],
+    tolerances: &[Option<Tolerance>],
     provider: &mut L,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Selection, L::Error> {
-    let mut foundations = (0..tolerances.len())
-        .map(|structure| provider.foundation(structure, Fidelity::Influence))
-        .collect::<Result<Vec<_>, _>>()?;
-    let mut choices: Vec<Choice> = Vec::new();
-    let (mut last, mut runs) = (None, 0);
-    // A structure on a body is small, so it is chosen while the other foundations are still cheap.
-    let (riding, standing): (Vec<usize>, Vec<usize>) =
-        (0..tolerances.len()).partition(|&structure| foundations[structure].carrier.is_some());
-    for structure in riding.into_iter().chain(standing) {
-        let Some(tolerance) = tolerances[structure] else { continue };
-        if scene.analysis == Analysis::QuasiStatic {
-            choices.push(Choice::new(structure, Fidelity::Influence, Reason::QuasiStatic));
-            continue;
+    let mut search = Search::new(scene, tolerances, provider, watch);
+    let open = search.open();
+    let influence = vec![Fidelity::Influence; tolerances.len()];
+    if open.is_empty() {
+        search.scene.output_parts = scene.output_parts;
+    }
+    let checks = CHECK_ACCURACY * least(tolerances);
+    let accuracy = if open.is_empty() { search.accuracy } else { checks.max(search.accuracy) };
+    let first = search.trial(&influence, accuracy, !open.is_empty())?;
+    let chosen = if open.is_empty() { first } else { search.search(open, first)? };
+    Ok(search.finish(chosen))
+}
+
+/// A run and the fidelities of all structures in it.
+struct Trial {
+    fidelities: Vec<Fidelity>,
+    foundations: Vec<Foundation>,
+    /// The run, with samples between the output times.
+    run: Run,
+    /// The history at the output times.
+    record: Record,
+    /// The accuracy of the run.
+    accuracy: f64,
+}
+
+impl Trial {
+    /// A measure of its computing time.
+    fn cost(&self) -> u64 {
+        let modes = |fidelity: &Fidelity| match fidelity {
+            Fidelity::Modal(count) => *count as u64,
+            _ => 0,
+        };
+        self.run.counts.stages as u64 * (16 + self.fidelities.iter().map(modes).sum::<u64>()) / 16
+    }
+}
+
+/// A structure whose fidelity is to be chosen.
+struct Open {
+    structure: usize,
+    tolerance: f64,
+    basis: ModalBasis,
+    /// Estimates from the wheel forces of the last run.
+    tails: Vec<TailError>,
+    /// Index of its choice.
+    choice: usize,
+}
+
+impl Open {
+    /// Smallest number of modes, at least `least`, whose estimate is at most `limit`; all modes if there is none.
+    fn count_for(&self, limit: f64, least: usize) -> usize {
+        let sufficient = self.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
+        sufficient.map_or(self.basis.structure.dynamics.dofs(), |tail| tail.kept)
+    }
+
+    /// Number of known modes with frequencies below `omega`.
+    fn modes_below(&self, omega: f64) -> usize {
+        self.basis.structure.dynamics.frequencies().iter().filter(|own| **own < omega).count()
+    }
+
+    /// The estimate for `kept` modes.
+    fn tail(&self, kept: usize) -> TailError {
+        let found = self.tails.iter().find(|tail| tail.kept == kept).cloned();
+        let last = self.tails.last().filter(|_| !self.basis.is_whole);
+        found.or_else(|| last.cloned()).unwrap_or(TailError { kept, error: 0.0, quantity: String::new() })
+    }
+}
+
+struct Search<'a, L: FoundationProvider> {
+    /// The scene with the sampling of the trials.
+    scene: Scene,
+    /// Accuracy of the result on foundations without mass, and on those with modes.
+    accuracy: f64,
+    modal_accuracy: f64,
+    tolerances: &'a [Option<Tolerance>],
+    provider: &'a mut L,
+    watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
+    choices: Vec<Choice>,
+    runs: usize,
+}
+
+impl<'a, L: FoundationProvider> Search<'a, L> {
+    fn new(
+        scene: &Scene,
+        tolerances: &'a [Option<Tolerance>],
+        provider: &'a mut L,
+        watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Self {
+        let mut scene = scene.clone();
+        let mut accuracy = scene.accuracy;
+        if scene.analysis == Analysis::Dynamic {
+            for tolerance in tolerances.iter().flatten() {
+                accuracy = accuracy.min(tolerance.run_accuracy());
+            }
+            let wanted = scene.output_dt * SAMPLES[0] / fastest_bounce(&scene);
+            let most = SAMPLES[1] * scene.output_dt / scene.end;
+            scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
-        let few = match provider.modes(structure, FEW) {
-            Ok(None) => {
-                choices.push(Choice::new(structure, Fidelity::Influence, Reason::NoMass));
+        Search {
+            scene,
+            accuracy,
+            modal_accuracy: accuracy,
+            tolerances,
+            provider,
+            watch,
+            choices: Vec::new(),
+            runs: 0,
+        }
+    }
+
+    /// The structures whose choice depends on runs. The choices of the others are made.
+    fn open(&mut self) -> Vec<Open> {
+        let mut open = Vec::new();
+        for (structure, tolerance) in self.tolerances.iter().enumerate() {
+            let Some(tolerance) = tolerance else { continue };
+            let choice = self.choices.len();
+            self.choices.push(Choice::new(structure, Fidelity::Influence, Reason::Unchecked));
+            if self.scene.analysis == Analysis::QuasiStatic {
+                self.choices[choice].reason = Reason::QuasiStatic;
                 continue;
             }
-            // Where the modes cannot be computed, building the fidelities returns the error.
-            few => few.ok().flatten(),
-        };
-        let search = Search::new(scene, tolerance, structure, &mut foundations, provider, watch);
-        let Outcome { choice, found, runs: own } = search.run(few)?;
-        let Candidate { foundation, run, .. } = found;
-        foundations[structure] = foundation;
-        runs += own;
-        choices.push(choice);
-        last = Some(run);
-    }
-    let run = match last {
-        Some(run) => run,
-        None => {
-            runs += 1;
-            provider.run(scene, &foundations, watch)?
+            match self.provider.modes(structure, MODES[0]) {
+                Ok(Some(basis)) if basis.structure.dynamics.dofs() > 0 => {
+                    let (tolerance, tails) = (tolerance.value, Vec::new());
+                    open.push(Open { structure, tolerance, basis, tails, choice });
+                }
+                // no mode that wheels excite: nothing of the mass moves
+                Ok(Some(_)) => {
+                    self.choices[choice].reason = Reason::Sufficient;
+                    self.choices[choice].estimate = Some(0.0);
+                }
+                Ok(None) => self.choices[choice].reason = Reason::NoMass,
+                Err(_) => self.choices[choice].failed.push(Fidelity::Modal(MODES[0])),
+            }
         }
-    };
-    let selection = Selection { choices, run, runs };
-    let mut settled = joint::settle(scene, tolerances, foundations, provider, watch, selection);
-    settled.choices.sort_by_key(|choice| choice.structure);
-    Ok(settled)
+        open
+    }
+
+    /// Runs the scene at `fidelities`, one for each structure, with an accuracy, and observes it if it `is_compared`.
+    fn trial(
+        &mut self,
+        fidelities: &[Fidelity],
+        accuracy: f64,
+        is_compared: bool,
+    ) -> Result<Trial, L::Error> {
+        let auto = fidelities.iter().enumerate().filter(|(s, _)| self.tolerances[*s].is_some());
+        self.provider.begin(&auto.map(|(s, fidelity)| (s, *fidelity)).collect::<Vec<_>>());
+        let built = fidelities.iter().enumerate();
+        let foundations = built
+            .map(|(s, fidelity)| self.provider.foundation(s, *fidelity))
+            .collect::<Result<Vec<_>, _>>()?;
+        self.scene.accuracy = accuracy;
+        let run = self.provider.run(&self.scene, &foundations, self.watch)?;
+        self.runs += 1;
+        let mut record = Record::default();
+        if is_compared && run.status.is_complete() {
+            let is_ended = matches!(run.status, Status::Ended(_));
+            let history = run.history.clone().every(self.scene.output_parts, is_ended);
+            record = self.provider.observe(&history)?;
+        }
+        Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record, accuracy })
+    }
+
+    /// Steps 2 to 4 of the head of this module, from the run `first` with influence functions.
+    fn search(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
+        match first.run.status {
+            Status::Done | Status::Ended(_) => {}
+            // Other foundations may still complete the motion.
+            Status::StepTooSmall(_) => return self.search_without_influence(open, first),
+            // On other foundations the wheels would leave their rails as well.
+            Status::Stopped | Status::Failed(..) => return Ok(first),
+        }
+        let bounces = Bounces {
+            slowest: slowest_bounce(&self.scene, &first.run.history),
+            fastest: fastest_bounce(&self.scene),
+        };
+        let compliances = std::mem::take(&mut first.foundations);
+        // The corners of uneven rails excite modes, whose free oscillations the steps must resolve as well.
+        if compliances.iter().any(|foundation| !foundation.irregularities.is_empty()) {
+            self.modal_accuracy = self.accuracy.min(UNEVEN * least(self.tolerances));
+        }
+        let frequency = 2.0 * std::f64::consts::PI / bounces.fastest;
+        let none = vec![0; open.len()];
+        for own in &mut open {
+            self.estimate(own, &first, &compliances, 0, f64::INFINITY);
+        }
+        let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
+        let mut counts = none.clone();
+        for (own, count) in open.iter_mut().zip(&mut counts) {
+            let aim = AIM * own.tolerance;
+            let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
+            if own.tail(0).error > aim {
+                let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
+                self.estimate(own, &first, &compliances, 1, limit);
+                *count = own.count_for(limit, 1).max(least.min(own.count_for(NEGLIGIBLE * aim, 1)));
+            }
+        }
+        self.note_tails(&open, &none, 1.0, &first);
+        if counts == none {
+            for own in &open {
+                self.settle(own, Fidelity::Influence, Reason::Sufficient, &own.tail(0));
+            }
+            return self.rigid_if_still(&open, first, bounces);
+        }
+        let strictest = self.strictest(&open, &counts);
+        let mut accuracy = if is_hopeless { self.modal_accuracy } else { CHECK_ACCURACY * strictest.value };
+        let mut lower = first;
+        let mut lacking = largest(&open, &none);
+        for round in 1..=MODAL_RUNS {
+            let Some(higher) = self.modal_trial(&open, &counts, accuracy) else {
+                return self.repeated(lower);
+            };
+            for (own, count) in open.iter_mut().zip(&counts) {
+                self.estimate(own, &higher, &compliances, *count, f64::INFINITY);
+            }
+            let apart = difference(&lower.record, &higher.record, strictest.measure, bounces);
+            let factor = apart.largest / lacking.max(f64::MIN_POSITIVE);
+            let factor = factor.clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
+            lacking = largest(&open, &counts);
+            let error = apart.largest + factor * lacking;
+            self.note_runs(&open, &lower, &higher, error, &apart.quantity);
+            self.note_tails(&open, &counts, factor, &higher);
+            if error <= strictest.value {
+                let is_kept = higher.accuracy <= self.modal_accuracy
+                    && lower.run.counts.stages as u64 > LONG
+                    && higher.cost() > COSTLY * lower.cost();
+                let (chosen, reason) =
+                    if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
+                let tail = TailError { kept: 0, error, quantity: apart.quantity };
+                for own in &open {
+                    self.settle(own, chosen.fidelities[own.structure], reason, &tail);
+                }
+                return self.repeated(chosen);
+            }
+            let is_within = |own: &Open, count: usize| factor * own.tail(count).error <= SAFE * own.tolerance;
+            let mut raised = counts.clone();
+            for (own, count) in open.iter_mut().zip(&mut raised) {
+                if !is_within(own, *count) {
+                    let limit = AIM * own.tolerance / factor;
+                    self.estimate(own, &higher, &compliances, *count + 1, limit);
+                    *count = own.count_for(limit, *count + 1).max(*count);
+                }
+            }
+            if raised == counts || round == MODAL_RUNS {
+                for (own, &count) in open.iter().zip(&counts) {
+                    let reason = if is_within(own, count) { Reason::Sufficient } else { Reason::Limit };
+                    let tail = own.tail(count);
+                    let tail = TailError { error: factor * tail.error, ..tail };
+                    self.settle(own, higher.fidelities[own.structure], reason, &tail);
+                }
+                return self.repeated(higher);
+            }
+            (lower, counts, accuracy) = (higher, raised, self.modal_accuracy);
+        }
+        Ok(lower)
+    }
+
+    /// The choice where the run `first` with influence functions could not continue: the first number of modes that
+    /// completes the motion and whose error, estimated with the factor [`UNKNOWN`], is within the tolerance.
+    fn search_without_influence(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
+        for own in &open {
+            self.choices[own.choice].failed.push(Fidelity::Influence);
+        }
+        let compliances = std::mem::take(&mut first.foundations);
+        let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
+        let mut last = first;
+        for round in 1..=MODAL_RUNS {
+            let Some(trial) = self.modal_trial(&open, &counts, self.modal_accuracy) else { break };
+            for (own, count) in open.iter_mut().zip(&counts) {
+                self.estimate(own, &trial, &compliances, *count, SAFE / UNKNOWN * own.tolerance);
+            }
+            self.note_tails(&open, &counts, UNKNOWN, &trial);
+            last = trial;
+            let raised: Vec<usize> = (open.iter().zip(&counts))
+                .map(|(own, &count)| own.count_for(SAFE / UNKNOWN * own.tolerance, count).max(count))
+                .collect();
+            if raised == counts || round == MODAL_RUNS {
+                break;
+            }
+            counts = raised;
+        }
+        for own in open.iter().filter(|_| last.run.status.is_complete()) {
+            let fidelity = last.fidelities[own.structure];
+            let kept = if let Fidelity::Modal(count) = fidelity { count } else { 0 };
+            let tail = own.tail(kept);
+            let tail = TailError { error: UNKNOWN * tail.error, ..tail };
+            let reason = if tail.error <= own.tolerance { Reason::Sufficient } else { Reason::Limit };
+            self.settle(own, fidelity, reason, &tail);
+        }
+        Ok(last)
+    }
+
+    /// A trial, repeated with the accuracy of the result if it was made with a coarser one.
+    fn repeated(&mut self, trial: Trial) -> Result<Trial, L::Error> {
+        let has_modes = trial.fidelities.iter().any(|own| matches!(own, Fidelity::Modal(_)));
+        let accuracy = if has_modes { self.modal_accuracy } else { self.accuracy };
+        if trial.accuracy <= accuracy { Ok(trial) } else { self.trial(&trial.fidelities, accuracy, false) }
+    }
+
+    /// The smallest tolerance of the structures that have modes, in the stricter measure.
+    fn strictest(&self, open: &[Open], counts: &[usize]) -> Tolerance {
+        let all = open.iter().zip(counts).filter(|(_, count)| **count > 0);
+        let own = all.filter_map(|(own, _)| self.tolerances[own.structure]);
+        own.reduce(|a, b| Tolerance {
+            value: a.value.min(b.value),
+            measure: if a.measure == Measure::History { a.measure } else { b.measure },
+        })
+        .unwrap_or(Tolerance { value: 0.0, measure: Measure::History })
+    }
+
+    /// Runs the scene with `counts` modes of the structures `open`; `None` if that is not possible.
+    fn modal_trial(&mut self, open: &[Open], counts: &[usize], accuracy: f64) -> Option<Trial> {
+        let mut fidelities = vec![Fidelity::Influence; self.tolerances.len()];
+        for (own, count) in open.iter().zip(counts).filter(|(_, count)| **count > 0) {
+            fidelities[own.structure] = Fidelity::Modal(*count);
+        }
+        match self.trial(&fidelities, accuracy, true) {
+            Ok(trial) if trial.run.status.is_complete() => Some(trial),
+            _ => {
+                for own in open.iter().filter(|own| fidelities[own.structure] != Fidelity::Influence) {
+                    self.choices[own.choice].failed.push(fidelities[own.structure]);
+                }
+                None
+            }
+        }
+    }
+
+    /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
+    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is a third of them.
+    fn estimate(
+        &mut self,
+        own: &mut Open,
+        trial: &Trial,
+        compliances: &[Foundation],
+        least: usize,
+        limit: f64,
+    ) {
+        loop {
+            let loaded = Loaded {
+                scene: &self.scene,
+                structure: own.structure,
+                foundations: compliances,
+                history: &trial.run.history,
+                record: &trial.record,
+            };
+            own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
+            let known = own.basis.structure.dynamics.dofs();
+            let found = own.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
+            let is_known = found.is_some_and(|tail| BEYOND * tail.kept <= known);
+            if is_known || own.basis.is_whole || known >= MODES[1] {
+                return;
+            }
+            let is_far = own.tails.last().is_none_or(|tail| tail.error > FAR * limit);
+            let count = if is_far { 4 * known } else { 2 * known };
+            match self.provider.modes(own.structure, count.min(MODES[1])) {
+                Ok(Some(basis)) if basis.structure.dynamics.dofs() > known => own.basis = basis,
+                _ => return,
+            }
+        }
+    }
+
+    /// Notes the errors of a run that are estimated from the modes that it lacks.
+    fn note_tails(&mut self, open: &[Open], counts: &[usize], factor: f64, trial: &Trial) {
+        for (own, count) in open.iter().zip(counts) {
+            let tail = own.tail(*count);
+            self.choices[own.choice].tried.push(FidelityTrial {
+                fidelity: trial.fidelities[own.structure],
+                estimate: factor * tail.error,
+                quantity: tail.quantity,
+                against: TrialCheck::Replay(own.basis.structure.dynamics.dofs()),
+                stages: trial.run.counts.stages as u64,
+            });
+        }
+    }
+
+    /// Notes the error of a run that was compared with one of higher fidelity.
+    fn note_runs(&mut self, open: &[Open], lower: &Trial, higher: &Trial, estimate: f64, quantity: &str) {
+        for own in open {
+            let [fidelity, against] = [lower, higher].map(|trial| trial.fidelities[own.structure]);
+            if fidelity != against {
+                self.choices[own.choice].tried.push(FidelityTrial {
+                    fidelity,
+                    estimate,
+                    quantity: quantity.to_owned(),
+                    against: TrialCheck::Run(against),
+                    stages: lower.run.counts.stages as u64,
+                });
+            }
+        }
+    }
+
+    fn settle(&mut self, own: &Open, fidelity: Fidelity, reason: Reason, error: &TailError) {
+        let choice = &mut self.choices[own.choice];
+        (choice.fidelity, choice.reason, choice.estimate) = (fidelity, reason, Some(error.error));
+        choice.quantity.clone_from(&error.quantity);
+    }
+
+    /// Where no rail deflects by more than what the tolerance leaves of the largest displacements, tries rigid rails.
+    fn rigid_if_still(&mut self, open: &[Open], first: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
+        let scales = first.record.scales();
+        let moves = |own: &Open| {
+            let quantities = first.record.quantities.iter().zip(&scales);
+            quantities.filter(|(quantity, _)| matches!(quantity.channel, Some(Channel::Deflection(_)))).any(
+                |(quantity, scale)| quantity.values.iter().any(|value| value.abs() > own.tolerance * scale),
+            )
+        };
+        if open.len() < self.tolerances.len() || open.iter().any(moves) {
+            return self.repeated(first);
+        }
+        let rigid = vec![Fidelity::Rigid; self.tolerances.len()];
+        let Ok(trial) = self.trial(&rigid, self.accuracy, true) else { return self.repeated(first) };
+        let strictest = self.strictest(open, &vec![1; open.len()]);
+        let apart = difference(&trial.record, &first.record, strictest.measure, bounces);
+        self.note_runs(open, &trial, &first, apart.largest, &apart.quantity);
+        if apart.largest > SAFE * strictest.value {
+            return self.repeated(first);
+        }
+        let error = TailError { kept: 0, error: apart.largest, quantity: apart.quantity };
+        for own in open {
+            self.settle(own, Fidelity::Rigid, Reason::Sufficient, &error);
+        }
+        Ok(trial)
+    }
+
+    fn finish(self, chosen: Trial) -> Selection {
+        let mut run = chosen.run;
+        let is_ended = matches!(run.status, Status::Ended(_));
+        run.history = run.history.every(self.scene.output_parts, is_ended);
+        Selection { choices: self.choices, run, runs: self.runs }
+    }
+}
+
+/// The least tolerance of all structures.
+fn least(tolerances: &[Option<Tolerance>]) -> f64 {
+    tolerances.iter().flatten().fold(f64::INFINITY, |least, own| least.min(own.value))
+}
+
+/// Largest estimate of the structures with these numbers of modes.
+fn largest(open: &[Open], counts: &[usize]) -> f64 {
+    open.iter().zip(counts).map(|(own, count)| own.tail(*count).error).fold(0.0, f64::max)
 }

@@ -3,29 +3,44 @@
 use std::ops::ControlFlow;
 
 use super::fidelity::Fidelity;
-use super::predict::PredictedErrors;
+use super::measure::{Measure, Record};
+use super::replay::ModalBasis;
 use crate::run::run;
-use crate::{Error, Foundation, Run, Scene, Structure};
+use crate::{Error, Foundation, History, Run, Scene};
 
-/// Accuracy of the compared runs, relative to the tolerance. Where a load acts abruptly on stiff wheels, the error of
-/// a run may be up to thirty times the accuracy requested.
-pub const RUN_ACCURACY: f64 = 0.03;
-/// Fraction of the tolerance that an estimated error may reach; the margin allows for the error of the higher
-/// fidelity.
-pub(super) const SAFE: f64 = 0.8;
+/// Error that a structure's foundation may cause.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Largest relative error of a recorded quantity.
+    pub value: f64,
+    /// Measure of the error.
+    pub measure: Measure,
+}
+
+impl Tolerance {
+    /// Accuracy of the runs from which the result is chosen: 0.01 of the tolerance for extremes, 0.003 for values at
+    /// equal times. Reactions and internal forces depend on the accelerations of all modes; their errors were up to a
+    /// hundred times the accuracy of the run, and mostly below twenty times.
+    #[must_use]
+    pub fn run_accuracy(&self) -> f64 {
+        match self.measure {
+            Measure::Extremes => 1e-2 * self.value,
+            Measure::History => 3e-3 * self.value,
+        }
+    }
+}
 
 /// Builds the foundations of the structures on demand.
 pub trait FoundationProvider {
     /// Error type of the provider.
     type Error: From<Error>;
 
-    /// The lowest modes, about `count` of them where the structure has as many, that vertical forces on the rails of
-    /// `structure` excite, in ascending order. Frequencies accurate to a few per cent are sufficient. `None`: the
-    /// mass of the structure is not known.
+    /// The lowest modes of `structure` that wheels excite, at least `count` of them where it has as many, in ascending
+    /// order, with its damping. `None`: the mass of the structure is not known, or it has none.
     ///
     /// # Errors
     /// The modes of the structure cannot be computed.
-    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<Structure>, Self::Error>;
+    fn modes(&mut self, structure: usize, count: usize) -> Result<Option<ModalBasis>, Self::Error>;
 
     /// Builds the foundation of `structure` at fidelity `fidelity`, which is ignored for a structure with a fixed
     /// foundation.
@@ -46,6 +61,17 @@ pub trait FoundationProvider {
     ) -> Result<Run, Error> {
         run(scene, foundations, watch)
     }
+
+    /// The quantities whose error matters, from the history of a run on the foundations that were built last.
+    ///
+    /// # Errors
+    /// A quantity that cannot be computed.
+    fn observe(&mut self, history: &History) -> Result<Record, Self::Error> {
+        Ok(Record::of(history))
+    }
+
+    /// Receives the fidelities of the structures before each run.
+    fn begin(&mut self, _fidelities: &[(usize, Fidelity)]) {}
 }
 
 /// Reason for the choice of a fidelity.
@@ -55,27 +81,37 @@ pub enum Reason {
     NoMass,
     /// The analysis is a sequence of equilibria, in which inertia has no effect.
     QuasiStatic,
-    /// The predicted error is far below the tolerance, so no higher fidelity was run.
-    Predicted,
-    /// The estimated error is at most 0.8 of the tolerance, or for the full mesh at most the tolerance.
+    /// It is the lowest fidelity whose estimated error is within the tolerance.
     Sufficient,
-    /// No lower fidelity was sufficient. The estimate is derived from the mesh with half as many elements. It exceeds
-    /// the tolerance, or it is missing because that mesh could not be run.
-    Highest,
-    /// No higher fidelity could be built or run for a check. The error is unknown or exceeds the tolerance.
+    /// A lower fidelity is within the tolerance as well. The run of this one, which showed it, is kept, because
+    /// repeating the lower one would not save anything.
+    Kept,
+    /// The estimated error exceeds the tolerance, and the number of runs or of modes is at its limit.
+    Limit,
+    /// No other fidelity could be built or run for a check. The error is unknown.
     Unchecked,
 }
 
-/// A fidelity that was run and compared with another one.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// How the error of a trial was estimated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TrialCheck {
+    /// The wheel forces of the run acted on this number of modes.
+    Replay(usize),
+    /// The run was compared with one at another fidelity.
+    Run(Fidelity),
+}
+
+/// A fidelity that was run, with its estimated error.
+#[derive(Clone, Debug, PartialEq)]
 pub struct FidelityTrial {
     /// Which.
     pub fidelity: Fidelity,
-    /// Error relative to the run at fidelity `against`, see [`distance`](crate::distance()); infinite where the two
-    /// runs cannot be compared.
+    /// Estimated error; infinite where it is unknown.
     pub estimate: f64,
-    /// Fidelity of the run that it was compared with.
-    pub against: Fidelity,
+    /// The quantity with that error.
+    pub quantity: String,
+    /// How it was estimated.
+    pub against: TrialCheck,
     /// Number of integration stages of its run.
     pub stages: u64,
 }
@@ -91,11 +127,9 @@ pub struct Choice {
     pub reason: Reason,
     /// Estimated error of the choice; `None` where it is not known.
     pub estimate: Option<f64>,
-    /// Predicted errors of the fidelities; `None` where no prediction was possible.
-    pub predicted: Option<PredictedErrors>,
-    /// Fidelities that were skipped because their predicted error is much larger than the tolerance.
-    pub skipped: Vec<Fidelity>,
-    /// Fidelities that were compared with others, in order.
+    /// The quantity with the largest estimated error; empty where none is known.
+    pub quantity: String,
+    /// Estimates in the order in which they were made.
     pub tried: Vec<FidelityTrial>,
     /// Fidelities that could not be built, started or run to the end, in order.
     pub failed: Vec<Fidelity>,
@@ -105,8 +139,8 @@ pub struct Choice {
 pub struct Selection {
     /// One choice for each structure with a tolerance, in the order of the structures.
     pub choices: Vec<Choice>,
-    /// The run with the chosen foundations. Its accuracy is that of the scene, or 0.03 of the tolerance where that is
-    /// finer.
+    /// The run with the chosen foundations. Its accuracy is that of the scene, or [`Tolerance::run_accuracy`] where that
+    /// is finer; on uneven rails it may be finer still.
     pub run: Run,
     /// Number of runs made, including this one.
     pub runs: usize,
@@ -114,7 +148,7 @@ pub struct Selection {
 
 impl Choice {
     pub(super) fn new(structure: usize, fidelity: Fidelity, reason: Reason) -> Choice {
-        let (skipped, tried, failed) = (Vec::new(), Vec::new(), Vec::new());
-        Choice { structure, fidelity, reason, estimate: None, predicted: None, skipped, tried, failed }
+        let (tried, failed) = (Vec::new(), Vec::new());
+        Choice { structure, fidelity, reason, estimate: None, quantity: String::new(), tried, failed }
     }
 }

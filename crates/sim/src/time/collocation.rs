@@ -81,6 +81,9 @@ struct Responses {
 /// Number of step lengths whose responses are stored if there are modes.
 const STORED: usize = 12;
 
+/// Error of a penetration rate at the end of a step, per unit of the difference from its extrapolation.
+const RATE_SHARE: f64 = 0.05;
+
 impl Responses {
     fn new(nodes: &Nodes, n: usize) -> Self {
         let s = nodes.count();
@@ -453,6 +456,17 @@ impl Collocation {
             (at.q[r], at.v[r]) = (q, v);
             at.a[r] = now - omega * (2.0 * zeta * v + omega * q);
         }
+    }
+
+    /// Error of the penetration rate of vertical contact `i`: the difference between the rate at the last node and its
+    /// extrapolation from the start and the other nodes, by the share that remains at the end.
+    pub fn rate_error(&self, from: &State, i: usize) -> f64 {
+        let s = self.count();
+        let mut jump = self.states[s - 1].p_rate[i] - self.nodes.ahead[0] * from.p_rate[i];
+        for b in 1..s {
+            jump -= self.nodes.ahead[b] * self.states[b - 1].p_rate[i];
+        }
+        RATE_SHARE * jump
     }
 
     /// Error of q and v of degree of freedom `r`: the response to the difference between the load of the last node

@@ -6,6 +6,7 @@ use crate::contact::element::{Guard, GuardKind};
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
+use crate::numerics::bernstein::largest_change;
 use crate::numerics::root::narrow;
 
 /// Force by which a step may overshoot an event, relative to the largest contact force.
@@ -36,6 +37,9 @@ pub(crate) fn can_predict(slack: f64) -> bool {
 
 /// Length of the step from time `start` that ends where a wheel with prescribed motion meets a break of its rail, if
 /// a step of length `h` would pass the break.
+///
+/// Breaks are tried in the order in which the wheel meets them. When one is known to shorten the step, those that x
+/// does not reach within the shorter step are left out.
 pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f64> {
     let mechanics = &system.mechanics;
     let mut best: Option<f64> = None;
@@ -46,10 +50,14 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
             let contact = &system.scene.contacts[wheel.contact];
             let offset = mechanics.kinematics.constant(wheel.body)[0];
             let ahead = wheel.hub[0] + offset;
-            let foundation = &system.foundations[contact.structure];
-            for place in foundation.breaks_between(contact.rail, x0 + ahead, x1 + ahead) {
+            let mut reach = best.map_or(f64::INFINITY, |length| profile.reach(start, start + length));
+            let (from, to) = (x0 + ahead, x1 + ahead);
+            for place in mechanics.breaks.between(contact.structure, contact.rail, from, to) {
                 let target = place - ahead;
                 let slack = 1e-9 * (1.0 + target.abs());
+                if (x0 - target).abs() > reach + slack {
+                    break;
+                }
                 if (x0 - target) * (x1 - target) >= 0.0 || (x0 - target).abs() < slack {
                     continue;
                 }
@@ -59,6 +67,7 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
                     - 4.0 * f64::EPSILON * (start + h).abs();
                 if length > 0.0 && length < h * (1.0 - 1e-9) && best.is_none_or(|known| length < known) {
                     best = Some(length);
+                    reach = profile.reach(start, start + length);
                 }
             }
         }
@@ -70,6 +79,9 @@ pub(crate) fn prescribed_break(system: &System, start: f64, h: f64) -> Option<f6
 /// the step and the wheel. The fraction is the root of the position of the wheel on the interpolant, at half of the
 /// `slack` before the break. When the step is repeated until no break is passed, it ends before the break, where the
 /// slope of the rail is still that of the rail element that the wheel is leaving.
+///
+/// Breaks are tried in the order in which the wheel meets them. When one is known to be passed, those that the wheel
+/// does not reach before it on the interpolant are left out.
 pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)> {
     let system = step.system();
     let mechanics = &system.mechanics;
@@ -83,16 +95,20 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
             continue;
         }
         let contact = &system.scene.contacts[wheel.contact];
-        let [x0, x1] = [&step.from, &step.to].map(|at| places.of_wheel(mechanics, w, &at.q));
-        for place in system.foundations[contact.structure].breaks_between(contact.rail, x0, x1) {
+        let (from, to, probe) = (&step.from, &step.to, &mut step.probe);
+        let [x0, x1] = [from, to].map(|at| places.of_wheel(mechanics, w, &at.q));
+        let mut reach = f64::INFINITY;
+        for place in mechanics.breaks.between(contact.structure, contact.rail, x0, x1) {
             let slack = slack * (1.0 + place.abs());
+            if (x0 - place).abs() > reach + slack {
+                break;
+            }
             // A step that starts or ends within the slack of the break is not cut.
             let is_there = (x0 - place).abs() < PASSED * slack || (x1 - place).abs() < slack;
             if (x0 - place) * (x1 - place) >= 0.0 || is_there {
                 continue;
             }
             let aim = place - 0.5 * slack * (x1 - x0).signum();
-            let (from, to, probe) = (&step.from, &step.to, &mut step.probe);
             let fraction = root(|fraction| {
                 probe.interpolate(from, to, fraction);
                 places.of_wheel(mechanics, w, &probe.q) - aim
@@ -100,6 +116,12 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
             if first.is_none_or(|(known, _)| fraction < known) {
                 first = Some((fraction, w));
             }
+            // The position is linear in q, so its Bernstein coefficients are the positions at those of q.
+            let coefficients = std::array::from_fn(|k| {
+                probe.set_coefficient(from, to, k);
+                places.of_wheel(mechanics, w, &probe.q)
+            });
+            reach = largest_change(coefficients, first.map_or(1.0, |(known, _)| known));
         }
     }
     first
@@ -112,8 +134,8 @@ pub(crate) fn at_break(solver: &Solver, w: usize, at: &State, slack: f64) -> Opt
     let x = solver.geometry().places().of_wheel(&system.mechanics, w, &at.q);
     let near = PASSED * slack * (1.0 + x.abs());
     let contact = &system.scene.contacts[system.mechanics.wheels[w].contact];
-    let foundation = &system.foundations[contact.structure];
-    foundation.breaks_between(contact.rail, x - near, x + near).next().map(|_| near)
+    let breaks = &system.mechanics.breaks;
+    (breaks.between(contact.structure, contact.rail, x - near, x + near).len() > 0).then_some(near)
 }
 
 /// Values of the guards of one kind of all elements in the state `at`, for which the geometry must be current.

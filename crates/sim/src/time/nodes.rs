@@ -20,15 +20,18 @@ pub(crate) struct Nodes {
 }
 
 impl Nodes {
+    /// Abscissae of Radau IIA with three nodes, (4 -+ sqrt(6))/10 and 1.
+    pub const RADAU: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+
     /// The nodes of `method`; `None` if it is not a collocation method.
     ///
     /// # Source
     /// Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.5.
     pub fn new(method: Method) -> Option<Nodes> {
-        let (six, fifteen) = (6.0_f64.sqrt(), 15.0_f64.sqrt());
+        let fifteen = 15.0_f64.sqrt();
         let c = match method {
             Method::Auto | Method::Sdirk4 | Method::Series => return None,
-            Method::Radau => vec![(4.0 - six) / 10.0, (4.0 + six) / 10.0, 1.0],
+            Method::Radau => Self::RADAU.to_vec(),
             Method::Gauss2 => vec![0.5 - 3.0_f64.sqrt() / 6.0, 0.5 + 3.0_f64.sqrt() / 6.0],
             Method::Gauss3 => vec![0.5 - fifteen / 10.0, 0.5, 0.5 + fifteen / 10.0],
         };

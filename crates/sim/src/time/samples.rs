@@ -21,7 +21,7 @@ pub(crate) struct Samples {
 
 /// Quantities that are constant in a step and may change at its end: the active elements, and the pieces of uneven
 /// rails below the wheels.
-#[derive(Clone)]
+#[derive(Clone, PartialEq)]
 struct Acting {
     active: ActiveSet,
     pieces: Vec<usize>,
@@ -71,12 +71,13 @@ impl Samples {
         while system.scene.output_time(self.next) <= to {
             let t = system.scene.output_time(self.next);
             let is_end = t >= to * (1.0 - 1e-14);
-            if is_end {
+            if is_end && (self.begun != self.after || !step.has_damped_rails()) {
                 self.sample.copy_from(&step.to);
             } else {
                 self.begun.restore(step.solver);
-                let fraction = (t - from) / (to - from);
+                let fraction = if is_end { 1.0 } else { (t - from) / (to - from) };
                 step.sample(fraction, &mut self.sample)?;
+                self.sample.t = t;
             }
             settle(step.solver, &mut self.sample)?;
             self.recorder.record(system, step.solver.geometry(), &self.sample)?;

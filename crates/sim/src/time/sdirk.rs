@@ -138,6 +138,13 @@ impl Sdirk {
         error
     }
 
+    /// Error of the penetration rate in the last stage that follows from the embedded error of penetration `i`.
+    pub fn rate_error(&self, i: usize) -> f64 {
+        let error: f64 =
+            self.tableau.error.iter().zip(&self.done).map(|(weight, done)| weight * done.p_rates[i]).sum();
+        error / self.tableau.gamma
+    }
+
     /// Energy exchanged in the step of length `h`, by the quadrature of the Runge-Kutta weights.
     pub fn exchanged(&self, h: f64) -> Exchanged {
         let mut sum = Exchanged::default();

@@ -2,14 +2,26 @@
 
 use super::collocation::Collocation;
 use super::nodes::Nodes;
+use super::penetrations::Penetrations;
 use super::sdirk::Sdirk;
 use crate::contact::solver::Solver;
+use crate::contact::solver::errors::StateErrors;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::{Error, Exchanged, Method};
 
 /// Number of step lengths covered by the path along which the compliance is interpolated.
 const PATH: f64 = 4.0;
+
+/// Number of bounces of a wheel up to which the errors of their forces may add up.
+const BOUNCES: f64 = 100.0;
+
+/// Time in which a penetration under a damper between wheel and rail follows its force, per step, below which it has no
+/// error of its own.
+const QUICK: f64 = 0.25;
+
+/// Number of these times after a break or an event at which penetrations have settled.
+const SETTLED: f64 = 12.0;
 
 /// A method of integration with its working memory.
 enum Integrator {
@@ -31,6 +43,25 @@ pub(crate) struct Step<'a, 'b> {
     geometry_time: f64,
     /// Working memory for the end of a path.
     beyond: State,
+    errors: Errors,
+    /// Time of the last break or event.
+    pub last_jump: f64,
+    /// Shortest time in which a penetration follows its force for which this is resolved after a break or an event.
+    pub shortest_delay: f64,
+    /// Whether the step just taken begins neither at a break nor at an event.
+    pub begins_smoothly: bool,
+    /// Penetrations in the step just taken, from its first sample on.
+    penetrations: Option<Penetrations>,
+}
+
+/// Working memory for the errors of a step: of displacements, speeds, penetration rates and forces.
+struct Errors {
+    q: Vec<f64>,
+    v: Vec<f64>,
+    rate: Vec<f64>,
+    force: Vec<f64>,
+    /// Frequencies of the degrees of freedom.
+    frequency: Vec<f64>,
 }
 
 impl<'a, 'b> Step<'a, 'b> {
@@ -41,7 +72,20 @@ impl<'a, 'b> Step<'a, 'b> {
             Some(nodes) => Integrator::Collocation(Box::new(Collocation::new(system, nodes, &start))),
             None => Integrator::Sdirk(Box::new(Sdirk::new(system, &start))),
         };
+        let zeros = |count: usize| vec![0.0; count];
+        let errors = Errors {
+            q: zeros(start.q.len()),
+            v: zeros(start.v.len()),
+            rate: zeros(system.verticals()),
+            force: zeros(start.force.len()),
+            frequency: zeros(start.q.len()),
+        };
         Step {
+            errors,
+            last_jump: start.t,
+            shortest_delay: 0.0,
+            begins_smoothly: false,
+            penetrations: None,
             from: start.clone(),
             arrived: start.clone(),
             probe: start.clone(),
@@ -68,8 +112,14 @@ impl<'a, 'b> Step<'a, 'b> {
         self.to.t - self.from.t
     }
 
+    /// Whether a damper acts between an active wheel and its rail.
+    pub fn has_damped_rails(&self) -> bool {
+        (0..self.system().verticals()).any(|i| self.solver.remembers(i))
+    }
+
     /// Starts the next step at the end of this one.
     pub fn begin(&mut self) {
+        self.penetrations = None;
         self.from.copy_from(&self.to);
     }
 
@@ -123,6 +173,35 @@ impl<'a, 'b> Step<'a, 'b> {
         largest
     }
 
+    /// Errors of the forces of the elements at the end of the step just taken, which follow from the embedded errors
+    /// of the degrees of freedom. Those of bodies count for every bounce over which they add up, at most [`BOUNCES`].
+    pub fn force_errors(&mut self) -> &[f64] {
+        let (h, end) = (self.length(), self.system().scene.end);
+        let Step { solver, from, to, integrator, errors, .. } = self;
+        let Errors { q, v, rate, force, frequency } = errors;
+        let of = |k: usize| match &*integrator {
+            Integrator::Collocation(collocation) => collocation.error(k),
+            Integrator::Sdirk(sdirk) => sdirk.error(k).map(|error| h * error),
+        };
+        solver.for_errors(to, of, |k, [dq, dv]| (q[k], v[k]) = (dq, dv));
+        for (i, rate) in rate.iter_mut().enumerate() {
+            let delay = if solver.remembers(i) { solver.delay(i, to) } else { 0.0 };
+            let is_settling = delay > self.shortest_delay && from.t - self.last_jump < SETTLED * delay;
+            *rate = match &*integrator {
+                Integrator::Sdirk(sdirk) if is_settling || delay > QUICK * h => sdirk.rate_error(i),
+                Integrator::Collocation(collocation) if is_settling => collocation.rate_error(from, i),
+                _ => 0.0,
+            };
+        }
+        let bounces = solver.bounces(to, end, frequency).min(BOUNCES);
+        let is_staged = matches!(integrator, Integrator::Sdirk(_));
+        let errors = StateErrors { at: to, h, is_staged, q, v, rate, frequency, bounces };
+        if !solver.force_errors(&errors, force) {
+            force.fill(f64::INFINITY);
+        }
+        force
+    }
+
     /// Energy exchanged in the step just taken, of length `h`.
     pub fn exchanged(&self, h: f64) -> Exchanged {
         match &self.integrator {
@@ -131,11 +210,36 @@ impl<'a, 'b> Step<'a, 'b> {
         }
     }
 
-    /// Sets `at` to the interpolant of the step just taken, at the given fraction.
+    /// Sets `at` to the interpolant of the step just taken, at the given fraction. The rates of penetrations under
+    /// dampers between wheel and rail follow from the motion ([`Penetrations`]).
     ///
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn sample(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
+        if self.penetrations.is_none() {
+            self.penetrations = Some(self.find_penetrations(at)?);
+        }
+        self.interpolate(fraction, at)?;
+        match &self.penetrations {
+            Some(penetrations) => penetrations.set_rates(self.solver, fraction, at),
+            None => Ok(()),
+        }
+    }
+
+    /// Finds the penetrations in the step just taken; `at` is overwritten.
+    fn find_penetrations(&mut self, at: &mut State) -> Result<Penetrations, Error> {
+        let mut penetrations =
+            Penetrations::new(self.solver, &self.from, self.length(), self.begins_smoothly);
+        for fraction in penetrations.fractions() {
+            self.interpolate(fraction, at)?;
+            penetrations.add(self.solver, at)?;
+        }
+        penetrations.solve(self.solver);
+        Ok(penetrations)
+    }
+
+    /// Sets `at` to the interpolating polynomials of the step just taken, and its modes to their exact values.
+    fn interpolate(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
         self.solver.interpolate([&self.from, &self.arrived], fraction, at)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
             collocation.interpolate(&self.from, fraction, at);

@@ -120,6 +120,7 @@ pub fn bogie(speed: f64, end: f64, damper: Damper) -> Scene {
         analysis: Analysis::Dynamic,
         end,
         output_dt: 0.01 * end,
+        output_parts: 1,
         accuracy: 1e-6,
     }
 }

@@ -116,6 +116,7 @@ pub fn oscillator(mass: f64, frequency: f64, alpha: f64) -> Scene {
         analysis: Analysis::Dynamic,
         end: SPAN / speed,
         output_dt: SPAN / speed / 2000.0,
+        output_parts: 1,
         accuracy: 1e-8,
     }
 }

@@ -42,6 +42,7 @@ pub fn scene(bodies: Vec<Body>, actuators: Actuators, end: f64, accuracy: f64) -
         analysis: Analysis::Dynamic,
         end,
         output_dt: end / 1000.0,
+        output_parts: 1,
         accuracy,
     }
 }

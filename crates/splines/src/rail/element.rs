@@ -1,7 +1,7 @@
 //! A uniform stretch of rail: the data of one rail element.
 
 use crate::error::Error;
-use crate::vector::{cross, dot};
+use crate::vector::{RealNumber, cross, dot};
 
 /// Rounding allowed in the frame of an element: how far its axes may be from orthogonal unit vectors.
 const ORTHOGONALITY: f64 = 1e-9;
@@ -77,46 +77,37 @@ pub struct ElementMember {
 /// assert_eq!(element.place_on_member(5.0), 5.0);
 /// ```
 #[derive(Clone, Debug, PartialEq)]
-pub struct RailElement {
+pub struct RailElement<T = f64> {
     /// Index of the rail.
     pub rail: usize,
     /// First and last rail coordinate, increasing, length.
-    pub x: [f64; 2],
+    pub x: [T; 2],
     /// Indices of the node states at the two ends.
     pub ends: [usize; 2],
     /// Length of the member's stretch, > 0. It exceeds `x[1] - x[0]` where the member is inclined to the
     /// rail.
-    pub length: f64,
+    pub length: T,
     /// 3 x 3, one row an axis: the local axes in the rail frame; local x runs from `ends[0]` to `ends[1]`.
-    pub frame: [[f64; 3]; 3],
+    pub frame: [[T; 3]; 3],
     /// Vector from the flexible axis to the rail, in the rail frame, length.
-    pub offset: [f64; 3],
+    pub offset: [T; 3],
     /// Flexibilities of the section.
     pub flexibility: Flexibility,
     /// The member whose whole flexible part the element stands on; `None` where no other element shares it.
     pub member: Option<ElementMember>,
 }
 
-impl RailElement {
+impl<T: RealNumber> RailElement<T> {
     /// Whether the member runs against the element.
     #[must_use]
     pub fn is_reversed(&self) -> bool {
         self.member.is_some_and(|carrier| carrier.reversed)
     }
 
-    /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail coordinate
-    /// x. Coordinates beyond the element count as its ends.
-    #[must_use]
-    pub fn place_on_member(&self, x: f64) -> f64 {
-        let [first, last] = self.x;
-        let r = if x >= last { 1.0 } else { ((x - first) / (last - first)).clamp(0.0, 1.0) };
-        if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
-    }
-
     /// 3 x 3, one row an axis: the member's own local axes in the rail frame. They are those of `frame`,
     /// turned by half a turn about local y where the member runs against the element.
     #[must_use]
-    pub fn member_axes(&self) -> [[f64; 3]; 3] {
+    pub fn member_axes(&self) -> [[T; 3]; 3] {
         let [x, y, z] = self.frame;
         if self.is_reversed() { [x.map(|a| -a), y, z.map(|a| -a)] } else { self.frame }
     }
@@ -137,6 +128,17 @@ impl RailElement {
             infinite(flexibility.bending_z) || infinite(flexibility.shear_y),
             infinite(flexibility.bending_y) || infinite(flexibility.shear_z),
         ]
+    }
+}
+
+impl RailElement {
+    /// Place along the member, 0..=`length` in the direction of the member's own local x, of rail coordinate
+    /// x. Coordinates beyond the element count as its ends.
+    #[must_use]
+    pub fn place_on_member(&self, x: f64) -> f64 {
+        let [first, last] = self.x;
+        let r = if x >= last { 1.0 } else { ((x - first) / (last - first)).clamp(0.0, 1.0) };
+        if self.is_reversed() { (1.0 - r) * self.length } else { r * self.length }
     }
 
     /// Checks the numbers of element number `index`.
@@ -175,17 +177,58 @@ impl RailElement {
 /// Polynomials in the distance from the nearer end keep their relative accuracy where they vanish at that
 /// end.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct LocalPlace {
+pub(crate) struct LocalPlace<T = f64> {
     /// Which end is nearer, 0 or 1.
     pub end: usize,
     /// Distance from it as a fraction of the element, 0..=0.5.
-    pub r: f64,
+    pub r: T,
 }
 
-impl LocalPlace {
-    /// Distance from the first end as a fraction of the element, 0..=1.
+impl<T: RealNumber> LocalPlace<T> {
+    /// The place of coordinate x in an element with the ends `ends` and 1/extent = `scale`.
     #[inline]
-    pub fn fraction(self) -> f64 {
-        if self.end == 0 { self.r } else { 1.0 - self.r }
+    pub fn of(x: T, ends: [T; 2], scale: T) -> LocalPlace<T> {
+        let [first, last] = [(x - ends[0]) * scale, (ends[1] - x) * scale];
+        let inside = |r: T| if r > T::from(0.0) { r } else { T::from(0.0) };
+        if first <= T::from(0.5) {
+            LocalPlace { end: 0, r: inside(first) }
+        } else {
+            LocalPlace { end: 1, r: inside(last) }
+        }
+    }
+
+    /// The same on the member that carries the element.
+    #[inline]
+    pub fn on_member(self, length: T, reversed: bool) -> MemberPlace<T> {
+        let near = self.r * length;
+        let far = length - near;
+        if (self.end == 1) == reversed {
+            MemberPlace { s: near, q: far }
+        } else {
+            MemberPlace { s: far, q: near }
+        }
+    }
+}
+
+/// A place on a member by its distances from both ends; the smaller one keeps its relative accuracy.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MemberPlace<T = f64> {
+    /// Distance from the first end.
+    pub s: T,
+    /// Distance from the last end.
+    pub q: T,
+}
+
+impl<T: RealNumber> MemberPlace<T> {
+    /// The place as seen from the other end.
+    #[inline(always)]
+    pub fn mirrored(self) -> MemberPlace<T> {
+        MemberPlace { s: self.q, q: self.s }
+    }
+
+    /// Whether the place is before another one, judged by the accurate distances.
+    #[inline(always)]
+    pub fn is_before(self, other: MemberPlace<T>) -> bool {
+        if self.s > self.q && other.s > other.q { self.q > other.q } else { self.s < other.s }
     }
 }

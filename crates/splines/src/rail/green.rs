@@ -5,82 +5,114 @@
 //! function itself; `Plane::magnitude` sums the absolute values of its terms, for bounds of rounding errors;
 //! and `separated` expands it in powers of the place, for the fast evaluation of many pairs.
 
-use super::element::RailElement;
+use super::element::{MemberPlace, RailElement};
 use super::load::AxisLoad;
 use crate::compliance::Partials;
+use crate::vector::RealNumber;
 
 /// One bending plane of a clamped Timoshenko beam; all zero where the plane is rigid.
-#[derive(Clone, Copy, Debug, Default)]
-struct Plane {
+#[derive(Clone, Copy, Debug)]
+struct Plane<T = f64> {
     /// 1/EI.
-    c: f64,
+    c: T,
     /// 1/kGA.
-    g: f64,
+    g: T,
     /// Length l.
-    l: f64,
-    /// 1/l.
-    per_l: f64,
+    l: T,
     /// 1/D, with D = c l^3 + 12 g l.
-    inverse: f64,
+    inverse: T,
 }
 
 /// Shear V and bending moment m0 that a load causes at the near clamp, x = 0; or their derivatives.
 #[derive(Clone, Copy)]
-struct Reaction {
-    shear: f64,
-    moment: f64,
+struct Reaction<T> {
+    shear: T,
+    moment: T,
 }
 
-impl Plane {
-    fn new(c: f64, g: f64, l: f64) -> Self {
-        let d = (c * l * l + 12.0 * g) * l;
-        if d > 0.0 && d.is_finite() {
-            Plane { c, g, l, per_l: 1.0 / l, inverse: 1.0 / d }
+impl<T: RealNumber> Plane<T> {
+    fn new(c: f64, g: f64, l: T) -> Self {
+        let [c, g, zero] = [c, g, 0.0].map(T::from);
+        let d = (c * l * l + T::from(12.0) * g) * l;
+        if d > zero && d < T::from(f64::INFINITY) {
+            Plane { c, g, l, inverse: T::from(1.0) / d }
         } else {
-            Plane::default()
+            Plane { c: zero, g: zero, l: zero, inverse: zero }
         }
     }
 
-    /// The reaction to a force F and a moment M at b, and its first and second derivatives by q = l - b.
+    /// The reaction to a force F and a moment M at b, q = l - b from the far clamp, and its first and second
+    /// derivatives by q.
     ///
-    /// V  = (F (c q^2 (3 l - 2 q) + 12 g q) - 6 c M q b)/D,
-    /// m0 = V l/2 + q (M - F q/2)/l.
+    /// V  = (F q (c q (l + 2 b) + 12 g) - 6 c M q b)/D,
+    /// m0 = q (F b (c l q + 6 g) + M (c l (q - 2 b) + 12 g))/D.
+    ///
+    /// No term of a force cancels another, so that the reaction keeps its digits near both clamps.
     #[inline(always)]
-    fn reactions(&self, b: f64, [force, moment]: [f64; 2]) -> [Reaction; 3] {
-        let Plane { c, g, l, per_l, inverse } = *self;
-        let q = l - b;
-        let shear =
-            (force * q * (c * q * (3.0 * l - 2.0 * q) + 12.0 * g) - 6.0 * c * moment * q * b) * inverse;
-        let first = (force * (6.0 * c * q * b + 12.0 * g) + 6.0 * c * moment * (q - b)) * inverse;
-        let second = (6.0 * c * force * (b - q) + 12.0 * c * moment) * inverse;
+    fn reactions(
+        &self,
+        MemberPlace { s: b, q }: MemberPlace<T>,
+        [force, moment]: [T; 2],
+    ) -> [Reaction<T>; 3] {
+        let Plane { c, g, l, inverse } = *self;
+        let [two, three, six, twelve] = [2.0, 3.0, 6.0, 12.0].map(T::from);
+        let (cl, by_force) = (c * l, c * l * q + six * g);
+        let by_moment = cl * (q - two * b) + twelve * g;
+        let shear = q * (force * (c * q * (l + two * b) + twelve * g) - six * c * moment * b);
+        let first = force * (six * c * q * b + twelve * g) + six * c * moment * (q - b);
+        let second = six * c * force * (b - q) + twelve * c * moment;
+        let bent = q * (force * b * by_force + moment * by_moment);
+        let bent_first = force * ((b - q) * by_force + q * b * cl) + moment * (by_moment + three * q * cl);
+        let bent_second = force * (two * (b - q) * cl - two * by_force) + six * cl * moment;
         [
-            Reaction { shear, moment: 0.5 * shear * l + q * (moment - 0.5 * force * q) * per_l },
-            Reaction { shear: first, moment: 0.5 * first * l + (moment - force * q) * per_l },
-            Reaction { shear: second, moment: 0.5 * second * l - force * per_l },
+            Reaction { shear: shear * inverse, moment: bent * inverse },
+            Reaction { shear: first * inverse, moment: bent_first * inverse },
+            Reaction { shear: second * inverse, moment: bent_second * inverse },
         ]
     }
 
     /// Deflection v = g V a + c (m0 a^2/2 - V a^3/6) at a, between the near clamp and the load.
     #[inline(always)]
-    fn deflection(&self, a: f64, Reaction { shear, moment }: Reaction) -> f64 {
-        a * (self.g * shear + self.c * a * (0.5 * moment - shear * a * (1.0 / 6.0)))
+    fn deflection(&self, a: T, Reaction { shear, moment }: Reaction<T>) -> T {
+        a * (self.g * shear + self.c * a * (T::from(0.5) * moment - shear * a * T::from(1.0) / T::from(6.0)))
     }
 
     /// Rotation theta = c (m0 a - V a^2/2) there.
     #[inline(always)]
-    fn rotation(&self, a: f64, Reaction { shear, moment }: Reaction) -> f64 {
-        self.c * a * (moment - 0.5 * shear * a)
+    fn rotation(&self, a: T, Reaction { shear, moment }: Reaction<T>) -> T {
+        self.c * a * (moment - T::from(0.5) * shear * a)
     }
 
+    /// Green's function between the loads `p` at s and `q` at t, each a force and a moment, in either order of
+    /// the places.
+    fn value(&self, s: MemberPlace<T>, p: [T; 2], t: MemberPlace<T>, q: [T; 2]) -> T {
+        if t.is_before(s) {
+            return self.value(t, q, s, p);
+        }
+        if s.s > s.q {
+            return self.value(t.mirrored(), turned(q), s.mirrored(), turned(p));
+        }
+        let [reaction, ..] = self.reactions(t, q);
+        p[0] * self.deflection(s.s, reaction) + p[1] * self.rotation(s.s, reaction)
+    }
+}
+
+/// A force and a moment as seen from the other end of the member: moments change their sign.
+#[inline(always)]
+fn turned<T: RealNumber>([force, moment]: [T; 2]) -> [T; 2] {
+    [force, -moment]
+}
+
+impl Plane {
     /// Slope v' = theta + g V there.
     #[inline(always)]
-    fn slope(&self, a: f64, reaction: Reaction) -> f64 {
+    fn slope(&self, a: f64, reaction: Reaction<f64>) -> f64 {
         self.rotation(a, reaction) + self.g * reaction.shear
     }
 
     /// Curvature v'' = theta' = c (m0 - V a) there.
     #[inline(always)]
-    fn curvature(&self, a: f64, Reaction { shear, moment }: Reaction) -> f64 {
+    fn curvature(&self, a: f64, Reaction { shear, moment }: Reaction<f64>) -> f64 {
         self.c * (moment - shear * a)
     }
 
@@ -94,7 +126,7 @@ impl Plane {
     /// # Source
     /// Cowper, The shear coefficient in Timoshenko's beam theory, J. Appl. Mech. 33 (1966).
     #[inline(always)]
-    fn green(&self, a: f64, [f, m]: [f64; 2], b: f64, load: [f64; 2]) -> Partials {
+    fn green(&self, a: f64, [f, m]: [f64; 2], b: MemberPlace, load: [f64; 2]) -> Partials {
         let [reaction, first, second] = self.reactions(b, load);
         // A derivative by b is the negative of one by q.
         Partials {
@@ -107,25 +139,36 @@ impl Plane {
         }
     }
 
+    /// `Plane::green` for a <= b, formed from the end that is nearer to a: a beam seen from its other end is
+    /// the same beam.
+    #[inline(always)]
+    fn nearer_end(&self, a: MemberPlace, p: [f64; 2], b: MemberPlace, q: [f64; 2]) -> Partials {
+        if a.s <= a.q {
+            return self.green(a.s, p, b, q);
+        }
+        let seen = self.green(b.q, turned(q), a.mirrored(), turned(p)).swapped();
+        Partials { p: -seen.p, q: -seen.q, ..seen }
+    }
+
     /// Green's function between the loads `p` at s and `q` at t, each a force and a moment, in either order
     /// of the places. It is symmetric: b(s, p; t, q) = b(t, q; s, p) to the last bit. At s = t every
     /// derivative is the mean of both sides.
     #[inline(always)]
-    fn ordered(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Partials {
-        if s < t {
-            self.green(s, p, t, q)
-        } else if s > t {
-            self.green(t, q, s, p).swapped()
+    fn ordered(&self, s: MemberPlace, p: [f64; 2], t: MemberPlace, q: [f64; 2]) -> Partials {
+        if s.is_before(t) {
+            self.nearer_end(s, p, t, q)
+        } else if t.is_before(s) {
+            self.nearer_end(t, q, s, p).swapped()
         } else {
-            let one = self.green(s, p, t, q);
-            one.mean(if p == q { one.swapped() } else { self.green(t, q, s, p).swapped() })
+            let one = self.nearer_end(s, p, t, q);
+            one.mean(if p == q { one.swapped() } else { self.nearer_end(t, q, s, p).swapped() })
         }
     }
 
     /// Value and first derivatives of [`Plane::ordered`]. Forces without moments are taken out as one factor,
     /// so that equal places under different forces differ by that factor alone.
     #[inline(always)]
-    fn pair(&self, s: f64, p: [f64; 2], t: f64, q: [f64; 2]) -> Partials {
+    fn pair(&self, s: MemberPlace, p: [f64; 2], t: MemberPlace, q: [f64; 2]) -> Partials {
         const FORCE: [f64; 2] = [1.0, 0.0];
         if self.inverse == 0.0 {
             Partials::default()
@@ -136,13 +179,13 @@ impl Plane {
         }
     }
 
-    /// Sum of the absolute values of the terms from which [`Plane::green`] of a place with itself is
-    /// computed.
-    fn magnitude(&self, s: f64, [f, m]: [f64; 2]) -> f64 {
-        let Plane { c, g, l, per_l, inverse } = *self;
-        let (q, f, m) = (l - s, f.abs(), m.abs());
-        let shear = (f * q * (c * q * 3.0 * l + 12.0 * g) + 6.0 * c * m * q * s) * inverse;
-        let moment = 0.5 * shear * l + q * (m + 0.5 * f * q) * per_l;
+    /// Sum of the absolute values of the terms from which `Plane::green` of a place with itself is computed.
+    fn magnitude(&self, at: MemberPlace, [f, m]: [f64; 2]) -> f64 {
+        let MemberPlace { s, q } = if at.s <= at.q { at } else { at.mirrored() };
+        let Plane { c, g, l, inverse } = *self;
+        let (f, m) = (f.abs(), m.abs());
+        let shear = q * (f * (c * q * (l + 2.0 * s) + 12.0 * g) + 6.0 * c * m * s) * inverse;
+        let moment = q * (f * s * (c * l * q + 6.0 * g) + m * (c * l * (q + 2.0 * s) + 12.0 * g)) * inverse;
         f * s * (g * shear + c * s * (0.5 * moment + shear * s * (1.0 / 6.0)))
             + m * c * s * (moment + 0.5 * shear * s)
     }
@@ -150,42 +193,42 @@ impl Plane {
 
 /// Value and first derivatives of Green's function of a clamped bar, axial or torsional:
 /// b(s, t) = flexibility s (l - t)/l for s <= t.
-fn bar(flexibility: f64, l: f64, s: f64, t: f64) -> Partials {
-    let green = |a: f64, b: f64| Partials {
-        value: flexibility * a * (l - b) / l,
-        p: flexibility * (l - b) / l,
+fn bar(flexibility: f64, l: f64, s: MemberPlace, t: MemberPlace) -> Partials {
+    let green = |a: f64, q: f64| Partials {
+        value: flexibility * a * q / l,
+        p: flexibility * q / l,
         q: -flexibility * a / l,
         ..Partials::default()
     };
-    if s < t {
-        green(s, t)
-    } else if s > t {
-        green(t, s).swapped()
+    if s.is_before(t) {
+        green(s.s, t.q)
+    } else if t.is_before(s) {
+        green(t.s, s.q).swapped()
     } else {
-        green(s, t).mean(green(t, s).swapped())
+        green(s.s, t.q).mean(green(t.s, s.q).swapped())
     }
 }
 
 /// Green's function of an element clamped at both ends, between unit forces at the rail. Places are measured
 /// along the member, 0..=length.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ClampedElement {
-    length: f64,
+#[derive(Clone, Debug)]
+pub(crate) struct ClampedElement<T = f64> {
+    length: T,
     /// 1/EA and 1/GJ; zero where the section has no such stiffness.
-    axial: f64,
-    torsion: f64,
-    xy: Plane,
-    xz: Plane,
+    axial: T,
+    torsion: T,
+    xy: Plane<T>,
+    xz: Plane<T>,
     /// Unit forces along the three rail directions, in the member's own axes.
-    loads: [AxisLoad; 3],
+    loads: [AxisLoad<T>; 3],
     /// As [`RailElement::without_stiffness`].
     without_stiffness: [bool; 4],
 }
 
-impl ClampedElement {
-    pub fn new(element: &RailElement) -> ClampedElement {
+impl<T: RealNumber> ClampedElement<T> {
+    pub fn new(element: &RailElement<T>) -> ClampedElement<T> {
         let flexibility = &element.flexibility;
-        let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
+        let finite = |x: f64| T::from(if x.is_finite() { x } else { 0.0 });
         ClampedElement {
             length: element.length,
             axial: finite(flexibility.axial),
@@ -197,10 +240,44 @@ impl ClampedElement {
         }
     }
 
-    /// Displacement along rail direction `a` at s under a unit force along direction `b` at t, with its first
-    /// derivatives by s and t. The force acts on `other`, an element of the same member (or this one).
+    /// Displacement along rail direction `a` at s under a unit force along direction `b` at t. The force acts
+    /// on `other`, an element of the same member (or this one).
+    pub fn value(
+        &self,
+        a: usize,
+        s: MemberPlace<T>,
+        other: &ClampedElement<T>,
+        b: usize,
+        t: MemberPlace<T>,
+    ) -> T {
+        let (p, q) = (&self.loads[a], &other.loads[b]);
+        let zero = T::from(0.0);
+        let mut sum = zero;
+        for (plane, p, q) in [(&self.xy, p.xy, q.xy), (&self.xz, p.xz, q.xz)] {
+            if plane.inverse != zero && p != [zero; 2] && q != [zero; 2] {
+                sum = sum + plane.value(s, p, t, q);
+            }
+        }
+        let bars = self.axial * p.axial * q.axial + self.torsion * p.twist * q.twist;
+        if bars != zero {
+            let (first, last) = if t.is_before(s) { (t.s, s.q) } else { (s.s, t.q) };
+            sum = sum + bars * first * last / self.length;
+        }
+        sum
+    }
+}
+
+impl ClampedElement {
+    /// [`ClampedElement::value`] with its first derivatives by s and t.
     #[inline(always)]
-    pub fn pair(&self, a: usize, s: f64, other: &ClampedElement, b: usize, t: f64) -> Partials {
+    pub fn pair(
+        &self,
+        a: usize,
+        s: MemberPlace,
+        other: &ClampedElement,
+        b: usize,
+        t: MemberPlace,
+    ) -> Partials {
         let (p, q) = (&self.loads[a], &other.loads[b]);
         let mut sum = Partials::default();
         if p.xy != [0.0; 2] && q.xy != [0.0; 2] {
@@ -221,7 +298,14 @@ impl ClampedElement {
     }
 
     /// Second derivatives of [`ClampedElement::pair`] by s and t: `pp`, `pq` and `qq` alone.
-    pub fn second_derivatives(&self, a: usize, s: f64, other: &ClampedElement, b: usize, t: f64) -> Partials {
+    pub fn second_derivatives(
+        &self,
+        a: usize,
+        s: MemberPlace,
+        other: &ClampedElement,
+        b: usize,
+        t: MemberPlace,
+    ) -> Partials {
         let (p, q) = (&self.loads[a], &other.loads[b]);
         let bending = |plane: &Plane, p: [f64; 2], q: [f64; 2]| {
             if plane.inverse == 0.0 { Partials::default() } else { plane.ordered(s, p, t, q) }
@@ -234,13 +318,12 @@ impl ClampedElement {
         sum
     }
 
-    /// Sum of the absolute values of the terms from which the displacement along direction `a` at s under a
-    /// unit force there is computed.
-    pub fn magnitude(&self, a: usize, s: f64) -> f64 {
-        let p = &self.loads[a];
-        let bar = s * (self.length - s) / self.length;
-        self.xy.magnitude(s, p.xy)
-            + self.xz.magnitude(s, p.xz)
+    /// Sum of the absolute values of the terms from which the displacement under the load `p` at a place is
+    /// computed.
+    pub fn magnitude(&self, p: &AxisLoad, at: MemberPlace) -> f64 {
+        let bar = at.s * at.q / self.length;
+        self.xy.magnitude(at, p.xy)
+            + self.xz.magnitude(at, p.xz)
             + (self.axial * p.axial * p.axial + self.torsion * p.twist * p.twist) * bar
     }
 
@@ -332,7 +415,8 @@ mod tests {
         for i in 0..=20 {
             for j in 0..=i {
                 let (s, t) = (l * f64::from(i) / 20.0, l * f64::from(j) / 20.0);
-                let known = whole.pair(1, s, &whole, 1, t).value;
+                let [p, q] = [s, t].map(|s| MemberPlace { s, q: l - s });
+                let known = whole.pair(1, p, &whole, 1, q).value;
                 for end in [0, 1] {
                     let found = at(end, 0, s) * at(end, 2, t) + at(end, 1, s) * at(end, 3, t);
                     assert!((found - known).abs() < 1e-14, "{s} {t}: {found}, not {known}");

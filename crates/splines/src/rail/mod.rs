@@ -2,20 +2,26 @@
 //! element adds between them.
 //!
 //! Order: `element` (data), `load` (a rail force in the axes of the member), `green` and `shape` (the two
-//! functions of one element), `row` and `planar` (their values at a place), `track` (which element carries a
-//! place), `rails` (all together).
+//! functions of one element), `functions` (both in any number type), `rounding` (sizes of their terms), `interior` (the
+//! deflection of an element under uniform loads), `row` and `planar` (their values at a place), `track` (which element
+//! carries a place), `rails` (all together).
 
 mod element;
+mod functions;
 mod green;
+mod interior;
 mod load;
 mod planar;
 mod rails;
+mod rounding;
 mod row;
 mod shape;
 mod track;
 
 pub use element::{ElementMember, Flexibility, RailElement};
 pub(crate) use element::{IDENTITY, LocalPlace};
+pub use functions::ElementFunctions;
 pub(crate) use planar::{PlanarCubics, PlanarPlace};
 pub use rails::Rails;
+pub use rounding::RoundingSizes;
 pub use row::ShapeRow;

@@ -5,13 +5,15 @@ use std::sync::OnceLock;
 
 use super::element::{LocalPlace, RailElement};
 use super::green::ClampedElement;
+use super::interior::uniform_load;
 use super::load::AxisLoad;
 use super::planar::{PlanarCubics, PlanarPlace};
+use super::rounding::RoundingSizes;
 use super::row::ShapeRow;
 use super::shape::ShapeCubics;
 use super::track::{Span, Track};
 use crate::error::Error;
-use crate::probe::Probe;
+use crate::probe::{Axis, Probe};
 
 /// Elements of any number of rails, checked and indexed.
 ///
@@ -159,8 +161,8 @@ impl Rails {
         let place = span.local(p.x);
         row.element = span.element;
         row.axis = axis;
-        row.s = span.start + place.fraction() * span.length;
-        row.rate = span.length * span.scale;
+        row.place = place.on_member(span.length, span.reversed);
+        row.rate = if span.reversed { -span.length * span.scale } else { span.length * span.scale };
         row.evaluate(&self.cubics(span.element, axis).shapes, place, span.scale);
         Ok(())
     }
@@ -203,19 +205,70 @@ impl Rails {
         self.prepared[element].cubics[axis].get_or_init(|| AxisCubics::new(&self.elements[element], axis))
     }
 
-    /// What bounds of rounding errors at a probe need: [`Rails::row`]; for each of its values the sum of the
-    /// absolute values of its terms; and the same sum for Green's function of the clamped element at the
-    /// probe. A computed value errs by a few units of rounding of its sum.
+    /// The element that carries a probe, and for uniform loads of intensity one on its member, along its local y axis
+    /// and along its local z axis, the displacement at the probe along its axis with the ends of the member clamped, and
+    /// the derivative of this displacement by the rail coordinate.
+    ///
+    /// ```
+    /// use splines::{Axis, RailElement, Flexibility, Rails, Probe};
+    ///
+    /// let element = RailElement {
+    ///     rail: 0,
+    ///     x: [0.0, 8.0],
+    ///     ends: [0, 1],
+    ///     length: 8.0,
+    ///     frame: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
+    ///     offset: [0.0; 3],
+    ///     flexibility: Flexibility { bending_z: 3.0, ..Flexibility::default() },
+    ///     member: None,
+    /// };
+    /// let rail = Rails::new(vec![element])?;
+    /// let (_, [y, z]) = rail.uniform_load(Probe { rail: 0, x: 4.0, axis: Axis::Vertical })?;
+    /// // l^4/(384 EI) at midspan.
+    /// assert!((y[0] - 8.0_f64.powi(4) * 3.0 / 384.0).abs() < 1e-12);
+    /// assert_eq!((y[1], z), (0.0, [0.0; 2]));
+    /// # Ok::<(), splines::Error>(())
+    /// ```
     ///
     /// # Errors
     /// As [`Rails::row`].
-    pub fn rounding_magnitudes(&self, p: Probe) -> Result<(ShapeRow, Vec<f64>, f64), Error> {
-        let row = self.row(p)?;
-        let place = self.span(p.rail, p.x)?.local(p.x);
-        let clamped = self.prepared[row.element].clamped.as_ref();
-        let own = clamped.map_or(0.0, |clamped| clamped.magnitude(row.axis, row.s));
-        let magnitudes = self.cubics(row.element, row.axis).shapes.magnitudes(place).collect();
-        Ok((row, magnitudes, own))
+    pub fn uniform_load(&self, p: Probe) -> Result<(usize, [[f64; 2]; 2]), Error> {
+        let span = self.stiff_span(p)?;
+        let s = span.local(p.x).on_member(span.length, span.reversed).s;
+        let rate = if span.reversed { -span.length * span.scale } else { span.length * span.scale };
+        let out = uniform_load(&self.elements[span.element], p.axis.component(), s);
+        Ok((span.element, out.map(|[value, slope]| [value, slope * rate])))
+    }
+
+    /// Sizes of the terms behind [`Rails::row`] and Green's function at a place of an element, for bounds of rounding
+    /// errors; all zero for an element that does not exist.
+    ///
+    /// `fractions` are the distances of the place from the first and the last end, in lengths of the element. `axes`
+    /// is the error of the axes of the element in roundings, 0 where they are exact. `shift` is the error of the
+    /// place, length. `doubles` says that the functions are those of doubles, in which components of loads that are
+    /// only rounding count as zero.
+    #[must_use]
+    pub fn rounding_sizes(
+        &self,
+        element: usize,
+        axis: Axis,
+        [first, last]: [f64; 2],
+        [axes, shift]: [f64; 2],
+        doubles: bool,
+    ) -> RoundingSizes {
+        let Some(given) = self.elements.get(element) else { return RoundingSizes::default() };
+        let place =
+            if first <= last { LocalPlace { end: 0, r: first } } else { LocalPlace { end: 1, r: last } };
+        let place = LocalPlace { r: place.r.max(0.0), ..place };
+        let errors = [axes, shift / (given.x[1] - given.x[0])];
+        RoundingSizes::new(
+            given,
+            self.clamped(element),
+            axis.component(),
+            place,
+            errors,
+            if doubles { 1.0 } else { 0.0 },
+        )
     }
 
     /// Green's function of element `element` clamped at both ends, 3 x 3: `[i][j]` is the displacement along
@@ -234,7 +287,9 @@ impl Rails {
         let (Some(given), Some(clamped)) = (self.elements.get(element), self.clamped(element)) else {
             return out;
         };
-        let (s, t) = (given.place_on_member(x), given.place_on_member(z));
+        let scale = 1.0 / (given.x[1] - given.x[0]);
+        let [s, t] =
+            [x, z].map(|x| LocalPlace::of(x, given.x, scale).on_member(given.length, given.is_reversed()));
         for (a, row) in out.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 *entry = if clamped.is_without_stiffness(a, b) {
@@ -245,6 +300,16 @@ impl Rails {
             }
         }
         out
+    }
+
+    /// Green's function between two probes on one member, with both ends of the member held: displacement at the place
+    /// of row `p` along its axis per unit force at that of `q`, length/force. Zero where they are on different members.
+    ///
+    /// Guarantee: it keeps its digits near both ends of the member, where it vanishes.
+    #[must_use]
+    pub fn clamped_between(&self, p: &ShapeRow, q: &ShapeRow) -> f64 {
+        self.clamped_on_one_member(p.element, q.element)
+            .map_or(0.0, |[own, other]| own.value(p.axis, p.place, other, q.axis, q.place))
     }
 
     /// Green's function of a clamped element; `None` for a rigid arm or an element that does not exist.

@@ -1,6 +1,6 @@
 //! Shape rows: displacement of the rail at one place, by the node states at the ends of its element.
 
-use super::element::LocalPlace;
+use super::element::{LocalPlace, MemberPlace};
 use super::shape::ShapeCubics;
 
 /// One row of the shape matrix N.
@@ -37,9 +37,9 @@ pub struct ShapeRow {
     pub element: usize,
     /// Component of the probe's axis: 0, 1 or 2.
     pub(crate) axis: usize,
-    /// Place along the member, from 0 to its length.
-    pub(crate) s: f64,
-    /// Derivative of `s` by x.
+    /// Place on the member.
+    pub(crate) place: MemberPlace,
+    /// Derivative of its distance from the first end by x.
     pub(crate) rate: f64,
     len: usize,
     groups: usize,
@@ -52,7 +52,7 @@ impl ShapeRow {
     pub(crate) const EMPTY: ShapeRow = ShapeRow {
         element: 0,
         axis: 0,
-        s: 0.0,
+        place: MemberPlace { s: 0.0, q: 0.0 },
         rate: 0.0,
         len: 0,
         groups: 0,

@@ -14,7 +14,7 @@
 
 use super::element::{LocalPlace, RailElement};
 use super::load::{AxisLoad, without_rounding};
-use crate::vector::{cross, unit};
+use crate::vector::{RealNumber, cross, unit};
 
 /// The shape functions of one element along one rail direction that do not vanish, as cubics.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,14 +61,6 @@ impl ShapeCubics {
         &self.groups
     }
 
-    /// For each function the sum of the absolute values of its terms, |coefficient| r^p, at a place.
-    pub fn magnitudes(&self, LocalPlace { end, r }: LocalPlace) -> impl Iterator<Item = f64> + '_ {
-        let one = move |group: &CubicGroup, k: usize| {
-            group.cubic[end].iter().rev().fold(0.0, |sum, terms| terms[k].abs() + r * sum)
-        };
-        (0..self.len).map(move |k| one(&self.groups[k / 4], k % 4))
-    }
-
     /// Second derivatives of all functions by x at a place, zeros in unused entries. `scale` = 1/(extent in
     /// x).
     pub fn second_derivatives(&self, LocalPlace { end, r }: LocalPlace, scale: f64) -> [[f64; 4]; 3] {
@@ -82,25 +74,31 @@ impl ShapeCubics {
 }
 
 /// Cubics of all twelve degrees of freedom, in the rail frame, by the distance from `end`.
-fn cubics(element: &RailElement, axis: usize, load: &AxisLoad, end: usize) -> [[f64; 4]; 12] {
-    let mut cubics = [[0.0; 4]; 12];
+pub(crate) fn cubics<T: RealNumber>(
+    element: &RailElement<T>,
+    axis: usize,
+    load: &AxisLoad<T>,
+    end: usize,
+) -> [[T; 4]; 12] {
+    let mut cubics = [[T::from(0.0); 4]; 12];
     if element.is_rigid_arm() {
-        let along = cross([element.x[1] - element.x[0], 0.0, 0.0], unit(axis));
+        let zero = T::from(0.0);
+        let along = cross([element.x[1] - element.x[0], zero, zero], unit(axis));
         let moment = cross(element.offset, unit(axis));
-        cubics[axis][0] = 1.0;
+        cubics[axis][0] = T::from(1.0);
         for k in 0..3 {
             let rows = [[moment[k], along[k]], [moment[k] + along[k], -along[k]]];
             cubics[3 + k][..2].copy_from_slice(&rows[end]);
         }
         return cubics;
     }
-    let local = local_cubics(element, load, end);
+    let local = local_cubics(element, load, end, T::from(-1.0));
     for (k, axes) in element.frame.iter().enumerate() {
         for (a, &component) in axes.iter().enumerate() {
-            let factor = without_rounding(component, 1.0);
+            let factor = without_rounding(component, T::from(1.0));
             for block in [0, 3, 6, 9] {
                 for p in 0..4 {
-                    cubics[block + a][p] += factor * local[block + k][p];
+                    cubics[block + a][p] = cubics[block + a][p] + factor * local[block + k][p];
                 }
             }
         }
@@ -109,20 +107,29 @@ fn cubics(element: &RailElement, axis: usize, load: &AxisLoad, end: usize) -> [[
 }
 
 /// The same in local axes: u, v, w, theta x, y, z of the first end, then of the last.
-fn local_cubics(element: &RailElement, load: &AxisLoad, end: usize) -> [[f64; 4]; 12] {
-    let mut out = [[0.0; 4]; 12];
+///
+/// `minus` is -1. With +1 all terms are positive for a positive load: the result then bounds the rounding of the
+/// cubics.
+pub(crate) fn local_cubics<T: RealNumber>(
+    element: &RailElement<T>,
+    load: &AxisLoad<T>,
+    end: usize,
+    minus: T,
+) -> [[T; 4]; 12] {
+    let zero = T::from(0.0);
+    let mut out = [[zero; 4]; 12];
     let without_stiffness = element.without_stiffness();
-    let linear = |scale: f64| {
-        let near = [[scale, -scale, 0.0, 0.0], [0.0, scale, 0.0, 0.0]];
+    let linear = |scale: T| {
+        let near = [[scale, minus * scale, zero, zero], [zero, scale, zero, zero]];
         [near[end], near[1 - end]]
     };
     // Seen from the last end the member runs backwards: rotations and moments change sign.
-    let bending = |c: f64, g: f64, [force, moment]: [f64; 2]| {
+    let bending = |c: f64, g: f64, [force, moment]: [T; 2]| {
         if end == 0 {
-            return plane_cubics(c, g, element.length, [force, moment]);
+            return plane_cubics(c, g, element.length, [force, moment], minus);
         }
-        let [v0, t0, v1, t1] = plane_cubics(c, g, element.length, [force, -moment]);
-        [v1, t1.map(|x| -x), v0, t0.map(|x| -x)]
+        let [v0, t0, v1, t1] = plane_cubics(c, g, element.length, [force, minus * moment], minus);
+        [v1, t1.map(|x| minus * x), v0, t0.map(|x| minus * x)]
     };
     if !without_stiffness[0] {
         [out[0], out[6]] = linear(load.axial);
@@ -137,26 +144,30 @@ fn local_cubics(element: &RailElement, load: &AxisLoad, end: usize) -> [[f64; 4]
     if !without_stiffness[3] {
         // In the x-z plane (w, -theta_y) take the place of (v, theta_z).
         let [w0, t0, w1, t1] = bending(f.bending_y, f.shear_z, load.xz);
-        [out[2], out[4], out[8], out[10]] = [w0, t0.map(|x| -x), w1, t1.map(|x| -x)];
+        [out[2], out[4], out[8], out[10]] = [w0, t0.map(|x| minus * x), w1, t1.map(|x| minus * x)];
     }
     out
 }
 
-/// force v + moment theta of one bending plane, as cubics of (v, theta) at the first end, then at the last.
-fn plane_cubics(c: f64, g: f64, h: f64, [force, moment]: [f64; 2]) -> [[f64; 4]; 4] {
-    let total = c * h * h + 12.0 * g;
-    let (alpha, beta) = if total > 0.0 { (c * h * h / total, 12.0 * g / total) } else { (1.0, 0.0) };
+/// force v + moment theta of one bending plane, as cubics of (v, theta) at the first end, then at the last;
+/// `minus` is -1, or 1 for the absolute values of all terms.
+fn plane_cubics<T: RealNumber>(c: f64, g: f64, h: T, [force, moment]: [T; 2], minus: T) -> [[T; 4]; 4] {
+    let [zero, half, one, two, three, four, six, twelve] =
+        [0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 12.0].map(T::from);
+    let (bent, sheared) = (T::from(c) * h * h, twelve * T::from(g));
+    let total = bent + sheared;
+    let (alpha, beta) = if total > zero { (bent / total, sheared / total) } else { (one, zero) };
     let v = [
-        [1.0, -beta, -3.0 * alpha, 2.0 * alpha],
-        [0.0, h * (alpha + 0.5 * beta), -h * (2.0 * alpha + 0.5 * beta), h * alpha],
-        [0.0, beta, 3.0 * alpha, -2.0 * alpha],
-        [0.0, -0.5 * h * beta, -h * (alpha - 0.5 * beta), h * alpha],
+        [one, minus * beta, minus * three * alpha, two * alpha],
+        [zero, h * (alpha + half * beta), minus * h * (two * alpha + half * beta), h * alpha],
+        [zero, beta, three * alpha, minus * two * alpha],
+        [zero, minus * half * h * beta, minus * h * (alpha + minus * half * beta), h * alpha],
     ];
     let theta = [
-        [0.0, -6.0 * alpha / h, 6.0 * alpha / h, 0.0],
-        [1.0, -(4.0 * alpha + beta), 3.0 * alpha, 0.0],
-        [0.0, 6.0 * alpha / h, -6.0 * alpha / h, 0.0],
-        [0.0, beta - 2.0 * alpha, 3.0 * alpha, 0.0],
+        [zero, minus * six * alpha / h, six * alpha / h, zero],
+        [one, minus * (four * alpha + beta), three * alpha, zero],
+        [zero, six * alpha / h, minus * six * alpha / h, zero],
+        [zero, beta + minus * two * alpha, three * alpha, zero],
     ];
     let mix = |k: usize| std::array::from_fn(|p| force * v[k][p] + moment * theta[k][p]);
     [mix(0), mix(1), mix(2), mix(3)]

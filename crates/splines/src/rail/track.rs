@@ -23,9 +23,9 @@ pub(crate) struct Span {
     pub x: [f64; 2],
     /// 1/(extent in x).
     pub scale: f64,
-    /// Place of `x[0]` along the member, and the signed length from there to `x[1]`.
-    pub start: f64,
+    /// Length of the member, and whether it runs against the rail.
     pub length: f64,
+    pub reversed: bool,
     /// Index of the element.
     pub element: usize,
     /// Whether the preceding element, listed earlier, carries the place `x[0]`.
@@ -36,12 +36,7 @@ impl Span {
     /// The place of x, taken within the element.
     #[inline]
     pub fn local(&self, x: f64) -> LocalPlace {
-        let r = ((x - self.x[0]) * self.scale).max(0.0);
-        if r <= 0.5 {
-            LocalPlace { end: 0, r }
-        } else {
-            LocalPlace { end: 1, r: ((self.x[1] - x) * self.scale).max(0.0) }
-        }
+        LocalPlace::of(x, self.x, self.scale)
     }
 }
 
@@ -120,9 +115,8 @@ impl Track {
         let slack = ROUNDING * largest;
         let span = |element: usize, yields| {
             let RailElement { x, length, .. } = elements[element];
-            let (start, length) =
-                if elements[element].is_reversed() { (length, -length) } else { (0.0, length) };
-            Span { x, scale: 1.0 / (x[1] - x[0]), start, length, element, yields }
+            let reversed = elements[element].is_reversed();
+            Span { x, scale: 1.0 / (x[1] - x[0]), length, reversed, element, yields }
         };
         let mut spans = vec![span(same[0], false)];
         for pair in same.windows(2) {

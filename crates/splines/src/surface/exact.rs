@@ -167,7 +167,7 @@ impl ExactSurface {
             for i in j..n {
                 let (p, q) = (&rows[i], &rows[j]);
                 if let Some(clamped) = clamped.filter(|_| p.element == q.element) {
-                    let green = clamped.pair(p.axis, p.s, clamped, q.axis, q.s);
+                    let green = clamped.pair(p.axis, p.place, clamped, q.axis, q.place);
                     value[i + n * j] += green.value;
                     slope[i + n * j] += green.p * p.rate;
                     if i != j {
@@ -191,7 +191,7 @@ impl ExactSurface {
                 let Some([own, other]) = self.rails.clamped_on_one_member(p.element, q.element) else {
                     continue;
                 };
-                let green = own.pair(p.axis, p.s, other, q.axis, q.s);
+                let green = own.pair(p.axis, p.place, other, q.axis, q.place);
                 out.value[(i, j)] += green.value;
                 out.value[(j, i)] = out.value[(i, j)];
                 out.slope[(i, j)] += green.p * p.rate;
@@ -295,8 +295,8 @@ impl Differentiable for ExactSurface {
             qq: dot_chunks(a0, &moved[2]),
         };
         if let Some([own, other]) = self.rails.clamped_on_one_member(a.element, b.element) {
-            let green = own.pair(a.axis, a.s, other, b.axis, b.s);
-            let second = own.second_derivatives(a.axis, a.s, other, b.axis, b.s);
+            let green = own.pair(a.axis, a.place, other, b.axis, b.place);
+            let second = own.second_derivatives(a.axis, a.place, other, b.axis, b.place);
             out.value += green.value;
             out.p += green.p * a.rate;
             out.q += green.q * b.rate;

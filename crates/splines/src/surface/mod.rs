@@ -3,9 +3,11 @@
 //!
 //! Order: `planar` (the fast path of the exact surface), `exact`, `effects` (reactions and internal forces),
 //! `shapes` (given motions of the rails), `residual` (a surface less what such motions account for),
+//! `element_residual` (the same for deflections of single members),
 //! `uncoupled` (a compliance without some of its couplings).
 
 mod effects;
+mod element_residual;
 mod exact;
 mod planar;
 mod residual;
@@ -13,6 +15,7 @@ mod shapes;
 mod uncoupled;
 
 pub use effects::{ForceComponent, InfluenceLines, InternalForce};
+pub use element_residual::ElementResidual;
 pub use exact::ExactSurface;
 pub use residual::ResidualFlexibility;
 pub use shapes::RailShapes;

@@ -8,7 +8,8 @@ use crate::error::Error;
 use crate::probe::Probe;
 use crate::rail::{LocalPlace, Rails};
 
-/// Motions of rails by the motions of their node states: phi_r(p) = N(p) s_r.
+/// Motions of rails by the motions of their node states, phi_r(p) = N(p) s_r, and if given by uniform loads on their
+/// members.
 ///
 /// Along an element each is a cubic, stored by its values and slopes at the element's ends when a probe first
 /// stands on the element. Four numbers a shape then replace the up to twelve entries of N.
@@ -46,6 +47,9 @@ pub struct RailShapes {
     /// By element and direction: the values of all shapes at the first end, then their slopes there by the
     /// fraction of the element, then both at the last end.
     ends: Vec<[OnceLock<Vec<f64>>; 3]>,
+    /// Shapes x (two for each element): intensities of uniform loads on the members, under which they deflect between
+    /// their ends. Without columns where there are none.
+    loads: DMatrix<f64>,
 }
 
 impl RailShapes {
@@ -61,7 +65,24 @@ impl RailShapes {
             return Err(Error::NodalShape { rows, columns, expected });
         }
         let ends = line.elements().iter().map(|_| Default::default()).collect();
-        Ok(RailShapes { rails: line, motions: states.transpose(), ends })
+        let loads = DMatrix::zeros(states.ncols(), 0);
+        Ok(RailShapes { rails: line, motions: states.transpose(), ends, loads })
+    }
+
+    /// The same shapes with deflections of the members between their ends added: those of clamped members under uniform
+    /// loads along their local y and z axes ([`Rails::uniform_load`]). `loads` is 2 E x shapes for E elements: rows
+    /// 2 e and 2 e + 1 hold the intensities on the member of element e.
+    ///
+    /// # Errors
+    /// Another number of rows or columns.
+    pub fn with_uniform_loads(mut self, loads: &DMatrix<f64>) -> Result<RailShapes, Error> {
+        let expected = 2 * self.rails.elements().len();
+        let (rows, columns) = loads.shape();
+        if rows != expected || columns != self.count() {
+            return Err(Error::NodalShape { rows, columns, expected });
+        }
+        self.loads = loads.transpose();
+        Ok(self)
     }
 
     /// Number of shapes.
@@ -87,9 +108,24 @@ impl RailShapes {
         let (first, last) = ends.split_at(2 * count);
         let ((a, b), (c, d)) = (first.split_at(count), last.split_at(count));
         let data = a.iter().zip(b).zip(c.iter().zip(d));
-        for ((value, slope), ((a, b), (c, d))) in value.iter_mut().zip(slope).zip(data) {
+        for ((value, slope), ((a, b), (c, d))) in value.iter_mut().zip(slope.iter_mut()).zip(data) {
             *value = p * a + q * b + r * c + s * d;
             *slope = dp * a + dq * b + dr * c + ds * d;
+        }
+        if self.loads.ncols() > 0 {
+            self.add_uniform_loads(at, value, slope)?;
+        }
+        Ok(())
+    }
+
+    fn add_uniform_loads(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
+        let (element, planes) = self.rails.uniform_load(at)?;
+        for (plane, [w, dw]) in planes.into_iter().enumerate().filter(|(_, of)| *of != [0.0; 2]) {
+            let loads = self.loads.column(2 * element + plane);
+            for ((value, slope), load) in value.iter_mut().zip(slope.iter_mut()).zip(&loads) {
+                *value += w * load;
+                *slope += dw * load;
+            }
         }
         Ok(())
     }

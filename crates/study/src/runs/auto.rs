@@ -10,6 +10,7 @@ use formats::scene::Scene;
 use formats::scene::motion::simulation_input;
 use foundations::SolvedStructure;
 use results::cases::records_dofs;
+use results::observe::ColumnObserver;
 use results::run_error;
 
 /// The foundations that "auto" chose.
@@ -39,9 +40,10 @@ pub fn choose_foundations(
     let name = |choice: &sim::Choice| chosen.structures[choice.structure].name.clone();
     let reasons =
         choices.iter().map(|choice| (name(choice), foundations::selection_reason(choice))).collect();
-    for choice in choices.iter().filter(|choice| choice.predicted.is_some()) {
-        chosen.accuracy =
-            chosen.accuracy.min(sim::RUN_ACCURACY * chosen.structures[choice.structure].tolerance);
+    for choice in choices.iter().filter(|choice| choice.estimate.is_some()) {
+        let structure = &chosen.structures[choice.structure];
+        let tolerance = sim::Tolerance { value: structure.tolerance, measure: structure.measure };
+        chosen.accuracy = chosen.accuracy.min(tolerance.run_accuracy());
     }
     chosen.structures.iter_mut().for_each(|structure| structure.auto = false);
     (Ok(Auto { reasons, trials: None }), Some(chosen))
@@ -65,8 +67,11 @@ pub fn left_to_auto(scene: &Scene) -> Scene {
 pub fn choose(scene: &mut Scene, known: &[SolvedStructure], limit: f64) -> Result<Vec<sim::Choice>, String> {
     let input = simulation_input(scene).map_err(|failure| failure.to_string())?;
     let recorded = records_dofs(scene, known);
-    let selected =
-        limited(limit, |watch| foundations::select_and_run(scene, &input.scene, known, &recorded, watch));
+    let judged = scene.clone();
+    let mut observer = ColumnObserver::new(&judged, &input, known, &|_| ());
+    let selected = limited(limit, |watch| {
+        foundations::select_and_run(scene, &input.scene, known, &recorded, &mut observer, watch)
+    });
     let selected = selected.map_err(|error| match error {
         foundations::Error::Simulation(error) => run_error::in_scene_names(&error, scene),
         other => other.to_string(),

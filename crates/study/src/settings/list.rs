@@ -6,7 +6,7 @@ use crate::settings::budget::StudyBudget;
 use crate::settings::detail::MeshDetail;
 use crate::settings::setting::{Setting, SettingFamily};
 use formats::scene::{Analysis, Foundation, Handover, Origin, Scene, Structure, TableInterpolation};
-use foundations::{SolvedStructure, solution_of};
+use foundations::{SolvedModel, SolvedStructure, solution_of};
 
 /// Properties of the structures of a scene that decide which settings exist.
 #[derive(Clone, Copy, Debug)]
@@ -27,7 +27,8 @@ impl SceneKinds {
             let all = scene.structures.iter().filter(|structure| varies(structure));
             all.filter_map(|structure| solution_of(known, &structure.origin))
         };
-        let has_mass = |solved| foundations::excited_modes(solved, 1).is_ok_and(|modes| modes.is_some());
+        let has_mass =
+            |solved: &SolvedModel| fea::rigid_mass(&solved.model).is_ok_and(|mass| mass[0][0] > 0.0);
         SceneKinds {
             varies: solved().next().is_some(),
             has_mass: solved().all(has_mass),
@@ -58,10 +59,21 @@ pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
     out
 }
 
-/// The scene on the mesh that is the highest fidelity of "auto".
+/// Number of elements of a mesh whose time is measured.
+const ELEMENTS: usize = 192;
+/// Least and largest number of elements of a member in it.
+const PER_MEMBER: [usize; 2] = [2, 64];
+
+/// Number of elements of each member in a mesh of about 192 elements, 2 to 64 per member.
+fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
+    let members = solved.map_or(1, |solved| solved.model.members.len());
+    (ELEMENTS / members.max(1)).clamp(PER_MEMBER[0], PER_MEMBER[1])
+}
+
+/// The scene on a mesh of that many elements.
 fn mesh(scene: &Scene, known: &[SolvedStructure]) -> Scene {
     with(scene, |structure| {
-        let elements = foundations::mesh_elements(solution_of(known, &structure.origin));
+        let elements = mesh_elements(solution_of(known, &structure.origin));
         Foundation::Full { elements, damping: structure.damping }
     })
 }

@@ -189,6 +189,7 @@ pub(super) fn crossing(
         analysis: sim::Analysis::Dynamic,
         end,
         output_dt: end,
+        output_parts: 1,
         accuracy: 1e-6,
     })
 }

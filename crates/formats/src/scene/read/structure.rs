@@ -50,6 +50,7 @@ pub(super) fn read(
     let interpolation = read_interpolation(raw, at, check);
     let couplings = read_couplings(raw, word, at, check);
     let tolerance = read_tolerance(raw, at, check);
+    let measure = read_measure(raw, at, check);
     let ties = ties::read(raw, matches!(word, FoundationWord::Ties), at, check);
     let origin = read_origin((name, others), raw, (word, ties.as_ref()), at, files, check);
     let foundation = match word {
@@ -91,6 +92,7 @@ pub(super) fn read(
         interpolation,
         couplings,
         tolerance,
+        measure,
         gauges,
         longitudinal,
         irregularities,
@@ -224,6 +226,13 @@ fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> 
         check.faults.add(fault.hint("a relative error, such as 1e-3"));
     }
     tolerance
+}
+
+/// Reads the measure of that error.
+fn read_measure(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> sim::Measure {
+    let words = [("extremes", sim::Measure::Extremes), ("history", sim::Measure::History)];
+    let word = raw.measure.as_ref();
+    word.and_then(|word| check.faults.one_of(word, &at.key("measure"), &words)).unwrap_or_default()
 }
 
 /// Reads the damping ratio of the natural modes. The numbers of modes and elements must not be 0.

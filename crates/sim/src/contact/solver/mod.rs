@@ -2,6 +2,8 @@
 //! in [`stage`].
 
 mod correct;
+pub(crate) mod errors;
+pub(crate) mod follow;
 mod ropes;
 mod stage;
 
@@ -228,14 +230,13 @@ impl<'a> Solver<'a> {
         self.problem.effects.penetration(i, force)
     }
 
-    /// Rate of approach of wheel and unloaded rail at vertical contact `i`.
+    /// Rate at which wheel and rail approach each other at vertical contact `i`, with the rail that wheel `i` passes
+    /// deflected as it is: r = R v + x' (h' - w'), where h' is the slope of the unloaded rail's shape and w' that of
+    /// its deflection, downwards.
     pub fn approach_rate(&self, i: usize, at: &State) -> f64 {
         let rows = self.geometry.rows();
-        let own = along(&rows.approach, i, at.v.as_slice());
-        if !self.system.traits.is_uneven {
-            return own;
-        }
-        own + rows.rise[i] * self.system.contact_speed(i, at)
+        let slope = rows.rise[i] - self.geometry.deflected_slope(i, &at.q, &at.force);
+        along(&rows.approach, i, at.v.as_slice()) + slope * self.system.contact_speed(i, at)
     }
 
     /// M^-1 times the forces at `t` that are independent of the elements.

@@ -24,11 +24,11 @@ use crate::{Error, History};
 pub(crate) const WIDEST: usize = 8;
 
 /// Allowed size of the last terms of a step, relative to the largest values, per unit of the accuracy of the run.
-const LAST: f64 = 0.1;
+const LAST: f64 = 0.05;
 
 /// Ratio of the allowed last terms of the forces, relative to the largest force, to those of the approaches, relative
 /// to the largest approach.
-const FORCES: f64 = 50.0;
+const FORCES: f64 = 16.0;
 
 /// Coarsest accuracy used for the step length; larger values are reduced to it.
 const COARSEST: f64 = 1e-3;
@@ -260,10 +260,10 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 }
                 let force = self.series.first().force;
                 self.largest_force = force.iter().fold(self.largest_force, |max, force| max.max(force.abs()));
-                let wanted = scale
-                    * self
-                        .series
-                        .reach(allowed * self.largest_approach, FORCES * allowed * self.largest_force);
+                // An error of an approach by this much changes a force by the fraction of the largest one.
+                let yielding = self.yielding(&compliance[0]).min(self.largest_approach);
+                let wanted =
+                    scale * self.series.reach(allowed * yielding, FORCES * allowed * self.largest_force);
                 let count = ((end - t) / wanted).ceil().max(1.0);
                 let worthwhile = scene.end < MANY * wanted;
                 if !worthwhile {
@@ -311,6 +311,14 @@ impl<'a, const P: usize> Crossing<'a, P> {
         Ok(Crossed { is_stopped, history, audit, counts })
     }
 
+    /// Approach of the stiffest contact under the largest force on each contact: the smallest row sum of G + 1/k, times
+    /// this force.
+    fn yielding(&self, compliance: &Matrix<P>) -> f64 {
+        let m = self.system.elements.len();
+        let row = |i: usize| (0..m).map(|j| compliance[j][i].abs()).sum::<f64>() + self.contacts.softness[i];
+        (0..m).map(row).fold(f64::INFINITY, f64::min) * self.largest_force
+    }
+
     /// Times at which wheels meet breaks of their rails, followed by the end time.
     fn breaks(&self) -> Vec<f64> {
         let system = self.system;
@@ -320,8 +328,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
             system.mechanics.wheels.iter().zip(&self.travel.places).filter(|_| self.travel.speed != 0.0)
         {
             let contact = &system.scene.contacts[wheel.contact];
-            let foundation = &system.foundations[contact.structure];
-            let places = foundation.breaks_between(contact.rail, *x, x + self.travel.speed * end);
+            let to = x + self.travel.speed * end;
+            let places = system.mechanics.breaks.between(contact.structure, contact.rail, *x, to);
             times.extend(places.map(|place| (place - x) / self.travel.speed));
         }
         let sliver = 1e-12 * end;

@@ -54,6 +54,7 @@ fn scene() -> Scene {
         analysis: Analysis::Dynamic,
         end: 1.0,
         output_dt: 1.0,
+        output_parts: 1,
         accuracy: 1e-6,
     }
 }

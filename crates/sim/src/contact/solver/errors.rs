@@ -1,0 +1,133 @@
+//! Errors of the forces at the end of a step that follow from the errors of its state.
+
+use std::f64::consts::TAU;
+
+use super::{RowKind, Solver};
+use crate::mechanics::state::State;
+use crate::numerics::dense::{along, dot};
+
+/// Number of periods of a natural mode over which the errors of a Runge-Kutta method in it add up.
+const OWN: f64 = 4.0;
+
+/// Errors of the state `at` at the end of a step of length `h`.
+pub(crate) struct StateErrors<'e> {
+    pub at: &'e State,
+    pub h: f64,
+    /// Whether the problem of the forces is that of the last stage of the step.
+    pub is_staged: bool,
+    /// Of displacements and speeds.
+    pub q: &'e [f64],
+    pub v: &'e [f64],
+    /// Of the penetration rates of vertical contacts.
+    pub rate: &'e [f64],
+    /// Frequency of each degree of freedom, or 0 for none.
+    pub frequency: &'e [f64],
+    pub bounces: f64,
+}
+
+impl Solver<'_> {
+    /// Errors of the forces by the errors of a state, into `out`. Errors of displacements and speeds change the forces
+    /// by J^-1 (law_p R dq + law_r R' dv) with J = I + law_p W + law_r Y over the elements that act, and an error of a
+    /// speed by J^-1 law_p R dv / omega a quarter of a period later. The magnitudes are added. Those by bodies count
+    /// `bounces` times, because they add up over the bounces of the wheels.
+    ///
+    /// W and Y are those of the last stage, where it `is_staged`, so that errors that the method damps count as they
+    /// are damped. For collocation W = G, and Y = G/h where the penetration is a state. Returns false if J is singular.
+    /// The geometry must belong to the state.
+    pub fn force_errors(&mut self, errors: &StateErrors, out: &mut [f64]) -> bool {
+        let &StateErrors { at, h, is_staged, q, v, rate, frequency, bounces } = errors;
+        if !is_staged {
+            self.fill_without_mobility(at, h);
+        }
+        let (system, rows, n) = (self.system, self.geometry.rows(), q.len());
+        // Collocation follows natural modes exactly; the errors of other methods in them add up.
+        let own_weight = if is_staged { OWN } else { 1.0 };
+        let zeros = || vec![[0.0; 2]; out.len()];
+        let (mut now, mut later, mut own) = (zeros(), zeros(), zeros());
+        for i in 0..out.len() {
+            let tilted = system.mechanics.moves_freely && !system.fixed[i].is_tangential;
+            let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
+            let rates = &(if self.remembers(i) { &rows.approach } else { &rows.rate })[i * n..(i + 1) * n];
+            own[i][1] = rate.get(i).copied().unwrap_or(0.0) / own_weight;
+            for (k, omega) in system.mechanics.omegas.iter().enumerate() {
+                let by = [place[k] * q[k], rates[k] * v[k]];
+                let next = if frequency[k] > 0.0 { place[k] * v[k] / frequency[k] } else { 0.0 };
+                if omega.is_some() {
+                    own[i] = [own[i][0] + by[0] + next.abs(), own[i][1] + by[1]];
+                } else {
+                    now[i] = [now[i][0] + by[0], now[i][1] + by[1]];
+                    later[i][0] += next;
+                }
+            }
+        }
+        let (local, active) = (self.geometry.local(), self.active.flags());
+        self.factored_for = None;
+        let forces = (system, local, active, &at.force[..]);
+        self.problem.add_responses(forces, [(&now, bounces), (&later, bounces), (&own, own_weight)], out)
+    }
+
+    /// Sets the `frequency` of each degree of freedom, or 0 where it has none, and returns the largest number of bounces
+    /// in the time `end` over which errors add up, which damping limits to 1/(2 pi zeta). A wheel is a spring of the
+    /// stiffness F/d, where d is the drop of the wheel below the unloaded rail and at least its penetration, so that
+    /// omega_k^2 = sum of R_ik^2 F_i/d_i over the wheels, divided by M_kk. The geometry must belong to `at`.
+    pub fn bounces(&self, at: &State, end: f64, frequency: &mut [f64]) -> f64 {
+        let (system, n) = (self.system, frequency.len());
+        let (bodies, mut most) = (system.mechanics.blocks[0].body_mass(), 1.0_f64);
+        for (frequency, omega) in frequency.iter_mut().zip(&system.mechanics.omegas) {
+            *frequency = omega.unwrap_or(0.0);
+        }
+        for i in (0..system.verticals()).filter(|&i| self.active.has(i) && at.force[i] > 0.0) {
+            let row = &self.geometry.rows().approach[i * n..(i + 1) * n];
+            let shapes = system.mechanics.structures.iter();
+            let sunk: f64 = shapes.map(|own| dot(&row[own.clone()], &at.q.as_slice()[own.clone()])).sum();
+            let drop = (self.geometry.approach(i, &at.q) - sunk).max(at.p[i]);
+            if drop <= 0.0 {
+                continue;
+            }
+            let stiffness = at.force[i] / drop;
+            if let Some(mass) = bodies {
+                for k in 0..mass.nrows() {
+                    frequency[k] += row[k] * row[k] * stiffness / mass[(k, k)];
+                }
+            }
+            let omega = (system.scene.gravity / drop).sqrt();
+            let [_, by_place, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
+            let share = if self.remembers(i) { (at.p[i] / drop).max(0.0) } else { 1.0 };
+            let ratio = 0.5 * by_rate / by_place * omega * share;
+            most = most.max((end * omega / TAU).min(1.0 + 1.0 / (TAU * ratio)));
+        }
+        if let Some(mass) = bodies {
+            frequency[..mass.nrows()].iter_mut().for_each(|frequency| *frequency = frequency.sqrt());
+        }
+        most
+    }
+
+    /// Time in which the penetration of vertical contact `i` follows its force, c G/(1 + k G).
+    pub fn delay(&self, i: usize, at: &State) -> f64 {
+        let [_, by_place, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
+        let compliance = self.geometry.own_compliance(i);
+        by_rate * compliance / (1.0 + by_place * compliance)
+    }
+
+    /// Fills the problem with W = G, and Y = G/h in the rows of contacts whose penetration is a state.
+    fn fill_without_mobility(&mut self, at: &State, h: f64) {
+        let m = at.force.len();
+        self.problem.idle.fill(false);
+        let effects = &mut self.problem.effects;
+        effects.w.copy_from_slice(&self.geometry.rails().value);
+        effects.y.fill(0.0);
+        for i in 0..m {
+            let remembers = self.active.has(i) && self.system.fixed[i].has_memory;
+            effects.kind[i] = RowKind::Law;
+            effects.approach[i] = self.geometry.approach(i, &at.q);
+            effects.rate[i] = self.geometry.rate(i, &at.v);
+            if remembers {
+                let row = i * m..(i + 1) * m;
+                for (y, w) in effects.y[row.clone()].iter_mut().zip(&effects.w[row]) {
+                    *y = w / h;
+                }
+                effects.rate[i] = at.p_rate[i] + along(&effects.y, i, &at.force);
+            }
+        }
+    }
+}

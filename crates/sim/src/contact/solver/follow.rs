@@ -1,0 +1,102 @@
+//! Wheels on rails without mass that follow their forces without delay: p + G K p = e.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::Solver;
+use crate::mechanics::state::State;
+use crate::numerics::dense::along;
+
+/// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
+/// their rates g'.
+pub(crate) struct Followed {
+    pub approach: DVector<f64>,
+    pub compliance: DMatrix<f64>,
+    pub value: DVector<f64>,
+    pub rate: DVector<f64>,
+}
+
+impl Solver<'_> {
+    /// The active vertical contacts.
+    pub fn active_contacts(&self) -> Vec<usize> {
+        (0..self.system.verticals()).filter(|&i| self.active.has(i)).collect()
+    }
+
+    /// Derivative of the force of vertical contact `i` by its penetration and by its rate, preceded by the force, at
+    /// penetration `p` and rate `rate`.
+    pub fn law_of(&self, i: usize, p: f64, rate: f64) -> [f64; 3] {
+        let scale = self.system.mechanics.groups[i].count() * self.geometry.fraction(i);
+        let value = self.system.law(i).at(p, rate);
+        [value.force, value.by_penetration, value.by_rate].map(|value| scale * value)
+    }
+
+    /// The `contacts` with springs of the given `stiffness` at `at`, for which the geometry must be current. The rate of
+    /// e contains the motion of the wheels along the rail, and the rate of G that of all wheels: dG_ij/dt = x_i'
+    /// dG_ij/dx_i + x_j' dG_ji/dx_j, for a symmetric compliance. `None` if the matrix is singular, or if forces of other
+    /// elements deflect the rails below these wheels.
+    pub fn followed(&self, at: &State, contacts: &[usize], stiffness: &[f64]) -> Option<Followed> {
+        let (count, m) = (contacts.len(), at.force.len());
+        let (rows, rails) = (self.geometry.rows(), self.geometry.rails());
+        // Forces of other elements that deflect the rails below these wheels are not included.
+        let is_other = |j: &usize| at.force[*j] != 0.0 && !contacts.contains(j);
+        let is_coupled = |j: usize| contacts.iter().any(|&i| rails.value[i * m + j] != 0.0);
+        if (0..m).filter(is_other).any(is_coupled) {
+            return None;
+        }
+        let speed: Vec<f64> = contacts.iter().map(|&i| self.system.contact_speed(i, at)).collect();
+        let approach = DVector::from_fn(count, |r, _| self.geometry.approach(contacts[r], &at.q));
+        let compliance = DMatrix::from_fn(count, count, |r, c| rails.value[contacts[r] * m + contacts[c]]);
+        let matrix = DMatrix::from_fn(count, count, |r, c| {
+            f64::from(u8::from(r == c)) + compliance[(r, c)] * stiffness[c]
+        });
+        let factors = matrix.lu();
+        let value = factors.solve(&approach)?;
+        let rate = DVector::from_fn(count, |r, _| {
+            let i = contacts[r];
+            let slope = rows.rise[i] - self.geometry.shape_slope(i, &at.q);
+            let mut rate = along(&rows.approach, i, at.v.as_slice()) + slope * speed[r];
+            for (c, &j) in contacts.iter().enumerate() {
+                let passing = speed[r] * rails.slope[i * m + j] + speed[c] * rails.slope[j * m + i];
+                rate -= passing * stiffness[c] * value[c];
+            }
+            rate
+        });
+        let rate = factors.solve(&rate)?;
+        Some(Followed { approach, compliance, value, rate })
+    }
+
+    /// Whether a damper acts between the wheel of active vertical contact `i` and a rail with mass, or a rigid one.
+    fn is_damped_by_mass(&self, i: usize) -> bool {
+        let structure = self.system.scene.contacts[self.system.mechanics.groups[i].contact].structure;
+        let has_mass = self.system.foundations[structure].structure.is_some();
+        self.remembers(i) && (has_mass || self.is_on_rigid_rail(i))
+    }
+
+    /// Sets the penetration rates of the active contacts with a damper between the wheel and a rail with mass, or a
+    /// rigid one, to those of a motion in which the compliance of the rails follows the forces of `at` without delay:
+    /// (I + G K) r = e' - G' F, with the stiffnesses K of the laws. The geometry must belong to `at`. Returns false if
+    /// there are no such contacts.
+    pub fn follow_rails(&self, at: &mut State) -> bool {
+        let contacts = self.active_contacts();
+        if !contacts.iter().any(|&i| self.is_damped_by_mass(i)) {
+            return false;
+        }
+        let (count, m, rails) = (contacts.len(), at.force.len(), self.geometry.rails());
+        let rates = DVector::from_fn(count, |r, _| {
+            let i = contacts[r];
+            let passing = contacts
+                .iter()
+                .map(|&j| rails.slope[j * m + i] * self.system.contact_speed(j, at) * at.force[j]);
+            self.approach_rate(i, at) - passing.sum::<f64>()
+        });
+        let stiffness = |i: usize| self.law_of(i, at.p[i], at.p_rate[i])[1];
+        let matrix = DMatrix::from_fn(count, count, |r, c| {
+            let own = f64::from(u8::from(r == c));
+            own + rails.value[contacts[r] * m + contacts[c]] * stiffness(contacts[c])
+        });
+        let Some(rates) = matrix.lu().solve(&rates) else { return false };
+        for (&i, rate) in contacts.iter().zip(rates.iter()).filter(|(i, _)| self.is_damped_by_mass(**i)) {
+            at.p_rate[i] = *rate;
+        }
+        true
+    }
+}

@@ -1,0 +1,52 @@
+//! Bounds of a polynomial of degree five by its Bernstein coefficients.
+
+/// Bound on |f(s) - f(0)| for s from 0 to `end`, from the Bernstein coefficients of f on [0, 1].
+///
+/// The coefficients on [0, end] follow by subdivision, and a polynomial lies within the range of its Bernstein
+/// coefficients. The bound is attained where they increase or decrease throughout.
+///
+/// # Source
+/// De Casteljau's algorithm: Farin, Curves and Surfaces for CAGD, 5th ed. (2002), ch. 4 and 5.
+pub(crate) fn largest_change(mut coefficients: [f64; 6], end: f64) -> f64 {
+    let first = coefficients[0];
+    let mut largest = 0.0_f64;
+    for level in (1..6).rev() {
+        for i in 0..level {
+            coefficients[i] += end * (coefficients[i + 1] - coefficients[i]);
+        }
+        largest = largest.max((coefficients[0] - first).abs());
+    }
+    largest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::largest_change;
+
+    /// Values of the polynomial, from the definition of the Bernstein polynomials.
+    fn value(coefficients: [f64; 6], s: f64) -> f64 {
+        let binomial = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
+        let term = |k: i32| binomial[k as usize] * s.powi(k) * (1.0 - s).powi(5 - k);
+        (0..6).map(|k| coefficients[k as usize] * term(k)).sum()
+    }
+
+    #[test]
+    fn bound_holds_and_is_attained_by_monotone_polynomials() {
+        let shapes = [
+            [2.0, 2.1, 2.5, 3.0, 4.0, 6.0],
+            [1.0, 0.5, 0.0, -2.0, -2.0, -9.0],
+            [0.0, 3.0, -5.0, 4.0, -1.0, 0.5],
+        ];
+        for (shape, is_monotone) in shapes.into_iter().zip([true, true, false]) {
+            for end in [0.01, 0.3, 0.77, 1.0] {
+                let bound = largest_change(shape, end);
+                let places = (0..=1000).map(|i| end * f64::from(i) / 1000.0);
+                let change = places.map(|s| (value(shape, s) - shape[0]).abs()).fold(0.0, f64::max);
+                assert!(bound >= change - 1e-14, "{bound} {change}");
+                if is_monotone {
+                    assert!((bound - change).abs() < 1e-14 * (1.0 + change), "{bound} {change}");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,69 @@
+//! Coordinates of all rails at which time steps must end, in increasing order.
+
+use super::foundation::Foundation;
+use super::irregularity::Irregularity;
+
+/// Breaks of every rail: those of its [`Extent`](super::foundation::Extent) and the corners of its irregularity.
+pub(crate) struct RailBreaks {
+    /// Increasing coordinates of each rail of each structure.
+    sorted: Vec<Vec<Vec<f64>>>,
+}
+
+impl RailBreaks {
+    /// Sorts the breaks of all rails.
+    pub fn new(foundations: &[Foundation]) -> Self {
+        let of_rail = |foundation: &Foundation, rail: usize| {
+            let own = foundation.rails.get(rail).map_or(&[][..], |extent| &extent.breaks);
+            let corners = foundation.irregularities.get(rail).map_or(&[][..], Irregularity::breaks);
+            let mut all: Vec<f64> = own.iter().chain(corners).copied().filter(|x| !x.is_nan()).collect();
+            all.sort_by(f64::total_cmp);
+            all.dedup();
+            all
+        };
+        let of_structure = |foundation: &Foundation| {
+            let rails = foundation.rails.len().max(foundation.irregularities.len());
+            (0..rails).map(|rail| of_rail(foundation, rail)).collect()
+        };
+        RailBreaks { sorted: foundations.iter().map(of_structure).collect() }
+    }
+
+    /// Breaks of `rail` of `structure` from `a` to `b`, both included, in the order in which a wheel that moves from
+    /// `a` to `b` meets them. They are found by bisection.
+    pub fn between(
+        &self,
+        structure: usize,
+        rail: usize,
+        a: f64,
+        b: f64,
+    ) -> impl ExactSizeIterator<Item = f64> + '_ {
+        let all = self.sorted.get(structure).and_then(|rails| rails.get(rail)).map_or(&[][..], Vec::as_slice);
+        let (low, high) = (a.min(b), a.max(b));
+        let from = &all[all.partition_point(|x| *x < low)..];
+        let found = &from[..from.partition_point(|x| *x <= high)];
+        let last = found.len().saturating_sub(1);
+        (0..found.len()).map(move |k| if a <= b { found[k] } else { found[last - k] })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::Extent;
+
+    #[test]
+    fn breaks_come_in_the_order_in_which_a_wheel_meets_them() {
+        let extent = Extent { range: None, breaks: vec![9.0, 2.0, f64::NAN, 5.0, 2.0] };
+        let shape = Irregularity::new(&[[1.0, 0.0], [3.0, 0.1], [5.0, 0.0]], &[]).expect("rows in order");
+        let foundation =
+            Foundation { rails: vec![extent], irregularities: vec![shape], ..Foundation::rigid() };
+        let breaks = RailBreaks::new(&[Foundation::rigid(), foundation]);
+        let of = |a: f64, b: f64| breaks.between(1, 0, a, b).collect::<Vec<_>>();
+        assert_eq!(of(0.0, 10.0), [1.0, 2.0, 3.0, 5.0, 9.0]);
+        assert_eq!(of(5.0, 1.5), [5.0, 3.0, 2.0]);
+        assert_eq!(of(2.0, 2.0), [2.0]);
+        assert_eq!(of(9.1, 20.0), [0.0; 0]);
+        assert_eq!(of(f64::NAN, f64::NAN), [0.0; 0]);
+        assert_eq!(breaks.between(0, 0, 0.0, 10.0).len(), 0);
+        assert_eq!(breaks.between(1, 1, 0.0, 10.0).len(), 0);
+    }
+}

@@ -1,0 +1,244 @@
+//! Measures of the difference between two runs of a scene.
+//!
+//! Both runs are given as [`Record`]s: quantities sampled at the same times. The difference of a quantity y is relative
+//! to its scale
+//!
+//! ```text
+//! S = max( range of y with zero included, 1e-3 of the largest such range among quantities of its kind,
+//!          least scale of y )
+//! ```
+//!
+//! [`Measure::History`] is the largest |y_a - y_b| / S at equal times. [`Measure::Extremes`] compares what engineers
+//! read from a run, and does not count a shift in time by less than a bounce of a wheel:
+//!
+//! 1. the largest and the smallest value over the whole run;
+//! 2. the envelope. Windows have the length of three periods of the slowest bounce and overlap by half. The maximum of
+//!    one run in a window must not exceed that of the other run in the window widened by one period at both ends, and
+//!    vice versa; minima likewise;
+//! 3. the mean over each window.
+//!
+//! Windows keep an error late in a run from hiding behind an early peak. In a run of more than [`MANY`] bounces the
+//! phases of bounces that nothing damps cannot be known: which wheel of a body is the more heavily loaded one at a
+//! given time is then a matter of chance. There the window is the whole run, and the extremes of a quantity are taken
+//! over all wheels of a body.
+
+use crate::{Channel, History};
+
+/// Scale of the smallest quantities, relative to the largest of their kind.
+const FLOOR: f64 = 1e-3;
+/// Length of a window, in periods of the slowest bounce.
+const PERIODS: f64 = 3.0;
+/// Number of bounces up to which their phases count.
+const MANY: f64 = 100.0;
+
+/// Measure of the error of a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Measure {
+    /// Extremes over the run and envelopes over windows of time.
+    #[default]
+    Extremes,
+    /// Values at equal times.
+    History,
+}
+
+/// A quantity of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordedQuantity {
+    /// Name for messages.
+    pub name: String,
+    /// Quantities of equal kind have the same dimension and are of comparable size.
+    pub kind: &'static str,
+    /// The channel that it is read from, if it is one channel.
+    pub channel: Option<Channel>,
+    /// Whether its scale is its range without zero, as for positions, whose origin has no meaning.
+    pub is_position: bool,
+    /// Quantities of equal group are one quantity at several wheels of a body; empty: it belongs to no wheel.
+    pub group: String,
+    /// Least scale of the quantity, below which its values are rounding errors.
+    pub least_scale: f64,
+    /// One value for each time of the record.
+    pub values: Vec<f64>,
+}
+
+/// The quantities of a run whose error matters, at increasing times.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Record {
+    /// Times.
+    pub time: Vec<f64>,
+    /// Quantities.
+    pub quantities: Vec<RecordedQuantity>,
+}
+
+impl Record {
+    /// The displacements of all bodies and the vertical, lateral and longitudinal forces and deflections at all wheels,
+    /// the forces of ropes and stops, and the gauges.
+    #[must_use]
+    pub fn of(history: &History) -> Record {
+        let quantity = |channel: &Channel| {
+            let (kind, is_position) = match channel {
+                Channel::Displacement(_, crate::BodyDof::X) => ("position", true),
+                Channel::Displacement(_, dof) if (*dof as usize) < 3 => ("displacement", false),
+                Channel::Displacement(..) => ("rotation", false),
+                Channel::Vertical(_) | Channel::Lateral(_) | Channel::Traction(_) => ("force", false),
+                Channel::Tension(_) | Channel::Stop(_) => ("force", false),
+                Channel::Deflection(_) | Channel::Gauge(_) => ("displacement", false),
+                Channel::Drive(_) => ("force", false),
+                _ => return None,
+            };
+            let (name, values) = (format!("{channel:?}"), history.column(*channel));
+            Some(RecordedQuantity {
+                name,
+                kind,
+                channel: Some(*channel),
+                is_position,
+                group: String::new(),
+                least_scale: 0.0,
+                values,
+            })
+        };
+        let quantities = history.channels().iter().filter_map(quantity).collect();
+        Record { time: history.column(Channel::Time), quantities }
+    }
+
+    /// Scale of every quantity, see the head of this module; 0 for a quantity of a kind that is zero throughout.
+    #[must_use]
+    pub fn scales(&self) -> Vec<f64> {
+        let range = |quantity: &RecordedQuantity| {
+            let first = quantity.values.first().copied().unwrap_or_default();
+            let start = if quantity.is_position { first } else { 0.0 };
+            let [low, high] = extremes(quantity.values.iter(), start);
+            high - low
+        };
+        let ranges: Vec<f64> = self.quantities.iter().map(range).collect();
+        let largest = |kind: &str| {
+            let of_kind = self.quantities.iter().zip(&ranges).filter(|(other, _)| other.kind == kind);
+            of_kind.fold(0.0_f64, |most, (_, range)| most.max(*range))
+        };
+        let own = self.quantities.iter().zip(&ranges);
+        own.map(|(own, range)| range.max(FLOOR * largest(own.kind)).max(own.least_scale)).collect()
+    }
+}
+
+/// Smallest and largest of `values` and `start`.
+fn extremes<'a>(values: impl Iterator<Item = &'a f64>, start: f64) -> [f64; 2] {
+    values.fold([start; 2], |[low, high], value| [low.min(*value), high.max(*value)])
+}
+
+/// Difference of two runs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Difference {
+    /// The largest difference of a quantity; infinite where the runs cannot be compared.
+    pub largest: f64,
+    /// Name of that quantity; empty where all are equal.
+    pub quantity: String,
+}
+
+/// Periods of the bounces of wheels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounces {
+    /// Period of the slowest bounce, on flexible rails.
+    pub slowest: f64,
+    /// Period of the fastest bounce, on rigid rails.
+    pub fastest: f64,
+}
+
+/// Difference of record `a` from record `b` of the same scene. Where the runs were ended by a rule at different times,
+/// the difference of these times, relative to the later one, counts as well, and values are compared as far as both
+/// runs reach.
+#[must_use]
+pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) -> Difference {
+    let unknown = Difference { largest: f64::INFINITY, quantity: String::new() };
+    if a.quantities.len() != b.quantities.len() || a.time.is_empty() || b.time.is_empty() {
+        return unknown;
+    }
+    let last = |record: &Record| record.time[record.time.len() - 1];
+    let (ends, count) = ([last(a), last(b)], a.time.len().min(b.time.len()));
+    let duration = (ends[0] - ends[1]).abs() / ends[0].max(ends[1]).max(f64::MIN_POSITIVE);
+    let mut found = Difference { largest: 0.0, quantity: String::new() };
+    if a.time.len() != b.time.len() && duration > 0.0 {
+        found = Difference { largest: duration, quantity: "time of the end".to_owned() };
+    }
+    let is_long = ends[0] > MANY * bounces.fastest;
+    let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
+    for (index, scale) in b.scales().into_iter().enumerate() {
+        let [one, other] = [a, b].map(|record| &record.quantities[index]);
+        let values = [&one.values[..count], &other.values[..count]];
+        let largest = match measure {
+            Measure::History => pointwise(values),
+            Measure::Extremes if is_long && !other.group.is_empty() => {
+                let [a, b] = [a, b].map(|record| group_extremes(record, &other.group, count));
+                (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
+            }
+            Measure::Extremes => windows.difference(values),
+        };
+        let relative = if largest == 0.0 { 0.0 } else { largest / scale };
+        if relative > found.largest || relative.is_nan() {
+            found = Difference { largest: relative, quantity: other.name.clone() };
+        }
+    }
+    if found.largest.is_nan() { unknown } else { found }
+}
+
+/// Smallest and largest value of the quantities of a group in the first `count` samples.
+fn group_extremes(record: &Record, group: &str, count: usize) -> [f64; 2] {
+    let own = record.quantities.iter().filter(|quantity| quantity.group == group);
+    let all = own.map(|quantity| extremes(quantity.values[..count].iter(), quantity.values[0]));
+    all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
+}
+
+/// Largest difference at equal times.
+fn pointwise([a, b]: [&[f64]; 2]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+}
+
+/// Windows of a record: ranges of samples, and the same ranges widened by one period.
+struct Windows {
+    own: Vec<std::ops::Range<usize>>,
+    wide: Vec<std::ops::Range<usize>>,
+}
+
+impl Windows {
+    fn new(time: &[f64], period: f64) -> Windows {
+        let (first, last) = (time[0], time[time.len() - 1]);
+        let length = PERIODS * period;
+        let count = ((last - first) / (0.5 * length)).floor();
+        // also true where the period is zero or not a number
+        if !(count >= 2.0 && count <= time.len() as f64) {
+            let whole = 0..time.len();
+            return Windows { own: vec![whole.clone()], wide: vec![whole] };
+        }
+        let between = |from: f64, to: f64| {
+            let start = time.partition_point(|t| *t < from);
+            start..time.partition_point(|t| *t <= to).max(start + 1).min(time.len())
+        };
+        let count = count as usize - 1;
+        let spans = (0..count).map(|k| {
+            let from = first + 0.5 * length * k as f64;
+            [from, if k + 1 == count { last } else { from + length }]
+        });
+        let (own, wide) =
+            spans.map(|[from, to]| (between(from, to), between(from - period, to + period))).unzip();
+        Windows { own, wide }
+    }
+
+    /// Largest difference of extremes over the run, of the envelopes, and of the means.
+    fn difference(&self, values: [&[f64]; 2]) -> f64 {
+        let over = |side: usize, range: std::ops::Range<usize>| {
+            let part = &values[side][range];
+            extremes(part.iter(), part.first().copied().unwrap_or_default())
+        };
+        let whole = 0..values[0].len();
+        let [a, b] = [over(0, whole.clone()), over(1, whole)];
+        let mut most = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+        for (own, wide) in self.own.iter().zip(&self.wide) {
+            let [a, b] = [over(0, own.clone()), over(1, own.clone())];
+            let [around_a, around_b] = [over(0, wide.clone()), over(1, wide.clone())];
+            most = most.max(a[1] - around_b[1]).max(b[1] - around_a[1]);
+            most = most.max(around_b[0] - a[0]).max(around_a[0] - b[0]);
+            let mean = |side: usize| values[side][own.clone()].iter().sum::<f64>() / own.len() as f64;
+            most = most.max((mean(0) - mean(1)).abs());
+        }
+        // maxima ignore what is not a number; the sum does not
+        if values.iter().all(|part| part.iter().all(|value| value.is_finite())) { most } else { f64::NAN }
+    }
+}

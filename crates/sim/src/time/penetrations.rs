@@ -1,0 +1,191 @@
+//! Penetrations of wheels with a damper to their rail inside a step.
+//!
+//! Such a penetration p is a state with the equation p + G F = e(t), F = F(p, p'). Its time constant, c G/(1 + k G),
+//! is mostly much shorter than a step, so that the rates p' of a Runge-Kutta method, and those of a polynomial through
+//! its results, have a low order. The motion of the bodies has the full order. The equation is therefore solved again
+//! in each step in which samples are taken, along the motion, by collocation of the small difference s = p - g from
+//! the penetrations g of the springs alone, (I + G K) g = e, whose rates are known exactly.
+
+use nalgebra::{DMatrix, DVector};
+
+use super::nodes::Nodes;
+use crate::Error;
+use crate::contact::solver::Solver;
+use crate::contact::solver::follow::Followed;
+use crate::mechanics::state::State;
+
+/// Number of Newton iterations at most; laws that are linear need one.
+const ITERATIONS: usize = 12;
+
+/// Time in which a penetration follows its force, per step, below which its value at the start may be free.
+const QUICK: f64 = 0.25;
+
+/// The start and the nodes.
+const PLACES: [f64; 4] = [0.0, Nodes::RADAU[0], Nodes::RADAU[1], Nodes::RADAU[2]];
+
+/// The penetrations of the active contacts in one step.
+pub(crate) struct Penetrations {
+    h: f64,
+    /// The active vertical contacts; none if no equation is solved.
+    contacts: Vec<usize>,
+    stiffness: Vec<f64>,
+    /// s at the start and at the nodes.
+    differences: Vec<DVector<f64>>,
+    /// Whether the equation holds at the start, instead of s there, for each contact.
+    is_free: Vec<bool>,
+    /// The contacts at the start and at the nodes.
+    followed: Vec<Followed>,
+}
+
+impl Penetrations {
+    /// Begins a step of length `h` from `from`, with the active contacts of the solver. A penetration that follows its
+    /// force within a fraction of the step is in the course of a motion without a jump independent of its value at the
+    /// start, whose error is then of no effect.
+    pub fn new(solver: &mut Solver, from: &State, h: f64, begins_smoothly: bool) -> Self {
+        let mut new = Penetrations {
+            h,
+            is_free: Vec::new(),
+            contacts: Vec::new(),
+            stiffness: Vec::new(),
+            differences: Vec::new(),
+            followed: Vec::new(),
+        };
+        let contacts = solver.active_contacts();
+        if !(is_suited(solver) && contacts.iter().any(|&i| solver.remembers(i))) {
+            return new;
+        }
+        let stiffness: Vec<f64> =
+            contacts.iter().map(|&i| solver.law_of(i, from.p[i], from.p_rate[i])[1].max(0.0)).collect();
+        if solver.update(from).is_err() {
+            return new;
+        }
+        if let Some(start) = solver.followed(from, &contacts, &stiffness) {
+            new.differences
+                .push(DVector::from_fn(contacts.len(), |r, _| from.p[contacts[r]] - start.value[r]));
+            let is_quick = |i: &usize| begins_smoothly && solver.delay(*i, from) < QUICK * h;
+            new.is_free = contacts.iter().map(is_quick).collect();
+            new.followed.push(start);
+            (new.contacts, new.stiffness) = (contacts, stiffness);
+        }
+        new
+    }
+
+    /// Fractions of the step at which states must be [added](Self::add), in this order.
+    pub fn fractions(&self) -> impl Iterator<Item = f64> + use<> {
+        Nodes::RADAU.into_iter().filter({
+            let is_solved = !self.contacts.is_empty();
+            move |_| is_solved
+        })
+    }
+
+    /// Adds the interpolated state `at` of the next node.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails.
+    pub fn add(&mut self, solver: &mut Solver, at: &State) -> Result<(), Error> {
+        solver.update(at)?;
+        self.followed.extend(solver.followed(at, &self.contacts, &self.stiffness));
+        Ok(())
+    }
+
+    /// Solves the equation at all nodes.
+    pub fn solve(&mut self, solver: &Solver) {
+        let count = self.contacts.len();
+        if self.followed.len() < PLACES.len() {
+            self.contacts.clear();
+            return;
+        }
+        self.differences.resize_with(PLACES.len(), || DVector::zeros(count));
+        for _ in 0..ITERATIONS {
+            let Some(change) = self.correction(solver) else {
+                self.contacts.clear();
+                return;
+            };
+            let mut size = 0.0_f64;
+            for (a, own) in self.differences.iter_mut().enumerate() {
+                for r in 0..count {
+                    own[r] -= change[a * count + r];
+                    size = size.max(own[r].abs() + self.followed[a].value[r].abs());
+                }
+            }
+            if change.amax() <= 1e-14 * size {
+                break;
+            }
+        }
+    }
+
+    /// Newton's change of the differences at the start and at the nodes.
+    fn correction(&self, solver: &Solver) -> Option<DVector<f64>> {
+        let count = self.contacts.len();
+        let size = PLACES.len() * count;
+        let mut residual = DVector::zeros(size);
+        let mut matrix = DMatrix::identity(size, size);
+        for (a, node) in self.followed.iter().enumerate() {
+            let (own, weights) = (&self.differences[a], slopes(PLACES[a]));
+            let slope = |c: usize| -> f64 {
+                self.differences.iter().zip(weights).map(|(own, weight)| weight * own[c]).sum()
+            };
+            let law = |c: usize| {
+                let rate = node.rate[c] + slope(c) / self.h;
+                solver.law_of(self.contacts[c], node.value[c] + own[c], rate)
+            };
+            let laws: Vec<[f64; 3]> = (0..count).map(law).collect();
+            for r in (0..count).filter(|&r| a > 0 || self.is_free[r]) {
+                let row = a * count + r;
+                residual[row] = node.value[r] + own[r] - node.approach[r];
+                for (c, [force, by_place, by_rate]) in laws.iter().enumerate() {
+                    let compliance = node.compliance[(r, c)];
+                    residual[row] += compliance * force;
+                    matrix[(row, a * count + c)] += compliance * by_place;
+                    for (b, weight) in weights.iter().enumerate() {
+                        matrix[(row, b * count + c)] += compliance * by_rate * weight / self.h;
+                    }
+                }
+            }
+        }
+        matrix.lu().solve(&residual).filter(|change| change.iter().all(|x| x.is_finite()))
+    }
+
+    /// Sets the penetration rates of the interpolated state `at`, at the fraction `share` of the step.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails.
+    pub fn set_rates(&self, solver: &mut Solver, share: f64, at: &mut State) -> Result<(), Error> {
+        if self.contacts.is_empty() {
+            return Ok(());
+        }
+        solver.update(at)?;
+        let Some(followed) = solver.followed(at, &self.contacts, &self.stiffness) else { return Ok(()) };
+        let weights = slopes(share);
+        for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
+            let slope: f64 = self.differences.iter().zip(weights).map(|(own, weight)| weight * own[r]).sum();
+            at.p_rate[i] = followed.rate[r] + slope / self.h;
+        }
+        Ok(())
+    }
+}
+
+/// Whether the rates of the springs' penetrations are known: rails on the ground with a symmetric compliance, and one
+/// force for each wheel.
+fn is_suited(solver: &Solver) -> bool {
+    let system = solver.system();
+    system.mechanics.carried.is_empty()
+        && system.mechanics.couplings.is_empty()
+        && system.foundations.iter().all(|foundation| {
+            let is_symmetric = foundation.compliance.as_ref().is_none_or(|own| own.is_symmetric());
+            foundation.parts.is_none() && foundation.carrier.is_none() && is_symmetric
+        })
+}
+
+/// Derivatives at `share` of the cubic Lagrange polynomials through the places.
+fn slopes(share: f64) -> [f64; 4] {
+    let places = PLACES;
+    std::array::from_fn(|j| {
+        let others = [0, 1, 2, 3].into_iter().filter(|&k| k != j);
+        let scale: f64 = others.clone().map(|k| places[j] - places[k]).product();
+        let term = |left: usize| -> f64 {
+            others.clone().filter(|&k| k != left).map(|k| share - places[k]).product()
+        };
+        others.clone().map(term).sum::<f64>() / scale
+    })
+}

@@ -1,0 +1,100 @@
+//! The first sample of a run: forces, penetrations and all other channels are those of the motion that begins.
+
+mod common;
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use common::modes::{MASS, beam, omega};
+use common::{SPAN, WEIGHT, bogie, girder, surface};
+use sim::{Channel, Damper, Foundation, Gauge, Method, MotionKind, Profile, Run, Scene, Status, run_by};
+use splines::{Axis, Probe};
+
+fn go(method: Method, scene: &Scene, foundation: Foundation) -> Run {
+    let run =
+        run_by(method, scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+    assert_eq!(run.status, Status::Done);
+    run
+}
+
+/// The bogie from `x0` on, with dampers between wheel and rail and a gauge.
+fn moving(x0: f64, speed: f64, end: f64) -> Scene {
+    let mut scene = bogie(speed, end, Damper::Rail);
+    scene.bodies[0].motion =
+        Some(Profile::new(MotionKind::Speed, &[[0.0, speed]], x0, 0.0).expect("a valid table"));
+    scene.gauges = vec![Gauge { structure: 0, probe: Probe { rail: 0, x: 31.0, axis: Axis::Vertical } }];
+    scene.accuracy = 1e-8;
+    scene
+}
+
+/// Analytic: each wheel carries half of the weight, the modes are at rest under both wheels, q_r = sum of F phi_r(x) /
+/// omega_r^2, and the rail below a wheel at speed v falls away by v w', where w' is the slope of the deflection.
+#[test]
+fn the_first_force_of_a_damper_contains_the_slope_of_a_rail_with_mass() {
+    let (x0, speed, count) = (14.0, 80.0, 12);
+    let places = [x0 - 4.0 / 3.0, x0 + 4.0 / 3.0];
+    let wave = |r: usize| r as f64 * PI / SPAN;
+    let slope = |x: f64| -> f64 {
+        let of = |r: usize| {
+            let load: f64 = places.iter().map(|place| 0.5 * WEIGHT * (wave(r) * place).sin()).sum();
+            2.0 / (MASS * SPAN) * load / omega(r).powi(2) * wave(r) * (wave(r) * x).cos()
+        };
+        (1..=count).map(of).sum()
+    };
+    for method in [Method::Radau, Method::Sdirk4] {
+        let run = go(method, &moving(x0, speed, 0.01), beam(count, false));
+        for (w, x) in places.into_iter().enumerate() {
+            let force = run.history.column(Channel::Vertical(w))[0];
+            let depth = run.history.column(Channel::Penetration(w))[0];
+            let wanted = 0.5 * WEIGHT - 1e5 * speed * slope(x);
+            assert!((wanted - 0.5 * WEIGHT).abs() > 1e4, "the damper matters: {wanted}");
+            assert!((force / wanted - 1.0).abs() < 1e-11, "{method:?}, wheel {w}: {force} for {wanted}");
+            assert!((depth / (0.5 * WEIGHT / 1e8) - 1.0).abs() < 1e-11, "{depth}");
+        }
+    }
+}
+
+type Named = (&'static str, fn() -> Foundation);
+
+/// Identity: each channel is continuous where the run begins, so that its first sample is the limit of the others.
+#[test]
+fn every_first_sample_is_the_limit_of_those_after_it() {
+    let foundations: [Named; 4] = [
+        ("exact", || Foundation::massless(Box::new(surface()), 1)),
+        ("closed form", girder),
+        ("modes", || beam(8, false)),
+        ("modes and the rest", || beam(3, true)),
+    ];
+    for (name, foundation) in foundations {
+        for speed in [5.0, 100.0] {
+            for method in [Method::Radau, Method::Sdirk4] {
+                let mut scene = moving(14.0, speed, 2e-6);
+                scene.output_dt = 5e-7;
+                let early = go(method, &scene, foundation());
+                (scene.end, scene.output_dt) = (0.2, 1e-3);
+                let whole = go(method, &scene, foundation());
+                for &channel in early.history.channels() {
+                    let column = early.history.column(channel);
+                    let size = whole.history.values(channel).fold(0.0_f64, |max, value| max.max(value.abs()));
+                    let limit = 3.0 * column[1] - 3.0 * column[2] + column[3];
+                    assert!(
+                        (column[0] - limit).abs() <= 1e-4 * size,
+                        "{name}, {speed} ft/s, {method:?}, {channel:?}: {} for {limit}",
+                        column[0]
+                    );
+                }
+            }
+        }
+    }
+}
+
+/// Analytic: a wheel that falls onto its damper at the start presses with k p + c v.
+#[test]
+fn the_first_force_of_a_falling_wheel_contains_its_speed() {
+    let mut scene = bogie(0.0, 0.01, Damper::Rail);
+    scene.bodies[0].start_speed[1] = -0.5;
+    let run = go(Method::Auto, &scene, Foundation::rigid());
+    let force = run.history.column(Channel::Vertical(0))[0];
+    let wanted = 0.5 * WEIGHT + 1e5 * 0.5;
+    assert!((force / wanted - 1.0).abs() < 1e-12, "{force} for {wanted}");
+}
