@@ -229,7 +229,7 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
     (scene, foundation)
 }
 
-/// Convergence, as above, in scenes that the constants of the steps were not fitted to.
+/// Convergence, as above, in scenes at random, with which the constants of the steps were compared.
 #[test]
 #[ignore = "three minutes"]
 fn scenes_at_random_keep_the_accuracy_asked() {
