@@ -109,6 +109,18 @@ impl Trial {
     }
 }
 
+/// What a refinement by runs with modes begins with.
+struct Refinement {
+    open: Vec<Open>,
+    /// Number of modes of each structure in the next run.
+    counts: Vec<usize>,
+    /// Whether influence is not expected to suffice.
+    is_hopeless: bool,
+    bounces: Bounces,
+    /// All foundations, with the exact compliances.
+    compliances: Vec<Foundation>,
+}
+
 /// A structure whose fidelity is to be chosen.
 struct Open {
     structure: usize,
@@ -254,32 +266,50 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.modal_accuracy = self.accuracy.min(UNEVEN * least(self.tolerances));
         }
         let frequency = 2.0 * std::f64::consts::PI / bounces.fastest;
-        let none = vec![0; open.len()];
-        for own in &mut open {
-            self.estimate(own, &first, &compliances, 0, f64::INFINITY);
+        let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, frequency);
+        self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
+        if counts.iter().any(|count| *count > 0) {
+            return self.refine(Refinement { open, counts, is_hopeless, bounces, compliances }, first);
+        }
+        for own in &open {
+            self.settle(own, Fidelity::Influence, Reason::Sufficient, &own.tail(0));
+        }
+        self.rigid_if_still(&open, first, bounces)
+    }
+
+    /// Estimates the error of the run `first`; returns the numbers of modes for the next run, 0 where influence
+    /// suffices, and whether influence is not expected to suffice somewhere. `frequency` is that of the fastest bounce.
+    fn first_counts(
+        &mut self,
+        open: &mut [Open],
+        first: &Trial,
+        compliances: &[Foundation],
+        frequency: f64,
+    ) -> (Vec<usize>, bool) {
+        for own in open.iter_mut() {
+            self.estimate(own, first, compliances, 0, f64::INFINITY);
         }
         let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
-        let mut counts = none.clone();
+        let mut counts = vec![0; open.len()];
         for (own, count) in open.iter_mut().zip(&mut counts) {
             let aim = AIM * own.tolerance;
             let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
             if own.tail(0).error > aim {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
-                self.estimate(own, &first, &compliances, 1, limit);
+                self.estimate(own, first, compliances, 1, limit);
                 *count = own.count_for(limit, 1).max(least.min(own.count_for(NEGLIGIBLE * aim, 1)));
             }
         }
-        self.note_tails(&open, &none, 1.0, &first);
-        if counts == none {
-            for own in &open {
-                self.settle(own, Fidelity::Influence, Reason::Sufficient, &own.tail(0));
-            }
-            return self.rigid_if_still(&open, first, bounces);
-        }
+        (counts, is_hopeless)
+    }
+
+    /// Steps 3 and 4 of the head of this module: runs with modes until one of two runs is sufficient. `lower` is the
+    /// run with influence functions.
+    fn refine(&mut self, refinement: Refinement, mut lower: Trial) -> Result<Trial, L::Error> {
+        let Refinement { mut open, mut counts, is_hopeless, bounces, compliances } = refinement;
         let strictest = self.strictest(&open, &counts);
         let mut accuracy = if is_hopeless { self.modal_accuracy } else { CHECK_ACCURACY * strictest.value };
-        let mut lower = first;
-        let mut lacking = largest(&open, &none);
+        let mut lacking = largest(&open, &vec![0; open.len()]);
         for round in 1..=MODAL_RUNS {
             let Some(higher) = self.modal_trial(&open, &counts, accuracy) else {
                 return self.repeated(lower);
@@ -295,16 +325,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= strictest.value {
-                let is_kept = higher.accuracy <= self.modal_accuracy
-                    && lower.run.counts.stages as u64 > LONG
-                    && higher.cost() > COSTLY * lower.cost();
-                let (chosen, reason) =
-                    if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
-                let tail = TailError { kept: 0, error, quantity: apart.quantity };
-                for own in &open {
-                    self.settle(own, chosen.fidelities[own.structure], reason, &tail);
-                }
-                return self.repeated(chosen);
+                let error = TailError { kept: 0, error, quantity: apart.quantity };
+                return self.choose_lower(&open, lower, higher, &error);
             }
             let is_within = |own: &Open, count: usize| factor * own.tail(count).error <= SAFE * own.tolerance;
             let mut raised = counts.clone();
@@ -316,17 +338,42 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 }
             }
             if raised == counts || round == MODAL_RUNS {
-                for (own, &count) in open.iter().zip(&counts) {
-                    let reason = if is_within(own, count) { Reason::Sufficient } else { Reason::Limit };
-                    let tail = own.tail(count);
-                    let tail = TailError { error: factor * tail.error, ..tail };
-                    self.settle(own, higher.fidelities[own.structure], reason, &tail);
-                }
+                self.settle_higher(&open, &counts, factor, &higher);
                 return self.repeated(higher);
             }
             (lower, counts, accuracy) = (higher, raised, self.modal_accuracy);
         }
         Ok(lower)
+    }
+
+    /// Chooses the lower one of two runs, whose error is within the tolerance, unless the higher one costs so much more
+    /// that its run is kept.
+    fn choose_lower(
+        &mut self,
+        open: &[Open],
+        lower: Trial,
+        higher: Trial,
+        error: &TailError,
+    ) -> Result<Trial, L::Error> {
+        let is_kept = higher.accuracy <= self.modal_accuracy
+            && lower.run.counts.stages as u64 > LONG
+            && higher.cost() > COSTLY * lower.cost();
+        let (chosen, reason) = if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
+        for own in open {
+            self.settle(own, chosen.fidelities[own.structure], reason, error);
+        }
+        self.repeated(chosen)
+    }
+
+    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`.
+    fn settle_higher(&mut self, open: &[Open], counts: &[usize], factor: f64, higher: &Trial) {
+        for (own, &count) in open.iter().zip(counts) {
+            let tail = own.tail(count);
+            let error = TailError { error: factor * tail.error, ..tail };
+            let is_within = error.error <= SAFE * own.tolerance;
+            let reason = if is_within { Reason::Sufficient } else { Reason::Limit };
+            self.settle(own, higher.fidelities[own.structure], reason, &error);
+        }
     }
 
     /// The choice where the run `first` with influence functions could not continue: the first number of modes that
