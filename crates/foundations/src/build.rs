@@ -1,12 +1,12 @@
 //! Builds the foundation that a scene specifies from the solution or the tables of a structure.
 
 use formats::scene::{self, Handover, Origin, Structure};
-use sim::{Extent, Foundation};
+use sim::{Extent, Foundation, Measure};
 use splines::{Axis, Influence, Probe};
 
 use crate::built::BuiltFoundation;
 use crate::error::Error;
-use crate::modal::{Dampers, ModeCache};
+use crate::modal::{ACCURACY, Dampers, ModeCache};
 use crate::mount::{self, Excitation};
 use crate::parts;
 use crate::solved::SolvedModel;
@@ -94,7 +94,7 @@ fn build_on_ground(
         scene::Foundation::Modal { modes, damping } => cache.lowest(
             &structure.name,
             required_solution(structure, solved)?,
-            modes,
+            (modes, mode_accuracy(structure)),
             damping,
             Dampers::NONE,
             excitation,
@@ -116,7 +116,7 @@ fn build_on_ground(
             let (name, dampers) = (&structure.name, Dampers { pads, c });
             let solved = required_solution(structure, solved)?;
             match modes {
-                Some(count) => cache.lowest(name, solved, count, damping, dampers, excitation),
+                Some(count) => cache.lowest(name, solved, (count, ACCURACY), damping, dampers, excitation),
                 // members between ties are not subdivided
                 None => cache.full(name, solved, 1, damping, dampers, excitation),
             }
@@ -138,6 +138,14 @@ pub(super) fn coarse_modes(
 ) -> Result<BuiltFoundation, Error> {
     let excitation = Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier };
     cache.coarse(&structure.name, solved, count, structure.damping, excitation)
+}
+
+/// Largest relative error of the frequencies of a structure. Where the number of modes is chosen by a tolerance, it is a
+/// hundredth of that, and a thousandth where values at equal times are compared: the phase of an oscillation errs by
+/// 2 pi times this fraction in each period.
+fn mode_accuracy(structure: &Structure) -> f64 {
+    let fraction = if structure.measure == Measure::History { 1e-3 } else { 1e-2 };
+    if structure.auto { (fraction * structure.tolerance).max(ACCURACY) } else { ACCURACY }
 }
 
 fn required_solution<'s>(

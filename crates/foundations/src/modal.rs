@@ -38,7 +38,7 @@ use crate::solved::SolvedModel;
 use formats::spec::ties::Pad;
 
 /// Largest relative error of a frequency due to the subdivision of members.
-const ACCURACY: f64 = 1e-6;
+pub(super) const ACCURACY: f64 = 1e-6;
 /// The same for modes that serve only to estimate the error of leaving them out.
 const COARSE: f64 = 1e-2;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
@@ -231,13 +231,13 @@ pub struct ModeCache {
 }
 
 impl ModeCache {
-    /// The foundation of the lowest `count` modes that `excitation` excites, each with the fraction `ratio` of
-    /// critical damping.
+    /// The foundation of the lowest `count` modes that `excitation` excites, with frequencies within `accuracy`, each
+    /// with the fraction `ratio` of critical damping. All calls must have the same `accuracy`.
     pub(super) fn lowest(
         &mut self,
         name: &str,
         solved: &SolvedModel,
-        count: usize,
+        (count, accuracy): (usize, f64),
         ratio: f64,
         dampers: Dampers<'_>,
         excitation: Excitation,
@@ -245,7 +245,7 @@ impl ModeCache {
         let cached = self.lowest.take().filter(|modes| modes.has(count));
         let modes = match cached {
             Some(modes) => modes,
-            None => MeshModes::lowest(name, solved, count, ACCURACY, excitation)?,
+            None => MeshModes::lowest(name, solved, count, accuracy, excitation)?,
         };
         self.lowest.insert(modes).foundation(name, count, ratio, dampers, excitation)
     }

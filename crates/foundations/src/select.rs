@@ -259,6 +259,12 @@ pub fn selection_reason(choice: &Choice) -> String {
             "auto: {chosen}; {} exceeds the tolerance, and the limit of three runs with natural modes was reached",
             error()
         ),
+        Reason::NoBetter => {
+            format!(
+                "auto: {chosen}; {} exceeds the tolerance, and more natural modes would not reduce it enough",
+                error()
+            )
+        }
         Reason::Unchecked => {
             format!("auto: {chosen}; no other fidelity could be run to check it, so its error is not known")
         }
@@ -270,11 +276,16 @@ pub fn selection_reason(choice: &Choice) -> String {
 pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
     let chosen = fidelity_name(choice.fidelity);
     let why = match choice.reason {
-        Reason::Limit => format!(
+        Reason::Limit | Reason::NoBetter => format!(
             "the estimated error of {} on the foundation {chosen} is {:.1e}, which is more than the tolerance \
-             {tolerance}; it was not possible to reduce it in three runs",
+             {tolerance}; {}",
             if choice.quantity.is_empty() { "the run" } else { &choice.quantity },
-            choice.estimate.unwrap_or(f64::INFINITY)
+            choice.estimate.unwrap_or(f64::INFINITY),
+            if choice.reason == Reason::Limit {
+                "it was not possible to reduce it in three runs"
+            } else {
+                "more natural modes would not reduce it enough"
+            }
         ),
         Reason::Unchecked => {
             format!("the error of {chosen} is not known: no other fidelity could be run to check it")

@@ -94,6 +94,22 @@ pub(crate) fn symmetric_product(upper: &CsMat<f64>, x: DVectorView<'_, f64>) -> 
     y
 }
 
+/// Product of the symmetric matrix whose upper triangle is given with W vectors, side by side in each row.
+pub(crate) fn symmetric_product_lanes<const W: usize>(upper: &CsMat<f64>, x: &[[f64; W]]) -> Vec<[f64; W]> {
+    let mut out = vec![[0.0; W]; x.len()];
+    for (j, column) in upper.outer_iterator().enumerate() {
+        let (value, mut sum) = (x[j], [0.0; W]);
+        for (i, &entry) in column.iter() {
+            (0..W).for_each(|w| sum[w] += entry * x[i][w]);
+            if i != j {
+                (0..W).for_each(|w| out[i][w] += entry * value[w]);
+            }
+        }
+        (0..W).for_each(|w| out[j][w] += sum[w]);
+    }
+    out
+}
+
 /// Start vector of power and inverse iterations: without structure, so that no eigenvector is orthogonal to
 /// it by symmetry.
 pub(crate) fn irregular_vector(n: usize) -> Vec<f64> {

@@ -2,7 +2,6 @@
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
-use faer::linalg::matmul::matmul;
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::{
     CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
@@ -14,6 +13,7 @@ use sprs::CsMat;
 
 use crate::assembly::Real;
 use crate::factor::memory::MEMORY_LIMIT;
+use crate::factor::product::multiply;
 
 /// Width of a panel from which a dense matrix product pays.
 const DENSE_WIDTH: usize = 4;
@@ -117,6 +117,17 @@ impl<T: Real> Factor<T> {
         }
         for k in (0..self.panels).rev() {
             self.panel(k).backward(x);
+        }
+    }
+
+    /// Solves K x = x in place for W vectors, side by side in each row.
+    pub fn solve_lanes<const W: usize>(&self, x: &mut [[T; W]]) {
+        let mut scratch = Vec::new();
+        for k in 0..self.panels {
+            self.panel(k).forward(x, &mut scratch);
+        }
+        for k in (0..self.panels).rev() {
+            self.panel(k).backward_lanes(x);
         }
     }
 
@@ -250,7 +261,7 @@ impl<T: Real> Panel<'_, T> {
             let product =
                 MatMut::from_column_major_slice_mut(scratch.as_flattened_mut(), K, self.below.len());
             let own = MatRef::from_column_major_slice(own, K, self.width);
-            matmul(product, Accum::Replace, own, lower.transpose(), T::one(), Par::Seq);
+            multiply(product, Accum::Replace, own, lower.transpose(), T::one());
             for (&row, product) in self.below.iter().zip(scratch.iter()) {
                 subtract_scaled(&mut x[row], T::one(), product);
             }
@@ -272,6 +283,24 @@ impl<T: Real> Panel<'_, T> {
                 value -= *l * x[row];
             }
             x[self.start + j] = value / pivot[0];
+        }
+    }
+
+    /// The same for K vectors.
+    fn backward_lanes<const K: usize>(&self, x: &mut [[T; K]]) {
+        let height = self.width + self.below.len();
+        for j in (0..self.width).rev() {
+            let column = &self.values[j * height + j..(j + 1) * height];
+            let (pivot, rest) = column.split_at(1);
+            let (triangle, below) = rest.split_at(self.width - 1 - j);
+            let mut value = x[self.start + j];
+            for (l, known) in triangle.iter().zip(&x[self.start + j + 1..]) {
+                subtract_scaled(&mut value, *l, known);
+            }
+            for (l, &row) in below.iter().zip(self.below) {
+                subtract_scaled(&mut value, *l, &x[row]);
+            }
+            x[self.start + j] = value.map(|value| value / pivot[0]);
         }
     }
 }

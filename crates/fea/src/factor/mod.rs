@@ -6,12 +6,13 @@
 //! the accuracy asked for, stiffness and factor are formed again in double-doubles; where that does not help
 //! either, the frame is refused with the name of its weakest degree of freedom.
 //!
-//! Order of the files: `memory`, `cholesky`, `forward`, `certificate`, `solver`.
+//! Order of the files: `memory`, `product`, `cholesky`, `forward`, `certificate`, `solver`.
 
 mod certificate;
 mod cholesky;
 mod forward;
 mod memory;
+mod product;
 mod solver;
 
 pub use certificate::Certificate;
@@ -19,4 +20,5 @@ pub(crate) use cholesky::{Analysis, Factor, FactorError, analyse, for_each_entry
 pub(crate) use forward::{ForwardSolution, SparseLoad, dot_products};
 pub use memory::MEMORY_LIMIT;
 pub(crate) use memory::allow_square;
+pub(crate) use product::multiply;
 pub(crate) use solver::{Factored, Solver, ill_conditioned};

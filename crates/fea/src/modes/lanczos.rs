@@ -1,11 +1,12 @@
 //! Lowest eigenpairs of K x = lambda M x: block Lanczos on K^-1 M.
 
 use faer::{Mat, Side};
-use nalgebra::{DMatrix, DVector, DVectorView};
+use nalgebra::{DMatrix, DVector};
 use sprs::CsMat;
 
 use crate::assembly::symmetric_product;
 use crate::factor::{Factor, FactorError, Solver};
+use crate::modes::block;
 use crate::modes::count::negative_eigenvalues;
 use crate::modes::decoupled::Part;
 
@@ -52,15 +53,23 @@ impl Pencil<'_> {
         self.stiffness.cols()
     }
 
-    /// K^-1 x.
-    pub fn solve(&self, mut x: DVector<f64>) -> DVector<f64> {
+    /// K^-1 x for every column of `x`.
+    fn solve(&self, mut x: DMatrix<f64>) -> DMatrix<f64> {
         match self.factor {
-            PencilFactor::Own(factor) => {
-                factor.solve(x.as_mut_slice());
+            PencilFactor::Own(factor) => block::apply(x, |lanes| factor.solve_lanes(lanes)),
+            PencilFactor::OfFrame(solver, part) => {
+                for mut column in x.column_iter_mut() {
+                    let solved = part.solve(solver, &column.clone_owned());
+                    column.copy_from(&solved);
+                }
                 x
             }
-            PencilFactor::OfFrame(solver, part) => part.solve(solver, &x),
         }
+    }
+
+    /// M x for every column of `x`.
+    fn momenta(&self, x: &DMatrix<f64>) -> DMatrix<f64> {
+        block::symmetric_products(self.mass, x)
     }
 }
 
@@ -79,10 +88,12 @@ impl Pencil<'_> {
 /// Anal. Appl. 22; Ericsson and Ruhe (1980), Math. Comp. 35.
 pub(super) struct Lanczos<'a> {
     pencil: Pencil<'a>,
-    vectors: Vec<DVector<f64>>,
+    /// The basis V, a column for each vector.
+    vectors: DMatrix<f64>,
     projection: DMatrix<f64>,
-    /// The block that the next step takes into the basis.
+    /// The block that the next step takes into the basis, and M times it.
     next_block: Vec<DVector<f64>>,
+    next_momenta: Vec<DVector<f64>>,
     /// Coefficients of the next block in K^-1 M times the last one: the residual of a pair is next_block *
     /// coupling * the last part of its coefficients.
     coupling: DMatrix<f64>,
@@ -111,9 +122,10 @@ impl<'a> Lanczos<'a> {
     pub fn new(pencil: Pencil<'a>) -> Lanczos<'a> {
         let mut out = Lanczos {
             pencil,
-            vectors: Vec::new(),
+            vectors: DMatrix::zeros(pencil.len(), 0),
             projection: DMatrix::zeros(0, 0),
             next_block: Vec::new(),
+            next_momenta: Vec::new(),
             coupling: DMatrix::zeros(0, 0),
             largest: 0.0,
             random: 0x6a09_e667_f3bc_c908,
@@ -127,20 +139,20 @@ impl<'a> Lanczos<'a> {
     pub fn converge(&mut self, count: usize) -> bool {
         let limit = 3 * count + 8 * BLOCK;
         // Size of the basis at which the Ritz pairs are computed next.
-        let mut due = self.vectors.len() + 1;
+        let mut due = self.vectors.ncols() + 1;
         for _ in 0..(80 + 4 * count) {
             // No next block: the basis holds the whole range of K^-1 M.
             let full = self.next_block.is_empty();
-            if full || self.vectors.len() >= due {
+            if full || self.vectors.ncols() >= due {
                 self.update_pairs();
                 self.pairs.exhausted = full;
                 if self.pairs.converged >= count || full {
                     return true;
                 }
-                due = (GROWTH * self.vectors.len() as f64) as usize + 1;
+                due = (GROWTH * self.vectors.ncols() as f64) as usize + 1;
             }
             // Restart before the basis exceeds its limit, with the wanted pairs and a third of the others.
-            if self.vectors.len() + BLOCK > limit && limit < self.pencil.len() {
+            if self.vectors.ncols() + BLOCK > limit && limit < self.pencil.len() {
                 self.update_pairs();
                 self.restart(count + (limit - count) / 3);
                 due = 0;
@@ -154,6 +166,7 @@ impl<'a> Lanczos<'a> {
     pub fn restart_randomly(&mut self) {
         self.restart(self.pairs.converged);
         self.next_block.clear();
+        self.next_momenta.clear();
         self.complete_block();
     }
 
@@ -170,51 +183,53 @@ impl<'a> Lanczos<'a> {
     /// The lowest `count` eigenpairs, lowest first: vectors orthonormal in M with a positive largest entry,
     /// lambda = x^T K x / x^T M x.
     ///
-    /// Two inverse iterations improve each vector, orthogonal to those below it.
+    /// Two inverse iterations improve the vectors. After each one R^T R = Y^T M Y, with Y = K^-1 M X, makes them
+    /// orthonormal, each to those below it: X := Y R^-1. The last columns of R^-1 are nearly lambda, and so
+    /// lambda = x^T K x is a sum that loses no digits: the diagonal of X^T (M X_old) R^-1.
     pub fn modes(&self, count: usize) -> Vec<(f64, DVector<f64>)> {
-        let mut modes: Vec<(f64, DVector<f64>)> = Vec::with_capacity(count);
-        for pair in 0..count {
-            let mut x = self.combine(self.pairs.coefficients.column(pair));
-            let mut lambda = 0.0;
-            // The solve reduces what rounding left of higher modes; the subtraction removes the lower ones.
-            for _ in 0..POLISH_STEPS {
-                let load = symmetric_product(self.pencil.mass, x.as_view());
-                x = self.pencil.solve(load.clone());
-                for _ in 0..2 {
-                    let image = symmetric_product(self.pencil.mass, x.as_view());
-                    modes.iter().for_each(|(_, other)| x.axpy(-other.dot(&image), other, 1.0));
-                }
-                lambda = x.dot(&load) / x.dot(&symmetric_product(self.pencil.mass, x.as_view()));
-                x /= self.norm(&x);
-            }
-            // The sign of an eigenvector is arbitrary: fix it.
-            let sign = if x[x.iamax()] < 0.0 { -1.0 } else { 1.0 };
-            modes.push((lambda, x * sign));
+        let mut x = block::combine(&self.vectors, &self.pairs.coefficients.columns(0, count).clone_owned());
+        let mut lambda = vec![0.0; count];
+        // The solve reduces what rounding left of higher modes; the factor removes the lower ones.
+        for _ in 0..POLISH_STEPS {
+            let load = self.pencil.momenta(&x);
+            let y = self.pencil.solve(load.clone());
+            let (ortho, inverse) = self.orthonormal(y);
+            let again = self.orthonormal(ortho);
+            let inverse = inverse * again.1;
+            x = again.0;
+            let work = block::inner(&x, &load);
+            lambda = (0..count).map(|j| work.row(j).transpose().dot(&inverse.column(j))).collect();
         }
+        let mut modes: Vec<(f64, DVector<f64>)> = (lambda.into_iter().zip(x.column_iter()))
+            .map(|(lambda, x)| {
+                // The sign of an eigenvector is arbitrary: fix it.
+                let sign = if x[x.iamax()] < 0.0 { -1.0 } else { 1.0 };
+                (lambda, x * sign)
+            })
+            .collect();
         modes.sort_by(|a, b| a.0.total_cmp(&b.0));
         modes
     }
 
-    /// The vector with the given coefficients over the basis.
-    fn combine(&self, coefficients: DVectorView<'_, f64>) -> DVector<f64> {
-        let mut out = DVector::zeros(self.pencil.len());
-        for (vector, &coefficient) in self.vectors.iter().zip(coefficients.iter()) {
-            out.axpy(coefficient, vector, 1.0);
-        }
-        out
+    /// Y R^-1 and R^-1, with R^T R = Y^T M Y and R upper triangular.
+    fn orthonormal(&self, y: DMatrix<f64>) -> (DMatrix<f64>, DMatrix<f64>) {
+        let gram = block::inner(&y, &self.pencil.momenta(&y));
+        let size = gram.nrows();
+        let factor = gram.cholesky().expect("converged vectors are independent");
+        let mut inverse = DMatrix::identity(size, size);
+        let is_solved = factor.l().transpose().solve_upper_triangular_mut(&mut inverse);
+        assert!(is_solved, "a Cholesky factor has no zero pivot");
+        (block::combine(&y, &inverse), inverse)
     }
 
     /// Takes the next block into the basis and computes the one after it.
     fn step(&mut self) {
-        let old = self.vectors.len();
-        let block = std::mem::take(&mut self.next_block);
-        let mut images: Vec<DVector<f64>> = block
-            .iter()
-            .map(|x| self.pencil.solve(symmetric_product(self.pencil.mass, x.as_view())))
-            .collect();
-        let width = block.len();
-        self.vectors.extend(block);
-        let size = self.vectors.len();
+        let old = self.vectors.ncols();
+        let width = self.next_block.len();
+        let momenta = DMatrix::from_columns(&std::mem::take(&mut self.next_momenta));
+        let mut images = self.pencil.solve(momenta);
+        block::append(&mut self.vectors, &DMatrix::from_columns(&std::mem::take(&mut self.next_block)));
+        let size = old + width;
         let mut projection = std::mem::replace(&mut self.projection, DMatrix::zeros(0, 0));
         projection = projection.resize(size, size, 0.0);
         let coefficients = self.orthogonalise(&mut images);
@@ -231,8 +246,8 @@ impl<'a> Lanczos<'a> {
         }
         self.projection = projection;
         self.coupling = DMatrix::zeros(BLOCK.max(width), width);
-        for (j, image) in images.into_iter().enumerate() {
-            self.append(image, Some(j));
+        for (j, image) in images.column_iter().enumerate() {
+            self.append(image.clone_owned(), Some(j));
         }
         self.complete_block();
     }
@@ -252,7 +267,7 @@ impl<'a> Lanczos<'a> {
             }
             // Only the range of K^-1 M matters: all eigenvectors of finite lambda lie in it.
             let image = symmetric_product(self.pencil.mass, x.as_view());
-            let mut x = self.pencil.solve(image / left);
+            let mut x = self.pencil.solve(DMatrix::from_columns(&[image / left])).column(0).clone_owned();
             let before = self.norm(&x);
             x /= before;
             self.project_out(&mut x);
@@ -264,11 +279,12 @@ impl<'a> Lanczos<'a> {
 
     /// Removes the part of `x` in the basis and in the next block.
     fn project_out(&self, x: &mut DVector<f64>) {
-        self.orthogonalise(std::slice::from_mut(x));
+        let mut block = DMatrix::from_columns(std::slice::from_ref(x));
+        self.orthogonalise(&mut block);
+        x.copy_from(&block.column(0));
         for _ in 0..2 {
-            let image = symmetric_product(self.pencil.mass, x.as_view());
-            for other in &self.next_block {
-                let coefficient = other.dot(&image);
+            for (other, momentum) in self.next_block.iter().zip(&self.next_momenta) {
+                let coefficient = momentum.dot(x);
                 x.axpy(-coefficient, other, 1.0);
             }
         }
@@ -280,16 +296,16 @@ impl<'a> Lanczos<'a> {
     fn append(&mut self, mut x: DVector<f64>, column: Option<usize>) -> bool {
         let scale = if column.is_some() { self.largest } else { 1.0 };
         for _ in 0..2 {
-            let image = symmetric_product(self.pencil.mass, x.as_view());
-            for (i, other) in self.next_block.iter().enumerate() {
-                let coefficient = other.dot(&image);
+            for (i, (other, momentum)) in self.next_block.iter().zip(&self.next_momenta).enumerate() {
+                let coefficient = momentum.dot(&x);
                 x.axpy(-coefficient, other, 1.0);
                 if let Some(column) = column {
                     self.coupling[(i, column)] += coefficient;
                 }
             }
         }
-        let size = self.norm(&x);
+        let mut momentum = symmetric_product(self.pencil.mass, x.as_view());
+        let size = x.dot(&momentum).max(0.0).sqrt();
         let floor = if column.is_some() { BREAKDOWN } else { DEPENDENT };
         if !(size > floor * scale && size.is_finite()) {
             return false;
@@ -298,29 +314,27 @@ impl<'a> Lanczos<'a> {
             self.coupling[(self.next_block.len(), column)] = size;
         }
         x /= size;
+        momentum /= size;
         // A vector that was small has lost digits of its orthogonality.
         if size < FEW_DIGITS * scale {
             self.project_out(&mut x);
-            let size = self.norm(&x);
+            momentum = symmetric_product(self.pencil.mass, x.as_view());
+            let size = x.dot(&momentum).max(0.0).sqrt();
             x /= size;
+            momentum /= size;
         }
         self.next_block.push(x);
+        self.next_momenta.push(momentum);
         true
     }
 
-    /// Removes the parts of `block` in the basis, twice; returns their coefficients, basis x block.
-    fn orthogonalise(&self, block: &mut [DVector<f64>]) -> DMatrix<f64> {
-        let mut coefficients = DMatrix::zeros(self.vectors.len(), block.len());
+    /// Orthogonalises the columns of `block` against the basis, twice; returns their coefficients, basis x block.
+    fn orthogonalise(&self, block: &mut DMatrix<f64>) -> DMatrix<f64> {
+        let mut coefficients = DMatrix::zeros(self.vectors.ncols(), block.ncols());
         for _ in 0..2 {
-            let images: Vec<DVector<f64>> =
-                block.iter().map(|x| symmetric_product(self.pencil.mass, x.as_view())).collect();
-            for (k, vector) in self.vectors.iter().enumerate() {
-                for (j, (x, image)) in block.iter_mut().zip(&images).enumerate() {
-                    let coefficient = vector.dot(image);
-                    x.axpy(-coefficient, vector, 1.0);
-                    coefficients[(k, j)] += coefficient;
-                }
-            }
+            let parts = block::inner(&self.vectors, &self.pencil.momenta(block));
+            block::subtract(block, &self.vectors, &parts);
+            coefficients += parts;
         }
         coefficients
     }
@@ -332,7 +346,7 @@ impl<'a> Lanczos<'a> {
 
     /// Computes the Ritz pairs of the basis, and how many have converged.
     fn update_pairs(&mut self) {
-        let size = self.vectors.len();
+        let size = self.vectors.ncols();
         let (inverse, coefficients) = spectrum(&self.projection);
         let width = self.coupling.ncols().min(size);
         let last = coefficients.rows(size - width, width);
@@ -348,8 +362,9 @@ impl<'a> Lanczos<'a> {
 
     /// Replaces the basis by its first `keep` Ritz vectors.
     fn restart(&mut self, keep: usize) {
-        let keep = keep.min(self.vectors.len());
-        self.vectors = (0..keep).map(|k| self.combine(self.pairs.coefficients.column(k))).collect();
+        let keep = keep.min(self.vectors.ncols());
+        let kept = self.pairs.coefficients.columns(0, keep).clone_owned();
+        self.vectors = block::combine(&self.vectors, &kept);
         self.pairs.inverse.truncate(keep);
         self.projection = DMatrix::from_diagonal(&DVector::from_column_slice(&self.pairs.inverse));
         self.pairs.coefficients = DMatrix::identity(keep, keep);

@@ -28,7 +28,7 @@ const DOUBLES_SUFFICE: [f64; 2] = [1e-9, 1e-6];
 /// Most searches, each continued after a count that found more.
 const ATTEMPTS: usize = 12;
 /// Number of unknowns for each mode up to which dense matrices are faster than the search.
-const DENSE_UNKNOWNS_PER_MODE: usize = 16;
+const DENSE_UNKNOWNS_PER_MODE: usize = 6;
 /// Number of unknowns up to which dense matrices are always faster.
 const FEW_UNKNOWNS: usize = 100;
 

@@ -7,10 +7,11 @@
 //! search to the unknowns that given forces can move, and `interior` lets Timoshenko members deflect between nodes
 //! under their own inertia.
 //!
-//! Order of the files: `shapes`, `interior`, `mass`, `count`, `decoupled`, `lanczos`, `mode`, `all`, `lowest`,
+//! Order of the files: `shapes`, `interior`, `mass`, `count`, `decoupled`, `block`, `lanczos`, `mode`, `all`, `lowest`,
 //! `refined`, `inertial`.
 
 mod all;
+mod block;
 mod count;
 mod decoupled;
 mod inertial;

@@ -45,6 +45,8 @@ const CHECKED: f64 = 0.02;
 const ABOVE_CONTACT: f64 = 3.0;
 /// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
 const NEGLIGIBLE: f64 = 0.1;
+/// Ratio of the estimates for two numbers of modes up to which the larger number is no better, where neither suffices.
+const NO_BETTER: f64 = 1.5;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
 const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
 /// The factor where there are no two runs to compare.
@@ -133,10 +135,19 @@ struct Open {
 }
 
 impl Open {
-    /// Smallest number of modes, at least `least`, whose estimate is at most `limit`; all modes if there is none.
+    /// Smallest number of modes, at least `least`, whose estimate is at most `limit`; all modes if there is none and they
+    /// are the whole structure.
+    fn sufficient_count(&self, limit: f64, least: usize) -> Option<usize> {
+        let found = self.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
+        let whole = Some(self.basis.structure.dynamics.dofs()).filter(|_| self.basis.is_whole);
+        found.map(|tail| tail.kept).or(whole)
+    }
+
+    /// The same, and where no number suffices the smallest one whose estimate exceeds that for the most modes by no more
+    /// than the factor [`NO_BETTER`].
     fn count_for(&self, limit: f64, least: usize) -> usize {
-        let sufficient = self.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
-        sufficient.map_or(self.basis.structure.dynamics.dofs(), |tail| tail.kept)
+        let best = || self.sufficient_count(NO_BETTER * self.tails.last()?.error, least);
+        self.sufficient_count(limit, least).or_else(best).unwrap_or(self.basis.structure.dynamics.dofs())
     }
 
     /// Number of known modes with frequencies below `omega`.
@@ -334,11 +345,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 if !is_within(own, *count) {
                     let limit = AIM * own.tolerance / factor;
                     self.estimate(own, &higher, &compliances, *count + 1, limit);
-                    *count = own.count_for(limit, *count + 1).max(*count);
+                    let Some(sufficient) = own.sufficient_count(limit, *count + 1) else { continue };
+                    *count = sufficient.max(*count);
                 }
             }
             if raised == counts || round == MODAL_RUNS {
-                self.settle_higher(&open, &counts, factor, &higher);
+                self.settle_higher(&open, &counts, factor, &higher, round == MODAL_RUNS);
                 return self.repeated(higher);
             }
             (lower, counts, accuracy) = (higher, raised, self.modal_accuracy);
@@ -365,13 +377,15 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         self.repeated(chosen)
     }
 
-    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`.
-    fn settle_higher(&mut self, open: &[Open], counts: &[usize], factor: f64, higher: &Trial) {
+    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`; `is_last` where no
+    /// further run is allowed.
+    fn settle_higher(&mut self, open: &[Open], counts: &[usize], factor: f64, higher: &Trial, is_last: bool) {
+        let insufficient = if is_last { Reason::Limit } else { Reason::NoBetter };
         for (own, &count) in open.iter().zip(counts) {
             let tail = own.tail(count);
             let error = TailError { error: factor * tail.error, ..tail };
             let is_within = error.error <= SAFE * own.tolerance;
-            let reason = if is_within { Reason::Sufficient } else { Reason::Limit };
+            let reason = if is_within { Reason::Sufficient } else { insufficient };
             self.settle(own, higher.fidelities[own.structure], reason, &error);
         }
     }
@@ -384,7 +398,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
         let compliances = std::mem::take(&mut first.foundations);
         let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
-        let mut last = first;
+        let (mut last, mut is_last) = (first, false);
         for round in 1..=MODAL_RUNS {
             let Some(trial) = self.modal_trial(&open, &counts, self.modal_accuracy) else { break };
             for (own, count) in open.iter_mut().zip(&counts) {
@@ -393,9 +407,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.note_tails(&open, &counts, UNKNOWN, &trial);
             last = trial;
             let raised: Vec<usize> = (open.iter().zip(&counts))
-                .map(|(own, &count)| own.count_for(SAFE / UNKNOWN * own.tolerance, count).max(count))
+                .map(|(own, &count)| {
+                    own.sufficient_count(SAFE / UNKNOWN * own.tolerance, count).unwrap_or(count)
+                })
                 .collect();
-            if raised == counts || round == MODAL_RUNS {
+            is_last = round == MODAL_RUNS;
+            if raised == counts || is_last {
                 break;
             }
             counts = raised;
@@ -405,7 +422,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let kept = if let Fidelity::Modal(count) = fidelity { count } else { 0 };
             let tail = own.tail(kept);
             let tail = TailError { error: UNKNOWN * tail.error, ..tail };
-            let reason = if tail.error <= own.tolerance { Reason::Sufficient } else { Reason::Limit };
+            let insufficient = if is_last { Reason::Limit } else { Reason::NoBetter };
+            let reason = if tail.error <= own.tolerance { Reason::Sufficient } else { insufficient };
             self.settle(own, fidelity, reason, &tail);
         }
         Ok(last)

@@ -86,8 +86,10 @@ pub enum Reason {
     /// A lower fidelity is within the tolerance as well. The run of this one, which showed it, is kept, because
     /// repeating the lower one would not save anything.
     Kept,
-    /// The estimated error exceeds the tolerance, and the number of runs or of modes is at its limit.
+    /// The estimated error exceeds the tolerance, and the number of runs is at its limit.
     Limit,
+    /// The estimated error exceeds the tolerance, and by the estimates no larger number of modes reduces it enough.
+    NoBetter,
     /// No other fidelity could be built or run for a check. The error is unknown.
     Unchecked,
 }
