@@ -33,6 +33,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let mut folder = OutputFolder::open(&path, "study", args.force, &planned(args.stability))?;
     let mut budget = if args.quick { StudyBudget::quick() } else { StudyBudget::full() };
     budget.limit = args.limit.unwrap_or(budget.limit);
+    budget.repetition_limit = budget.repetition_limit.min(budget.limit);
     budget.resolution = args.resolution.unwrap_or(budget.resolution);
 
     let known = solve_all(&document, &distinct_specs(&document), &progress)?;

@@ -1,5 +1,8 @@
 //! Deviation of a run from its reference, by groups of columns.
 
+use formats::scene::Scene;
+use sim::Measure;
+
 use crate::measure::quantity::ErrorGroup;
 
 /// Columns of a run with their groups, at its output times.
@@ -40,6 +43,24 @@ pub struct Deviation {
     pub largest: f64,
     /// Largest difference of the maxima or of the minima of a column.
     pub peak: f64,
+}
+
+impl Deviation {
+    /// The error by a measure: of extremes over the run, or of values at equal times.
+    #[must_use]
+    pub fn by(&self, measure: Measure) -> f64 {
+        match measure {
+            Measure::Extremes => self.peak,
+            Measure::History => self.largest,
+        }
+    }
+}
+
+/// The measure of a study of `scene`: values at equal times where a structure asks for them, and otherwise extremes.
+#[must_use]
+pub fn study_measure(scene: &Scene) -> Measure {
+    let is_history = scene.structures.iter().any(|structure| structure.measure == Measure::History);
+    if is_history { Measure::History } else { Measure::Extremes }
 }
 
 /// Errors of `run` against `reference` in each group, in the order of [`ErrorGroup::ALL`]; `None` where the reference

@@ -266,6 +266,7 @@ fn measure(
     let foundations = memory::count_allocations(|| cache.set_up(setting)).retained;
     let measured = MeasuredPoint {
         errors: deviations(&columns, &reference.columns),
+        measure: reference.measure,
         counts: run.counts,
         dof_count: case.dof_count(),
         time: None,
@@ -290,7 +291,7 @@ mod tests {
             ];
             ComparedColumns { time: (0..11).map(|k| k as f64).collect(), columns }
         };
-        ConvergedReference::new(kind, trace(0.0), trace(0.1), Default::default())
+        ConvergedReference::new(kind, trace(0.0), trace(0.1), Default::default(), sim::Measure::History)
     }
 
     #[test]

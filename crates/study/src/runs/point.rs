@@ -31,6 +31,8 @@ pub enum PointOutcome {
 pub struct MeasuredPoint {
     /// Errors in the order of [`ErrorGroup::ALL`]; `None` where the reference has nothing to compare.
     pub errors: [Option<Deviation>; ErrorGroup::COUNT],
+    /// The measure by which they are judged.
+    pub measure: sim::Measure,
     /// Numbers of steps, stages and events.
     pub counts: sim::Counts,
     /// Degrees of freedom of the foundations.
@@ -53,11 +55,12 @@ impl StudyPoint {
         }
     }
 
-    /// Largest relative error in a group.
+    /// Relative error in a group by the measure of the study.
     #[must_use]
     pub fn error(&self, group: ErrorGroup) -> Option<f64> {
         let at = ErrorGroup::ALL.iter().position(|own| *own == group)?;
-        self.measured()?.errors[at].map(|own| own.largest)
+        let measured = self.measured()?;
+        measured.errors[at].map(|own| own.by(measured.measure))
     }
 
     /// Median thread time of a run, s.

@@ -6,11 +6,11 @@
 //! kept. The difference d of the pair limits the resolution of the reference: errors of settings are resolved if they
 //! exceed [`RESOLUTION_FACTOR`] d.
 
-use sim::{Method, Stepping};
+use sim::{Measure, Method, Stepping};
 
 use crate::Error;
 use crate::measure::cpu::limited;
-use crate::measure::deviation::{ComparedColumns, deviations, horizon};
+use crate::measure::deviation::{ComparedColumns, deviations, horizon, study_measure};
 use crate::measure::quantity::ErrorGroup;
 use crate::runs::setup::SetupCache;
 use crate::settings::budget::StudyBudget;
@@ -42,7 +42,9 @@ pub struct ConvergedReference {
     pub second: ComparedColumns,
     /// The settings of both runs in words.
     pub descriptions: [String; 2],
-    /// Largest relative difference of both runs in each group.
+    /// The measure by which runs are compared.
+    pub measure: Measure,
+    /// Relative difference of both runs in each group.
     pub difference: [Option<f64>; ErrorGroup::COUNT],
     /// Accuracy, and largest relative difference of deflections and wheel forces, of each pair that was run.
     pub approach: Vec<(f64, f64)>,
@@ -56,9 +58,10 @@ impl ConvergedReference {
         columns: ComparedColumns,
         second: ComparedColumns,
         descriptions: [String; 2],
+        measure: Measure,
     ) -> ConvergedReference {
-        let difference = differences(&second, &columns);
-        ConvergedReference { kind, columns, second, descriptions, difference, approach: Vec::new() }
+        let difference = differences(&second, &columns, measure);
+        ConvergedReference { kind, columns, second, descriptions, measure, difference, approach: Vec::new() }
     }
 
     /// The smallest error that it resolves in a group: [`RESOLUTION_FACTOR`] times the difference of its runs;
@@ -101,13 +104,17 @@ impl ConvergedReference {
     pub fn cut(&mut self, time: f64) {
         self.columns.cut(time);
         self.second.cut(time);
-        self.difference = differences(&self.second, &self.columns);
+        self.difference = differences(&self.second, &self.columns, self.measure);
     }
 }
 
-/// Largest difference of two runs in each group.
-fn differences(run: &ComparedColumns, reference: &ComparedColumns) -> [Option<f64>; ErrorGroup::COUNT] {
-    deviations(run, reference).map(|own| own.map(|own| own.largest))
+/// Difference of two runs in each group.
+fn differences(
+    run: &ComparedColumns,
+    reference: &ComparedColumns,
+    measure: Measure,
+) -> [Option<f64>; ErrorGroup::COUNT] {
+    deviations(run, reference).map(|own| own.map(|own| own.by(measure)))
 }
 
 /// Runs ever finer pairs until one agrees (see the top of this file).
@@ -175,7 +182,13 @@ impl Search {
                     }
                     Err(failure) => return Err(failure),
                 };
-            let reference = ConvergedReference::new(kind, columns, second, [words, second_words]);
+            let reference = ConvergedReference::new(
+                kind,
+                columns,
+                second,
+                [words, second_words],
+                study_measure(&scenes[0]),
+            );
             let largest = reference.difference.iter().flatten().fold(0.0_f64, |most, own| most.max(*own));
             self.approach.push((accuracy, reference.worst_resolution() / RESOLUTION_FACTOR));
             if self.best.as_ref().is_none_or(|best| reference.worst_resolution() < best.worst_resolution()) {

@@ -21,7 +21,8 @@ const LARGEST_BATCH: f64 = 200.0;
 ///
 /// Every repetition runs all settings once, and each repetition starts with another setting, so that other work of
 /// the machine affects all settings alike. Runs shorter than [`BATCH`] are timed several at once. A setting is not
-/// repeated once its repetitions have taken `budget.limit` seconds.
+/// repeated once its repetitions have taken `budget.repetition_limit` seconds; the first run of a setting that takes
+/// longer alone is its only time.
 pub fn time(
     points: &mut [StudyPoint],
     auto: &mut Result<Auto, String>,
@@ -38,7 +39,10 @@ pub fn time(
         for k in 0..cases.len() {
             let index = (k + repetition * cases.len() / budget.repetitions) % cases.len();
             let Some((case, first)) = &cases[index] else { continue };
-            if repetition as f64 * first > budget.limit {
+            if (repetition + 1) as f64 * first > budget.repetition_limit {
+                if repetition == 0 {
+                    times[index].push(*first);
+                }
                 continue;
             }
             let batch = (BATCH / first.max(1e-9)).ceil().clamp(1.0, LARGEST_BATCH);
@@ -49,7 +53,7 @@ pub fn time(
             times[index].push((cpu::seconds() - start) / batch);
         }
         let spent: f64 = trials.iter().sum();
-        if auto.is_ok() && spent <= budget.limit {
+        if auto.is_ok() && (repetition == 0 || spent <= budget.repetition_limit) {
             let mut again = left_to_auto(scene);
             let start = cpu::seconds();
             if choose(&mut again, known, f64::INFINITY).is_ok() {

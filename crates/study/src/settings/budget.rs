@@ -31,8 +31,10 @@ pub struct StudyBudget {
     pub meshes: Vec<(f64, usize)>,
     /// Largest number of timed repetitions of a run.
     pub repetitions: usize,
-    /// Thread time, s, that a run may take, and that all repetitions of a setting together may take.
+    /// Thread time, s, that a run may take.
     pub limit: f64,
+    /// Thread time, s, that all repetitions of a setting together may take. A longer run is not repeated.
+    pub repetition_limit: f64,
     /// Smallest relative error of deflections and wheel forces that the study must resolve: the runs of a reference
     /// must agree ten times better.
     pub resolution: f64,
@@ -54,6 +56,7 @@ impl StudyBudget {
             meshes: vec![(1e-4, 2), (1e-5, 4), (1e-6, 8)],
             repetitions: 9,
             limit: 20.0,
+            repetition_limit: 20.0,
             resolution: 1e-4,
         }
     }
@@ -73,6 +76,7 @@ impl StudyBudget {
             meshes: vec![(1e-4, 2), (1e-5, 4)],
             repetitions: 3,
             limit: 5.0,
+            repetition_limit: 0.5,
             resolution: 1e-2,
         }
     }

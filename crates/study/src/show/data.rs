@@ -2,6 +2,7 @@
 
 use serde_json::{Map, Value, json};
 
+use crate::measure::deviation::study_measure;
 use crate::measure::front::{cost_ratio, on_front};
 use crate::measure::quantity::ErrorGroup;
 use crate::runs::investigate::Study;
@@ -23,6 +24,10 @@ pub fn json(study: &Study, scene: &Scene, budget: &StudyBudget) -> Value {
         "name": scene.name,
         "resolution": budget.resolution,
         "limit": budget.limit,
+        "measure": match study_measure(scene) {
+            sim::Measure::Extremes => "extremes",
+            sim::Measure::History => "history",
+        },
         "until": study.until,
         "references": study.references.iter().map(reference).collect::<Vec<_>>(),
         "lost": failed.collect::<Map<String, Value>>(),

@@ -138,8 +138,12 @@ fn chart(
     ));
     let unfinished = shown.iter().filter(|point| !matches!(point.outcome, PointOutcome::Done(_))).count();
     chart.note = format!(
-        "Largest difference at an output time relative to the largest value of the reference. Errors of points on \
+        "{} relative to the largest value of the reference. Errors of points on \
          the dashed line are not resolved. Reference: {}; second run: {}; difference of the two: {:.1e}.",
+        match reference.measure {
+            sim::Measure::Extremes => "Largest difference of the extremes of a quantity over the run,",
+            sim::Measure::History => "Largest difference at an output time,",
+        },
         reference.descriptions[0],
         reference.descriptions[1],
         least / crate::runs::reference::RESOLUTION_FACTOR
