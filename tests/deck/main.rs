@@ -25,7 +25,7 @@ fn example(name: &str) -> PathBuf {
 }
 
 /// A scene of these tests: `crane` on two coupled rails with flanges and spins, `wagons` on two structures in inches and
-/// kip, `printed` on tables of values.
+/// kip, `printed` on tables of values, `stiff` with wheels that are stiff compared with their rail.
 fn scene(name: &str) -> PathBuf {
     root().join("tests/deck/scenes").join(name).with_extension("json")
 }
@@ -102,6 +102,41 @@ fn decks_of_two_structures_give_the_simulators_forces_and_path() {
 #[test]
 fn decks_on_printed_tables_give_the_simulators_forces_and_path() {
     holds(&scene("printed"), 300);
+}
+
+/// The scene of stiff wheels with another stiffness and damping, kN/m and kN s/m; no damper where `c` is zero.
+fn stiff(folder: &Path, k: f64, c: f64) -> PathBuf {
+    let text = std::fs::read_to_string(scene("stiff")).expect("the scene");
+    let mut value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let law = &mut value["wheels"]["w400"]["vertical"];
+    law["k"] = k.into();
+    if c > 0.0 {
+        law["c"] = c.into();
+        law["damper"] = "rail".into();
+    }
+    let spec = root().join("tests/deck/scenes/stiff_runway.json");
+    value["structures"]["runway"]["spec"] = spec.to_str().expect("a path in UTF-8").into();
+    let path = folder.join("scene.json");
+    std::fs::write(&path, value.to_string()).expect("a temporary file");
+    path
+}
+
+/// Wheels of 1e5 to 1e6 kN/m on a runway that deflects by up to a hundred of their penetrations.
+#[test]
+fn decks_of_stiff_wheels_give_the_simulators_forces_and_path() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for k in [1e5, 2e5, 4e5, 7e5, 1e6] {
+        for c in [0.0, 20.0, 200.0] {
+            holds(&stiff(folder.path(), k, c), 100);
+        }
+    }
+}
+
+/// Among 4000 states one in a thousand has a wheel within some micrometres of a support.
+#[test]
+fn decks_of_stiff_wheels_with_dampers_give_the_simulators_forces_beside_supports() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    holds(&stiff(folder.path(), 1e5, 20.0), 4000);
 }
 
 #[test]
