@@ -198,6 +198,23 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let mut ends_at_break;
         loop {
             ends_at_break = false;
+            if std::env::var("DBG").is_ok() {
+                eprintln!(
+                    "t {:.15} h {:.3e} err {:.2e} n sw {} ch {} st {} act {:?} p {:?} r {:?} F {:?} toF {:?} top {:?}",
+                    self.step.from.t,
+                    trial.h,
+                    trial.error,
+                    trial.switches,
+                    self.chatter,
+                    self.stalled,
+                    self.step.solver.active().flags(),
+                    self.step.from.p.as_slice(),
+                    self.step.from.p_rate.as_slice(),
+                    self.step.from.force.as_slice(),
+                    self.step.to.force.as_slice(),
+                    self.step.to.p.as_slice()
+                );
+            }
             if trial.h < trial.smallest {
                 return Err(Failure::TooSmall);
             }
@@ -399,6 +416,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if has_crossed || self.is_switch_due() {
             let active = self.step.solver.active().flags().to_vec();
             let Step { solver, to, .. } = &mut self.step;
+            if !has_crossed {
+                solver.take_rates_from_forces(to);
+            }
             let is_settled = has_crossed && settle_jump(solver, to)? || settle(solver, to)?;
             if is_settled {
                 self.counts.events += usize::from(active != self.step.solver.active().flags());
