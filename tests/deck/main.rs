@@ -121,12 +121,16 @@ fn stiff(folder: &Path, k: f64, c: f64) -> PathBuf {
     path
 }
 
+/// Stiffnesses and dampings of its wheels, kN/m and kN s/m.
+const STIFFNESSES: [f64; 5] = [1e5, 2e5, 4e5, 7e5, 1e6];
+const DAMPINGS: [f64; 3] = [0.0, 20.0, 200.0];
+
 /// Wheels of 1e5 to 1e6 kN/m on a runway that deflects by up to a hundred of their penetrations.
 #[test]
 fn decks_of_stiff_wheels_give_the_simulators_forces_and_path() {
     let folder = tempfile::tempdir().expect("a temporary folder");
-    for k in [1e5, 2e5, 4e5, 7e5, 1e6] {
-        for c in [0.0, 20.0, 200.0] {
+    for k in STIFFNESSES {
+        for c in DAMPINGS {
             holds(&stiff(folder.path(), k, c), 100);
         }
     }
@@ -147,6 +151,12 @@ fn decks_give_the_simulators_forces_at_ten_thousand_states() {
     }
     for name in ["crane", "wagons", "printed"] {
         println!("{}", holds(&scene(name), 10_000));
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for k in STIFFNESSES {
+        for c in DAMPINGS {
+            println!("k = {k:e}, c = {c}\n{}", holds(&stiff(folder.path(), k, c), 10_000));
+        }
     }
 }
 
