@@ -136,3 +136,29 @@ fn the_forces_after_a_step_are_those_that_deflect_the_rail() {
     }
     assert!(front > 1.3 * 0.5 * WEIGHT && (0.0..0.1 * WEIGHT).contains(&rear), "{rear}, {front}");
 }
+
+/// A light bogie set on its rail from a small height at speed, whose wheels bounce on their dampers. The rates of
+/// penetration after steps that end at events were differences over these steps, so that runs failed at some accuracies
+/// and were repeated by another method.
+#[test]
+fn a_bogie_dropped_on_its_dampers_needs_no_other_method() {
+    let mut repeated = Vec::new();
+    for foundation in [|| beam(8, true), || beam(24, false), girder] {
+        for i in 0..41 {
+            let mut scene = bogie(307.0, 0.14, Damper::Rail);
+            let body = &mut scene.bodies[0];
+            let motion = Profile::new(MotionKind::Speed, &[[0.0, 307.0]], 1.0, 307.0);
+            body.motion = Some(motion.expect("a valid table"));
+            (body.mass, body.inertia[2], body.start[1]) = (572.5, 250.5, 0.01);
+            scene.contacts.iter_mut().zip([-0.97, 0.97]).for_each(|(contact, x)| contact.offsets = vec![x]);
+            scene.wheels[0].normal = NormalLaw::linear(5.406e7, 64890.0, Damper::Rail);
+            scene.accuracy = 3e-3 * 1e-3_f64.powf(f64::from(i) / 40.0);
+            let found =
+                sim::run(&scene, &[foundation()], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+            assert_eq!(found.status, Status::Done, "{:e}", scene.accuracy);
+            repeated.extend(found.abandoned.map(|abandoned| (scene.accuracy, abandoned)));
+        }
+    }
+    println!("{repeated:?}");
+    assert!(repeated.is_empty(), "{repeated:?}");
+}
