@@ -198,23 +198,6 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let mut ends_at_break;
         loop {
             ends_at_break = false;
-            if std::env::var("DBG").is_ok() {
-                eprintln!(
-                    "t {:.15} h {:.3e} err {:.2e} n sw {} ch {} st {} act {:?} p {:?} r {:?} F {:?} toF {:?} top {:?}",
-                    self.step.from.t,
-                    trial.h,
-                    trial.error,
-                    trial.switches,
-                    self.chatter,
-                    self.stalled,
-                    self.step.solver.active().flags(),
-                    self.step.from.p.as_slice(),
-                    self.step.from.p_rate.as_slice(),
-                    self.step.from.force.as_slice(),
-                    self.step.to.force.as_slice(),
-                    self.step.to.p.as_slice()
-                );
-            }
             if trial.h < trial.smallest {
                 return Err(Failure::TooSmall);
             }
