@@ -25,7 +25,7 @@ fn example(name: &str) -> PathBuf {
 }
 
 /// A scene of these tests: `crane` on two coupled rails with flanges and spins, `wagons` on two structures in inches and
-/// kip, `printed` on tables of values.
+/// kip, `printed` on tables of values, `stiff` with wheels that are stiff compared with their rail.
 fn scene(name: &str) -> PathBuf {
     root().join("tests/deck/scenes").join(name).with_extension("json")
 }
@@ -104,6 +104,45 @@ fn decks_on_printed_tables_give_the_simulators_forces_and_path() {
     holds(&scene("printed"), 300);
 }
 
+/// The scene of stiff wheels with another stiffness and damping, kN/m and kN s/m; no damper where `c` is zero.
+fn stiff(folder: &Path, k: f64, c: f64) -> PathBuf {
+    let text = std::fs::read_to_string(scene("stiff")).expect("the scene");
+    let mut value: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    let law = &mut value["wheels"]["w400"]["vertical"];
+    law["k"] = k.into();
+    if c > 0.0 {
+        law["c"] = c.into();
+        law["damper"] = "rail".into();
+    }
+    let spec = root().join("tests/deck/scenes/stiff_runway.json");
+    value["structures"]["runway"]["spec"] = spec.to_str().expect("a path in UTF-8").into();
+    let path = folder.join("scene.json");
+    std::fs::write(&path, value.to_string()).expect("a temporary file");
+    path
+}
+
+/// Stiffnesses and dampings of its wheels, kN/m and kN s/m.
+const STIFFNESSES: [f64; 5] = [1e5, 2e5, 4e5, 7e5, 1e6];
+const DAMPINGS: [f64; 3] = [0.0, 20.0, 200.0];
+
+/// Wheels of 1e5 to 1e6 kN/m on a runway that deflects by up to a hundred of their penetrations.
+#[test]
+fn decks_of_stiff_wheels_give_the_simulators_forces_and_path() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for k in STIFFNESSES {
+        for c in DAMPINGS {
+            holds(&stiff(folder.path(), k, c), 100);
+        }
+    }
+}
+
+/// Among 4000 states one in a thousand has a wheel within some micrometres of a support.
+#[test]
+fn decks_of_stiff_wheels_with_dampers_give_the_simulators_forces_beside_supports() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    holds(&stiff(folder.path(), 1e5, 20.0), 4000);
+}
+
 #[test]
 #[ignore = "slow: 10^4 states of every scene in every form"]
 fn decks_give_the_simulators_forces_at_ten_thousand_states() {
@@ -112,6 +151,12 @@ fn decks_give_the_simulators_forces_at_ten_thousand_states() {
     }
     for name in ["crane", "wagons", "printed"] {
         println!("{}", holds(&scene(name), 10_000));
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for k in STIFFNESSES {
+        for c in DAMPINGS {
+            println!("k = {k:e}, c = {c}\n{}", holds(&stiff(folder.path(), k, c), 10_000));
+        }
     }
 }
 

@@ -68,6 +68,32 @@ fn body_above_its_stop_is_let_down_onto_it() {
     near(out.state.parts[&2].origin.y, 1.0 - 1e-3_f64.powf(1.0 / 1.5), 1e-12);
 }
 
+/// A wheel with a stiff one-sided contact on a rail of compliance G(x) = 1e-3 x (4 - x), with force and deflection in
+/// a loop: y = -W (G(x) + 1/k) at every place, although the deflection changes by 1e3 to 1e6 penetrations from one
+/// place to the next, so that the wheel is off its rail, or far below it, before the forces are found.
+#[test]
+fn stiff_wheel_follows_a_rail_that_deflects_by_many_penetrations() {
+    for k in [1e3, 1e5, 1e6, 1e7] {
+        let text = format!(
+            "wheel\nPART/1,GROUND\nMARKER/1,PART=1\nPART/2,MASS=1,CM=2,IP=1,1,1\nMARKER/2,PART=2\n\
+             MARKER/9,PART=1,FLOATING\nMARKER/5,PART=1,ZP=1,0,0\nMARKER/6,PART=2,ZP=1,0,0\n\
+             JPRIM/1,ORIENTATION,I=2,J=1\nJPRIM/2,INPLANE,I=2,J=1\n\
+             MOTION/1,I=2,J=1,X,FUN=TIME\n\
+             VARIABLE/1,FUN=DX(2,1)*(4-DX(2,1))*1E-3*VARVAL(2)\n\
+             VARIABLE/2,IC=10,FUN=MAX(0,{k}*(-DY(2,1)-VARVAL(1)))\n\
+             VFORCE/1,I=2,JFLOAT=9,RM=1,FX=0\\,FY=VARVAL(2)\\,FZ=0\nACCGRAV/JGRAV=-10\nEND\n"
+        );
+        let times: Vec<f64> = (0..=16).map(|i| 0.25 * f64::from(i)).collect();
+        let path = model(&text).quasi_static_path(&times).unwrap_or_else(|error| panic!("k = {k}: {error}"));
+        for one in &path {
+            let x = one.state.time;
+            near(one.state.parts[&2].origin.y, -10.0 * (1e-3 * x * (4.0 - x) + 1.0 / k), 1e-13);
+            near(one.solution.variables[&2], 10.0, 1e-8);
+            assert!(one.iterations < 40, "k = {k}, x = {x}: {} iterations", one.iterations);
+        }
+    }
+}
+
 #[test]
 fn motions_hold_angles_places_and_integrals_of_speeds() {
     let text = "move\nPART/1,GROUND\nMARKER/1,PART=1\nMARKER/5,PART=1,ZP=1,0,0\n\

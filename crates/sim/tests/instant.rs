@@ -42,6 +42,36 @@ fn planted_forces_come_back_from_their_penetrations() {
     }
 }
 
+/// A wheel with a damper to the rail stands 1e-6 ft beyond a support. There the rail is rigid, so that the force cannot
+/// be found from a given penetration, but the force of the other wheel deflects and turns it: p = e - G F and p' = e' -
+/// x' w', of which G F is small but not negligible.
+#[test]
+fn a_wheel_beside_a_support_feels_the_deflection_by_the_other_wheel() {
+    let (k, c, speed) = (1e8, 1e5, 5.0);
+    let scene = bogie(speed, 12.0, Damper::Rail);
+    let half = 4.0 / 3.0;
+    for shift in [1e-6, 1e-4] {
+        let mut at = instant((half + shift) / speed, -0.05, 0.0);
+        let places = [speed * at.time - half, speed * at.time + half];
+        let planted = 2.9e6;
+        let sag =
+            |i: usize, own: f64| give(places[i], places[0]).0 * own + give(places[i], places[1]).0 * planted;
+        let slope = |own: f64| give(places[0], places[0]).1 * own + give(places[0], places[1]).1 * planted;
+        let (mut own, mut p) = (0.0, 0.0);
+        for _ in 0..20 {
+            p = 0.05 - sag(0, own);
+            // e' of the first wheel, at -4/3 ft: -(0.3 + 0.1 * 4/3)
+            own = k * p + c * (-(0.3 + 0.1 * half) - speed * slope(own));
+        }
+        at.penetration = vec![Some(p), Some(0.05 - sag(1, own))];
+        let found = contact_forces(&scene, &[girder()], &[at]).expect("a valid scene").remove(0);
+        assert!((found.penetration[0] / p - 1.0).abs() < 1e-14, "{} {p}", found.penetration[0]);
+        assert!((found.vertical[0] / own - 1.0).abs() < 1e-12, "{} {own}", found.vertical[0]);
+        assert!((found.vertical[1] / planted - 1.0).abs() < 1e-11, "{}", found.vertical[1]);
+        assert!((sag(0, own) / p).abs() > 1e-9, "the deflection counts");
+    }
+}
+
 /// A damper to ground: (G + 1/k) F = e + (c/k) r, solved here by Cramer's rule.
 #[test]
 fn forces_of_a_grounded_damper_solve_their_linear_system() {

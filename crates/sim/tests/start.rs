@@ -88,6 +88,78 @@ fn every_first_sample_is_the_limit_of_those_after_it() {
     }
 }
 
+/// Third-order difference quotient of the rate at the first of four samples `h` apart.
+fn rate_at_first(column: &[f64], h: f64) -> f64 {
+    (-11.0 * column[0] + 18.0 * column[1] - 9.0 * column[2] + 2.0 * column[3]) / (6.0 * h)
+}
+
+/// Identity: in the first row, as in every other, F = k p + c p' with the recorded penetration and its rate, on
+/// rigid rails, on rails with mass and on rails without. A rail without mass has w = G F at every instant and rests
+/// with p' = 0: the part c v w' would violate the law there by 4e-3 of the force.
+#[test]
+fn the_contact_law_holds_in_the_first_row_on_every_foundation_by_every_method() {
+    let foundations: [Named; 5] = [
+        ("rigid", Foundation::rigid),
+        ("exact", || Foundation::massless(Box::new(surface()), 1)),
+        ("closed form", girder),
+        ("modes", || beam(8, false)),
+        ("modes and the rest", || beam(3, true)),
+    ];
+    let (k, c, h) = (1e8, 1e5, 2e-7);
+    for (name, foundation) in foundations {
+        for speed in [5.0, 100.0] {
+            for method in [Method::Auto, Method::Radau, Method::Sdirk4] {
+                let mut scene = moving(14.0, speed, 8.0 * h);
+                if name == "rigid" {
+                    scene.gauges.clear();
+                }
+                scene.bodies[0].start_speed[5] = 0.01;
+                scene.output_dt = h;
+                let run = go(method, &scene, foundation());
+                for w in 0..2 {
+                    let force = run.history.column(Channel::Vertical(w));
+                    let depth = run.history.column(Channel::Penetration(w));
+                    for row in 0..5 {
+                        let law = k * depth[row] + c * rate_at_first(&depth[row..], h);
+                        // The rows lie within one step, of which the later ones are interpolated.
+                        assert!(
+                            (force[row] / law - 1.0).abs() < 1e-6,
+                            "{name}, {speed} ft/s, {method:?}, wheel {w}, row {row}: {} for {law}",
+                            force[row]
+                        );
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Analytic: a rail without mass has the force F = (e - p)/G, and p' = (F - k p)/c is zero at rest. Where a wheel begins
+/// to move from rest, p and e cannot jump, so that F is the static force, and its rate is -v F (dG/dx)/G. The force
+/// approaches that of the moving wheel with the time constant T = c G/(1 + k G) of the damper on this rail.
+#[test]
+fn a_rail_without_mass_keeps_its_deflection_for_an_instant_and_its_force_begins_at_rest() {
+    let (x0, speed, k, c) = (14.0, 100.0, 1e8, 1e5);
+    let mut scene = moving(x0, speed, 1e-3);
+    scene.gauges.clear();
+    scene.bodies[0].free = [false, true, false, false, false, false];
+    scene.bodies[0].mass *= 0.5;
+    scene.contacts = vec![common::single()];
+    let load = 0.5 * WEIGHT;
+    let compliance = common::give(x0, x0).0;
+    let slope = 2.0 * common::give(x0, x0).1;
+    let constant = c * compliance / (1.0 + k * compliance);
+    scene.end = constant;
+    scene.output_dt = 0.05 * constant;
+    let run = go(Method::Radau, &scene, Foundation::massless(Box::new(surface()), 1));
+    let force = run.history.column(Channel::Vertical(0));
+    let rate = rate_at_first(&force, scene.output_dt);
+    assert!((force[0] / load - 1.0).abs() < 1e-11, "{}", force[0]);
+    let wanted = -speed * slope * load / compliance;
+    assert!((rate / wanted - 1.0).abs() < 1e-2, "{rate} for {wanted}");
+    assert!((rate * constant / load).abs() > 1e-3, "the damper matters");
+}
+
 /// Analytic: a wheel that falls onto its damper at the start presses with k p + c v.
 #[test]
 fn the_first_force_of_a_falling_wheel_contains_its_speed() {

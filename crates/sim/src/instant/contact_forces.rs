@@ -138,20 +138,47 @@ fn given(solver: &Solver, instant: &Instant, i: usize) -> Option<f64> {
     instant.penetration[solver.system().mechanics.groups[i].contact].filter(|_| remembers)
 }
 
-/// Finds the rates of the given penetrations for which p + G F = e; on a rigid rail, penetration and rate are those
-/// of the wheel. Returns whether the iteration converged.
+/// Largest number of solutions for the penetrations on rigid rails.
+const ROUNDS: usize = 12;
+/// Change of the penetrations on rigid rails, relative to their approach, at which they have converged.
+const CONVERGED: f64 = 4.0 * f64::EPSILON;
+
+/// Finds the rates of the given penetrations for which p + G F = e. Returns whether the iteration converged.
+///
+/// On a rigid rail the force does not follow from a given penetration. There the rate is that at which the wheel
+/// approaches the deflected rail, and the penetration is p = e - G F. The own compliance of such a contact is at most
+/// 1e-9 of that of its wheel, but the forces of other wheels deflect the rail below it by up to the square root of this
+/// fraction of what they deflect it below themselves, so that G F is not negligible. It hardly changes when p is
+/// replaced in the law, so that two or three solutions suffice.
 fn solve_rates(solver: &mut Solver, instant: &Instant, at: &mut State) -> Result<bool, Error> {
     let system = solver.system();
-    for i in (0..system.verticals()).filter(|&i| system.law(i).has_memory() && solver.is_on_rigid_rail(i)) {
+    let on_rigid = |solver: &Solver, i: usize| system.law(i).has_memory() && solver.is_on_rigid_rail(i);
+    let rigid: Vec<usize> = (0..system.verticals()).filter(|&i| on_rigid(solver, i)).collect();
+    let unknown: Vec<usize> = (0..system.verticals())
+        .filter(|&i| solver.active().has(i) && given(solver, instant, i).is_some() && !rigid.contains(&i))
+        .collect();
+    for &i in &rigid {
         at.p[i] = solver.geometry().approach(i, &at.q);
         at.p_rate[i] = solver.approach_rate(i, at);
     }
-    let unknown: Vec<usize> = (0..system.verticals())
-        .filter(|&i| {
-            solver.active().has(i) && given(solver, instant, i).is_some() && !solver.is_on_rigid_rail(i)
-        })
-        .collect();
-    solve_rates_of(solver, &unknown, at)
+    for _ in 0..ROUNDS {
+        if !solve_rates_of(solver, &unknown, at)? {
+            return Ok(false);
+        }
+        let mut moved = 0.0_f64;
+        for &i in &rigid {
+            let approach = solver.geometry().approach(i, &at.q);
+            let (p, rate) = (solver.solved_penetration(i, &at.force), solver.approach_rate(i, at));
+            let (law, scale) = (system.law(i), approach.abs().max(f64::MIN_POSITIVE));
+            let by_rate = (rate - at.p_rate[i]).abs() * law.damping / law.stiffness;
+            moved = moved.max((p - at.p[i]).abs().max(by_rate) / scale);
+            (at.p[i], at.p_rate[i]) = (p, rate);
+        }
+        if moved <= CONVERGED {
+            return Ok(true);
+        }
+    }
+    Ok(false)
 }
 
 fn answer(solver: &Solver, at: &State) -> ContactForces {

@@ -3,6 +3,7 @@
 use crate::Error;
 use crate::contact::active::ROUNDING;
 use crate::contact::solver::{RIGID, Solver};
+use crate::instant::rates::solve_rates_of;
 use crate::mechanics::state::State;
 use crate::numerics::complementarity::complementarity;
 
@@ -40,6 +41,37 @@ pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error>
         let Some(i) = deepest else { return Ok(true) };
         solver.set_active(i, true);
         at.p_rate[i] = closing_rate(solver, i, at);
+    }
+    Ok(false)
+}
+
+/// Finds the active elements and the forces after a jump of the approach e, as at a step of the rail.
+///
+/// The penetrations p under dampers on compliant rails are continuous, and p + G F = e holds for those of the active
+/// contacts. With e the forces jump, and wheels near to each other on a rail without mass may be thrown off it. Each
+/// change of the active set changes the forces of all other contacts by amounts that are not small. Their rates of
+/// penetration are therefore solved again for every set, other than in [`settle`], where contacts change without a
+/// force. Returns whether a set was found.
+///
+/// # Errors
+/// Any error from evaluating the rails.
+pub(crate) fn settle_jump(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
+    let count = solver.system().verticals();
+    for _ in 0..4 * count + 8 {
+        let is_felt = |i: &usize| {
+            let point = solver.system().law(*i).at(at.p[*i], at.p_rate[*i]);
+            solver.remembers(*i) && !solver.is_on_rigid_rail(*i) && point.by_rate > 0.0
+        };
+        let felt: Vec<usize> = (0..count).filter(is_felt).collect();
+        if !solve_rates_of(solver, &felt, at)? {
+            return Ok(false);
+        }
+        let weakest = felt
+            .into_iter()
+            .filter(|&i| solver.opens(i, at))
+            .min_by(|&i, &j| at.force[i].total_cmp(&at.force[j]));
+        let Some(i) = weakest else { return settle(solver, at) };
+        solver.open(i, at);
     }
     Ok(false)
 }

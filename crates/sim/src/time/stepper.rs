@@ -19,7 +19,7 @@ use super::triggers::Triggers;
 use super::wheel_forces::WheelForces;
 use crate::contact::element::{Guard, GuardKind};
 use crate::contact::solver::Solver;
-use crate::instant::settle::settle;
+use crate::instant::settle::{settle, settle_jump};
 use crate::instant::uneven::pass_corners;
 use crate::mechanics::state::State;
 use crate::record::energy::stored;
@@ -398,7 +398,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let mut after = before;
         if has_crossed || self.is_switch_due() {
             let active = self.step.solver.active().flags().to_vec();
-            if settle(self.step.solver, &mut self.step.to)? {
+            let Step { solver, to, .. } = &mut self.step;
+            if !has_crossed {
+                solver.take_rates_from_forces(to);
+            }
+            let is_settled = has_crossed && settle_jump(solver, to)? || settle(solver, to)?;
+            if is_settled {
                 self.counts.events += usize::from(active != self.step.solver.active().flags());
                 after = self.stored();
                 let gained = after.total() - before.total();

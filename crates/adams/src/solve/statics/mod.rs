@@ -2,8 +2,9 @@
 //!
 //! `iterate` numbers the unknowns and holds their values. `balance` evaluates the equations, among them the
 //! prescribed displacements of `motion`. `search` solves them by Newton's method, with pseudo-transient
-//! continuation where it fails.
+//! continuation where it fails. `assemble` satisfies constraints and loops before.
 
+mod assemble;
 mod balance;
 mod equilibrium;
 mod iterate;
@@ -20,10 +21,11 @@ impl AdamsModel {
     /// The unknowns are the positions and finite rotations of all moving parts, the torn VARIABLEs of
     /// algebraic loops, the values DIF of all DIFFs without STATIC_HOLD, and one reaction for every scalar
     /// equation of a JOINT, JPRIM or MOTION. The equations are the balance of forces and torques of every
-    /// part, the constraints, the loops, and DIF1 = 0. They are solved together by Newton's method with exact
-    /// derivatives. Velocities are zero and MODE is 5. Where Newton's method does not converge, as for a
-    /// wheel above its rail, the parts first approach equilibrium against a viscous resistance that is
-    /// reduced step by step.
+    /// part, the constraints, the loops, and DIF1 = 0. Parts are first moved by the smallest displacements
+    /// that satisfy the constraints and motions. The equations are then solved together by Newton's method
+    /// with exact derivatives, and those of loops and DIFFs once more after every step. Velocities are zero
+    /// and MODE is 5. Where Newton's method does not converge, as for a wheel above its rail, the parts first
+    /// approach equilibrium against a viscous resistance that is reduced step by step.
     ///
     /// Degrees of freedom that no equation determines take the step of least norm, with lengths measured in
     /// the size of the model; redundant constraints divide their reaction in the same sense. A MOTION in

@@ -4,9 +4,14 @@
 //! and its Jacobian J, scales both, and solves J s = -r, in the least-squares sense where J is singular. The
 //! step s is halved until the simplified correction after it is smaller than s (natural monotonicity).
 //! Rotations are limited to half a radian. The iteration ends when steps are at the level of rounding and the
-//! scaled residual is below 1e-9.
+//! scaled residual is below 1e-9 or at the level of rounding.
 //!
-//! If no fraction of a step passes the test, the parts continue against a viscous resistance: J s - D s = -r,
+//! After every step the algebraic loops and the differentials are solved again where the parts stand. The forces of
+//! wheels are then always those of the compressed contacts. Without this, the forces of one iterate belong to rails
+//! deflected as at the iterate before, and a stiff wheel that is in contact appears to be far above its rail: its force
+//! and its derivatives are zero there, and the Jacobian is singular.
+//!
+//! If no fraction of a step passes the test, or if nothing holds a part, the parts continue against a viscous resistance: J s - D s = -r,
 //! where D resists translations and rotations. The resistance decreases with the residual. Once it is
 //! negligible, Newton's method starts again.
 
@@ -42,22 +47,30 @@ pub(super) fn search(
         // An IC of zero does not give the size of a variable; loops that are closed at the guess do.
         start.values.clone_from(&closed.values);
     }
+    let unknowns = unknowns(model);
+    let inner = |unknown: &&Unknown| matches!(unknown, Unknown::Slot(_) | Unknown::Differential(_));
     let search = Search {
         model,
-        unknowns: unknowns(model),
+        inner: unknowns.iter().filter(inner).copied().collect(),
+        unknowns,
         length: model_length(model, &start),
         force: model_force(model),
     };
     if search.unknowns.is_empty() {
         return search.report(&start, 0, 0);
     }
-    search.run(start)
+    let start = search.assembled(start);
+    search.run(search.closed(start))
 }
 
+/// Largest scaled residual of linear equations that have a solution.
+const SOLVED: f64 = 1e-6;
 /// A search and the scales of its quantities.
-struct Search<'a> {
+pub(super) struct Search<'a> {
     model: &'a AdamsModel,
-    unknowns: Vec<Unknown>,
+    pub unknowns: Vec<Unknown>,
+    /// The unknowns of algebraic loops and of differential equations.
+    pub inner: Vec<Unknown>,
     /// Typical length of the model.
     length: f64,
     /// Typical force: its largest weight.
@@ -74,12 +87,19 @@ impl Search<'_> {
         let mut iterations = 0;
         while iterations < MOST {
             iterations += 1;
-            let (residual, matrix) = self.linearize(&at)?;
+            let (residual, matrix) = self.linearize(&at, &self.unknowns)?;
             let rows = self.residual_scales(&at);
             let left = scaled_size(&residual, &rows);
             worst = largest(&residual, &rows);
-            let Some(factored) = self.factor(&at, matrix, resistance) else { break };
+            let allowed = self.allowed_residuals(&at, &matrix, &rows);
+            let balances = residual.iter().zip(&allowed).all(|(r, allowed)| r.abs() <= *allowed);
+            let Some(factored) = self.factor(&at, matrix.clone(), resistance) else { break };
             let Some(step) = factored.correction(&residual) else { break };
+            let is_held = factored.rank_deficiency() == 0 || solves(&matrix, &step, &residual, &rows);
+            if resistance == 0.0 && !is_held {
+                (resistance, before) = (self.force / (0.01 * self.length), f64::INFINITY);
+                continue;
+            }
             if resistance > 0.0 {
                 (at, resistance) = self.resisted_step(at, &step, left, resistance);
                 continue;
@@ -87,14 +107,14 @@ impl Search<'_> {
             let scales = self.step_scales(&at, &step);
             let length = scaled_size(&step, &scales);
             let stalled = length <= STALLED && length >= 0.1 * before;
-            if (length <= ROUNDING || stalled) && left <= RESIDUAL {
+            if (length <= ROUNDING || stalled) && balances {
                 let end = if stalled { at } else { at.after(&self.unknowns, &step, 1.0) };
                 return self.report(&end, iterations, factored.rank_deficiency());
             }
             before = length;
             match self.damped_step(&at, &factored, &step, &scales).filter(|_| length > ROUNDING) {
                 Some(next) => at = next,
-                None if length <= STALLED && left <= RESIDUAL => {
+                None if length <= STALLED && balances => {
                     return self.report(&at, iterations, factored.rank_deficiency());
                 }
                 None => (resistance, before) = (self.force / (0.01 * self.length), f64::INFINITY),
@@ -132,12 +152,9 @@ impl Search<'_> {
     ) -> Option<Iterate> {
         let length = scaled_size(step, scales);
         // The linearization is not used for rotations beyond half a radian.
-        let rotations =
-            self.unknowns.iter().zip(step).filter(|(unknown, _)| matches!(unknown, Unknown::Rotation(..)));
-        let angle = rotations.fold(0.0_f64, |top, (_, d)| top.max(d.abs()));
-        let mut fraction = if angle > 0.5 { 0.5 / angle } else { 1.0 };
+        let mut fraction = 0.5 / self.largest_angle(step).max(0.5);
         while fraction > 1e-6 {
-            let next = at.after(&self.unknowns, step, fraction);
+            let next = self.closed(at.after(&self.unknowns, step, fraction));
             let after = self.residual(&next).ok().and_then(|residual| factored.correction(&residual));
             if after.is_some_and(|after| scaled_size(&after, scales) <= (1.0 - 0.25 * fraction) * length) {
                 return Some(next);
@@ -157,7 +174,7 @@ impl Search<'_> {
         };
         let most = self.unknowns.iter().zip(step).map(|(unknown, d)| d.abs() / limit(unknown));
         let fraction = 1.0 / most.fold(1.0, f64::max);
-        let next = at.after(&self.unknowns, step, fraction);
+        let next = self.closed(at.after(&self.unknowns, step, fraction));
         let after = self.residual(&next).ok();
         let after = after.map(|residual| scaled_size(&residual, &self.residual_scales(&next)));
         match after {
@@ -168,6 +185,13 @@ impl Search<'_> {
             }
             _ => (at, 8.0 * resistance),
         }
+    }
+
+    /// The largest rotation of a step.
+    pub fn largest_angle(&self, step: &[f64]) -> f64 {
+        let rotations =
+            self.unknowns.iter().zip(step).filter(|(unknown, _)| matches!(unknown, Unknown::Rotation(..)));
+        rotations.fold(0.0_f64, |top, (_, d)| top.max(d.abs()))
     }
 
     /// Adds the viscous resistance to the derivatives of forces and torques.
@@ -194,24 +218,28 @@ impl Search<'_> {
         self.model.evaluation_on(Configuration { time, mode, differentials, values, ..at })
     }
 
-    /// The residuals and all values at an iterate.
-    fn balanced(&self, at: &Iterate) -> Result<(Vec<f64>, Evaluation<'_, f64>), Error> {
+    /// The residuals of `unknowns` and all values at an iterate.
+    pub fn balanced(
+        &self,
+        at: &Iterate,
+        unknowns: &[Unknown],
+    ) -> Result<(Vec<f64>, Evaluation<'_, f64>), Error> {
         let frames = at.frames();
         let mut on = self.evaluation(at.time, &frames, at.differentials.clone(), at.values.clone());
-        let residual = balance(self.model, &frames, &mut on, &self.unknowns, &at.reactions)?;
+        let residual = balance(self.model, &frames, &mut on, unknowns, &at.reactions)?;
         Ok((residual, on))
     }
 
     /// The residuals.
     fn residual(&self, at: &Iterate) -> Result<Vec<f64>, Error> {
-        Ok(self.balanced(at)?.0)
+        Ok(self.balanced(at, &self.unknowns)?.0)
     }
 
-    /// The residuals and their Jacobian.
-    fn linearize(&self, at: &Iterate) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
-        let count = self.unknowns.len();
-        let index = |wanted: Unknown| self.unknowns.iter().position(|unknown| *unknown == wanted);
-        let frames = at.dual_frames(&self.unknowns);
+    /// The residuals of `unknowns` and their Jacobian.
+    pub fn linearize(&self, at: &Iterate, unknowns: &[Unknown]) -> Result<(Vec<f64>, DMatrix<f64>), Error> {
+        let count = unknowns.len();
+        let index = |wanted: Unknown| unknowns.iter().position(|unknown| *unknown == wanted);
+        let frames = at.dual_frames(unknowns);
         let differential = |(k, value): (usize, &f64)| seed(*value, index(Unknown::Differential(k)), count);
         let differentials = at.differentials.iter().enumerate().map(differential).collect();
         let slot = |(k, value): (usize, &f64)| seed(*value, index(Unknown::Slot(k)), count);
@@ -226,13 +254,13 @@ impl Search<'_> {
             })
             .collect();
         let mut on = self.evaluation(at.time, &frames, differentials, values);
-        let all = balance(self.model, &frames, &mut on, &self.unknowns, &reactions)?;
+        let all = balance(self.model, &frames, &mut on, unknowns, &reactions)?;
         let matrix = DMatrix::from_fn(count, count, |i, j| all[i].derivative(j));
         Ok((all.iter().map(Scalar::value).collect(), matrix))
     }
 
     /// The scale of each unknown, relative to which its steps are measured.
-    fn step_scales(&self, at: &Iterate, step: &[f64]) -> Vec<f64> {
+    pub fn step_scales(&self, at: &Iterate, step: &[f64]) -> Vec<f64> {
         let reaction = at.reactions.iter().flatten().fold(self.force, |top, value| top.max(value.abs()));
         let scale = |(unknown, d): (&Unknown, &f64)| match *unknown {
             Unknown::Translation(..) => self.length,
@@ -259,8 +287,20 @@ impl Search<'_> {
         self.unknowns.iter().zip(step).map(scale).collect()
     }
 
+    /// The largest residuals of an equilibrium: 1e-9 of their scales, or what rounding of the unknowns makes of the
+    /// equations, whichever is larger. The force of a stiff wheel changes by its stiffness times the rounding of a
+    /// coordinate.
+    fn allowed_residuals(&self, at: &Iterate, matrix: &DMatrix<f64>, rows: &[f64]) -> Vec<f64> {
+        let sizes = self.step_scales(at, &vec![0.0; self.unknowns.len()]);
+        let rounding = |i: usize| -> f64 {
+            let terms = sizes.iter().enumerate().map(|(j, size)| (matrix[(i, j)] * size).abs());
+            terms.sum::<f64>() * 8.0 * f64::EPSILON
+        };
+        rows.iter().enumerate().map(|(i, scale)| (RESIDUAL * scale).max(rounding(i))).collect()
+    }
+
     /// The scale of each residual.
-    fn residual_scales(&self, at: &Iterate) -> Vec<f64> {
+    pub fn residual_scales(&self, at: &Iterate) -> Vec<f64> {
         let scale = |unknown: &Unknown| match *unknown {
             Unknown::Translation(..) => self.force,
             Unknown::Rotation(..) => self.force * self.length,
@@ -301,7 +341,7 @@ impl Search<'_> {
 
     /// The equilibrium at an iterate.
     fn report(&self, at: &Iterate, iterations: usize, undetermined: usize) -> Result<Equilibrium, Error> {
-        let (_, on) = self.balanced(at)?;
+        let (_, on) = self.balanced(at, &self.unknowns)?;
         on.beyond.borrow_mut().clear();
         let solution = self.model.report(&on, iterations)?;
         let mut reactions = BTreeMap::new();
@@ -319,6 +359,13 @@ impl Search<'_> {
             rank_deficiency: undetermined,
         })
     }
+}
+
+/// Whether a step satisfies J s + r = 0 to 1e-6 of the scales of the residuals. Where J is singular because nothing
+/// holds a part, it does not.
+fn solves(matrix: &DMatrix<f64>, step: &[f64], residual: &[f64], rows: &[f64]) -> bool {
+    let left = |i: usize| step.iter().enumerate().map(|(j, d)| matrix[(i, j)] * d).sum::<f64>() + residual[i];
+    (0..residual.len()).all(|i| left(i).abs() <= SOLVED * rows[i])
 }
 
 /// The largest ratio of a number to its scale; NaN counts as infinite.

@@ -29,6 +29,19 @@ impl Solver<'_> {
         [value.force, value.by_penetration, value.by_rate].map(|value| scale * value)
     }
 
+    /// Sets the rates of penetration of the active contacts to those at which their laws give the forces of `at`. In a
+    /// stage the force is an unknown, and accurate, and the rate is a difference of penetrations over its length. After
+    /// a very short step, at an event, c times the rounding error of this difference is not negligible.
+    pub fn take_rates_from_forces(&self, at: &mut State) {
+        for i in (0..self.system.verticals()).filter(|&i| self.remembers(i)) {
+            let [force, _, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
+            let change = (at.force[i] - force) / by_rate;
+            if change.is_finite() {
+                at.p_rate[i] += change;
+            }
+        }
+    }
+
     /// The `contacts` with springs of the given `stiffness` at `at`, for which the geometry must be current. The rate of
     /// e contains the motion of the wheels along the rail, and the rate of G that of all wheels: dG_ij/dt = x_i'
     /// dG_ij/dx_i + x_j' dG_ji/dx_j, for a symmetric compliance. `None` if the matrix is singular, or if forces of other
