@@ -138,7 +138,7 @@ pub struct StudyArgs {
     /// Instead of the charts, map where methods fail for the first straight girder of the scene and its wheels
     #[arg(long)]
     pub stability: bool,
-    /// Time limit in seconds of one run and of all repetitions of a setting; references may take ten times as long
+    /// Time limit in seconds of one run and of all its repetitions (with --quick half a second of these); references may take ten times as long
     /// [default: 20, with --quick 5]
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub limit: Option<f64>,
