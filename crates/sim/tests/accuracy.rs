@@ -94,7 +94,14 @@ fn errors(run: &Run, reference: &Run, scene: &Scene) -> [f64; 2] {
             !matches!(channel, Channel::Vertical(_)) || !near.into_iter().any(switches)
         };
         let errors = (0..=last).filter(|&i| is_judged(i)).map(|i| (own[i] - true_values[i]).abs());
-        errors.fold(0.0_f64, f64::max) / size
+        let worst = errors.clone().fold(0.0_f64, f64::max);
+        if std::env::var("DIAG").is_ok() {
+            let i = (0..=last).filter(|&i| is_judged(i)).find(|&i| (own[i] - true_values[i]).abs() == worst).unwrap_or(0);
+            let t = i as f64 * scene.output_dt;
+            let near: Vec<String> = (i.saturating_sub(3)..(i + 4).min(last)).map(|i| format!("{:.2e}/{:.3}", (own[i] - true_values[i]) / size, true_values[i] / size)).collect();
+            println!("   D {channel:?} worst {:.2e} at t {t} of {} x {:?} sample {i}: {near:?}", worst / size, scene.end, scene.bodies[0].motion.as_ref().map(|_| scene_x(scene, t)));
+        }
+        worst / size
     };
     let forces = (0..scene.contacts.len()).map(|w| worst(Channel::Vertical(w))).fold(0.0, f64::max);
     [forces, worst(Channel::Displacement(0, BodyDof::Y))]
@@ -106,7 +113,7 @@ fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64
     scene.output_dt = scene.end / 731.3;
     let foundation = [foundation];
     let reference = go(Method::Auto, &scene, fine[0], &foundation);
-    let second = go(Method::Sdirk4, &scene, fine[1], &foundation);
+    let second = if fine[1] > 0.0 { go(Method::Sdirk4, &scene, fine[1], &foundation) } else { reference.clone() };
     assert_eq!([&reference.status, &second.status], [&Status::Done; 2], "{name}");
     let [force, deflection] = errors(&second, &reference, &scene);
     let limit = 10.0 * force.max(deflection);
@@ -122,6 +129,7 @@ fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64
             let found = errors(&run, &reference, &scene);
             misses += found.iter().filter(|error| **error > accuracy).count();
             let [force, deflection] = found.map(|error| error / accuracy);
+            println!("R {} {:?} {accuracy:.0e} {force:.3} {deflection:.3} {}", name.replace([' ', ','], ""), run.method, run.counts.steps);
             row.push_str(&format!(" {force:.2}, {deflection:.2} ({}) |", run.counts.steps));
         }
         println!("| {name} | {method:?} |{row}");
@@ -149,6 +157,35 @@ fn wheel_forces_and_deflections_keep_the_accuracy_asked() {
     for (name, misses) in judged {
         assert_eq!(misses, 0, "{name}");
     }
+}
+
+#[test]
+#[ignore = "experiment"]
+fn quick() {
+    let accuracies = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6];
+    let scenes: [Crossing; 4] = [
+        ("S1", |damper| bogie(5.0, 12.0, damper)),
+        ("S2", |damper| bogie(100.0, 0.55, damper)),
+        ("S3", train),
+        ("S4", |_| car()),
+    ];
+    let filter = std::env::var("ONLY").unwrap_or_default();
+    for (name, scene) in scenes {
+        for damper in [Damper::Ground, Damper::Rail] {
+            for modes in [0, 2, 24] {
+                let named = format!("{name}, {damper:?} {modes}");
+                let f = if modes == 0 { girder() } else { massive(modes) };
+                if named.contains(&filter) && !(name == "S4" && damper == Damper::Ground) {
+                    let many = if name == "S3" { 4 } else { 5 };
+                    judge(&named, scene(damper), f, &accuracies[..many], [1e-9, 0.0]);
+                }
+            }
+        }
+    }
+}
+
+fn scene_x(_scene: &Scene, t: f64) -> f64 {
+    t
 }
 
 type Crossing = (&'static str, fn(Damper) -> Scene);
@@ -189,6 +226,7 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
     let damper = if random.between(0.0, 1.0) < 0.6 { Damper::Rail } else { Damper::Ground };
     let start = random.between(3.0, 12.0);
     let end = (random.between(20.0, 44.0) / speed).min(6.0);
+    if std::env::var("DIAG").is_ok() { println!("   D speed {speed} start {start}"); }
     let mut scene = bogie(speed, end, damper);
     let mass = 15.2 * SPAN * 10.0_f64.powf(random.between(-1.7, 1.3));
     let body = &mut scene.bodies[0];
@@ -222,7 +260,9 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
         _ => massive([2, 6, 24][random.between(0.0, 2.999) as usize]),
     };
     if random.between(0.0, 1.0) < 0.4 {
+        if std::env::var("DIAG").is_ok() { println!("   D uneven"); }
         let (x, depth) = (start + random.between(6.0, 12.0), depth * random.between(0.1, 0.9));
+        if std::env::var("DIAG").is_ok() { println!("   D dip x {x} depth {depth} times {:?}", [x - start, x + 1.0 - start, x + 2.0 - start].map(|d| d / speed)); }
         let rows = [[-20.0, 0.0], [x, 0.0], [x + 1.0, -depth], [x + 2.0, 0.0], [80.0, 0.0]];
         foundation.irregularities = vec![Irregularity::new(&rows, &[]).expect("rows in order")];
     }
@@ -233,10 +273,11 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
 #[test]
 #[ignore = "three minutes"]
 fn scenes_at_random_keep_the_accuracy_asked() {
-    let mut random = Random(20_260_722);
+    let mut random = Random(std::env::var("SEED").ok().and_then(|x| x.parse().ok()).unwrap_or(20_260_722));
     let (mut misses, mut judged, mut open) = (0, 0, 0);
-    for number in 0..70 {
+    for number in 0..std::env::var("COUNT").ok().and_then(|x| x.parse().ok()).unwrap_or(70) {
         let (mut scene, foundation) = scene_at_random(&mut random);
+        if let Some(only) = std::env::var("NUMBER").ok().and_then(|x| x.parse::<usize>().ok()) && only != number { continue; }
         scene.output_dt = scene.end / 731.3;
         let foundation = [foundation];
         let reference = go(Method::Auto, &scene, 1e-8, &foundation);
@@ -254,9 +295,13 @@ fn scenes_at_random_keep_the_accuracy_asked() {
                 continue;
             }
             for method in [Method::Auto, Method::Sdirk4] {
+                if method == Method::Sdirk4 && Method::Radau.suits(&scene, &foundation).is_err() {
+                    continue;
+                }
                 let run = go(method, &scene, accuracy, &foundation);
                 let found = errors(&run, &reference, &scene);
                 judged += 1;
+                println!("R {number} {:?} {accuracy:.0e} {:.3} {:.3} {}", run.method, found[0] / accuracy, found[1] / accuracy, run.counts.steps);
                 if run.status != Status::Done || found.iter().any(|error| *error > accuracy) {
                     misses += 1;
                     let by = found.map(|error| error / accuracy);

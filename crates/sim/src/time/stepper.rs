@@ -49,8 +49,8 @@ const CHATTER: usize = 1000;
 const SHORT: usize = 2;
 const WIDER: f64 = 16.0;
 
-/// Multiple of the time in which a penetration follows its force after which it has settled.
-const SETTLED: f64 = 3.0;
+/// Accuracy of the run, per unit of the tolerance of its steps.
+const ASKED: f64 = 1.0 / 3.0;
 
 /// Error of a wheel force, relative to its size, per unit of the error of a displacement, relative to its scale. It is
 /// fitted to the crossings S1 to S4 of `tests/accuracy.rs`, and judged there by scenes at random.
@@ -58,7 +58,7 @@ const FORCE_SHARE: f64 = 0.6;
 
 /// Largest tolerance of a step for the errors of forces: at larger ones these errors are not yet proportional to powers of
 /// the step.
-const LOOSEST: f64 = 6e-3;
+const LOOSEST: f64 = 1e-2;
 
 /// Reason for which a step could not be taken.
 pub(crate) enum Failure {
@@ -246,7 +246,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.step.begins_smoothly = self.ended_smoothly;
         if !self.ended_smoothly {
             self.step.last_jump = self.step.from.t;
-            self.step.shortest_delay = self.window() / SETTLED;
+            // A transient has decayed to the accuracy at the end of the window.
+            let decay = (1.0 / self.size.tolerance).ln().max(1.0);
+            self.step.shortest_delay = self.window() / decay;
         }
         self.meets = None;
         let smallest = 1e-13 * limit.abs().max(1e-3);
@@ -424,7 +426,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     }
 
     /// Time around an event in which forces need not keep the accuracy, accuracy x 2 pi sqrt(m/k), for the contact for
-    /// which it is shortest. Steps may err by a multiple of the accuracy, and so may this time.
+    /// which it is shortest.
     fn window(&self) -> f64 {
         let system = self.step.system();
         let weight = |i: usize| self.step.to.force[i] / system.scene.gravity.max(f64::MIN_POSITIVE);
@@ -433,7 +435,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             (weight(i).max(0.0) / stiffness).sqrt()
         };
         let pressed = (0..system.verticals()).filter(|&i| self.step.to.force[i] > 0.0).map(period);
-        self.size.tolerance * TAU * pressed.fold(f64::INFINITY, f64::min)
+        ASKED * self.size.tolerance * TAU * pressed.fold(f64::INFINITY, f64::min)
     }
 
     /// Passes a break of the prescribed motions. The change of kinetic energy by a jump of speed is the work of these
