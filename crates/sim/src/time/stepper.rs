@@ -58,7 +58,7 @@ const FORCE_SHARE: f64 = 0.6;
 
 /// Largest tolerance of a step for the errors of forces: at larger ones these errors are not yet proportional to powers of
 /// the step.
-const LOOSEST: f64 = 1e-2;
+const LOOSEST: f64 = 8e-3;
 
 /// Reason for which a step could not be taken.
 pub(crate) enum Failure {

@@ -11,7 +11,7 @@ const OWN: f64 = 4.0;
 
 /// Number of periods of a natural mode up to which its errors add up one by one; those of N more periods add up as those
 /// of sqrt(PERIODS N).
-const PERIODS: f64 = 200.0;
+const PERIODS: f64 = 400.0;
 
 /// Part of the error of a period that collocation, with its exact propagators of the free modes, repeats in the next.
 const REPEATED: f64 = 0.1;
