@@ -23,7 +23,7 @@ use crate::instant::settle::settle;
 use crate::instant::uneven::pass_corners;
 use crate::mechanics::state::State;
 use crate::record::energy::stored;
-use crate::{Audit, Error, Fired, Stepping, Stored};
+use crate::{Audit, Error, Fired, GapCause, Stepping, Stored};
 
 /// Largest number of times a step is shortened to end at a break or at a switch of elements.
 const REFINEMENTS: usize = 40;
@@ -60,6 +60,14 @@ const FORCE_SHARE: f64 = 0.6;
 /// the step.
 const LOOSEST: f64 = 8e-3;
 
+/// Tolerance of a step below which the errors of penetration rates on structures with all their modes determine those
+/// of forces.
+const FINE: f64 = 1e-6;
+
+/// Energy that a step in which a flange touches or separates may leave unaccounted for, relative to the peak energy, per
+/// unit of the tolerance.
+const ENERGY: f64 = 3e-4;
+
 /// Reason for which a step could not be taken.
 pub(crate) enum Failure {
     TooSmall,
@@ -80,8 +88,8 @@ enum Reason {
     /// A freely rolling wheel passes a break. This is checked before the error, because the error of a step across a
     /// break is not representative of the step that ends before it.
     RollingBreak,
-    /// A flange touches or separates. This matters only if the error of the step exceeds the tolerance or the step is
-    /// fixed.
+    /// A flange touches or separates. This matters only if the error of the step exceeds the tolerance, the step is fixed,
+    /// or its energy does not balance.
     Touch,
     /// The error of the step exceeds the tolerance.
     Error,
@@ -152,7 +160,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
     ) -> Result<Self, Error> {
         let scene = solver.system().scene;
         solver.store_open(&start);
-        Ok(Stepper {
+        let has_mass = solver.system().mechanics.omegas.iter().any(Option::is_some);
+        let mut stepper = Stepper {
             triggers: Triggers::new(solver.system())?,
             books: Books::new(solver, &start),
             touches: guards(solver, GuardKind::Touch, &start),
@@ -166,7 +175,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
             stalled: 0,
             chatter: 0,
             meets: None,
-        })
+        };
+        stepper.step.resolves_rates = has_mass && tolerance < FINE;
+        Ok(stepper)
     }
 
     /// The last step.
@@ -313,8 +324,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 fraction.map(|fraction| (trial.h * fraction).max(2.0 * trial.smallest))
             }
             Reason::Touch => {
-                let errs = has_converged && (trial.error > 1.0 || self.size.fixed.is_some());
-                if !(errs && trial.corners < CORNERS && is_long) {
+                if !(has_converged && trial.corners < CORNERS && is_long) {
+                    return Ok(None);
+                }
+                if !(trial.error > 1.0 || self.size.fixed.is_some() || self.loses_energy(trial.h)) {
                     return Ok(None);
                 }
                 let largest = self.largest_force();
@@ -365,6 +378,25 @@ impl<'a, 'b> Stepper<'a, 'b> {
         Ok(cut)
     }
 
+    /// Whether a flange touches or separates in the step just tried and more energy than allowed is missing or gained.
+    fn loses_energy(&self, h: f64) -> bool {
+        if self.touched().is_none() {
+            return false;
+        }
+        let exchanged = self.step.exchanged(h);
+        let gap = self.books.gap(self.step.solver, &exchanged, &self.step.to, self.stored());
+        gap.abs() > ENERGY * self.size.tolerance * self.books.audit().peak_stored
+    }
+
+    /// The wheel of the first flange that is on another side of its clearance at the end of the step than at its start.
+    fn touched(&self) -> Option<usize> {
+        let now = guards(self.step.solver, GuardKind::Touch, &self.step.to);
+        let index = self.touches.iter().zip(&now).position(|(old, new)| old.value * new.value < 0.0)?;
+        let system = self.step.system();
+        let element = system.guarded(GuardKind::Touch)[index];
+        system.wheel_of(element)
+    }
+
     /// Fraction of the step at which a freely rolling wheel meets a break; stores the wheel in `meets`.
     fn rolling_break(&mut self, slack: f64) -> Option<f64> {
         let (fraction, wheel) = rolling_break(&mut self.step, slack)?;
@@ -385,11 +417,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.step.arrived.copy_from(&self.step.to);
         self.force_scale = self.largest_force();
         self.wheel_forces.grow(&self.step.to.force);
+        let mut cause = self.touched().map_or(GapCause::Step, GapCause::Flange);
         let exchanged = self.step.exchanged(h);
         self.books.book_step(self.step.solver, &exchanged, &self.step.to);
         self.step.reach_end()?;
         self.size.grow(&self.step.to);
         if self.step.to.t >= self.limit {
+            cause = GapCause::Break;
             self.pass_break()?;
         }
         let by_joint = self.pass_joint()?;
@@ -401,13 +435,16 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if has_crossed || self.is_switch_due() {
             let active = self.step.solver.active().flags().to_vec();
             if settle(self.step.solver, &mut self.step.to)? {
-                self.counts.events += usize::from(active != self.step.solver.active().flags());
+                let now = self.step.solver.active().flags();
+                self.counts.events += usize::from(active != now);
+                let switched = (0..now.len()).find(|&i| active[i] != now[i]);
+                cause = switched.and_then(|i| system.wheel_of(i)).map_or(cause, GapCause::Contact);
                 after = self.stored();
                 let gained = after.total() - before.total();
                 if has_crossed { self.books.book_rail(gained) } else { self.books.book_switch(-gained) }
             }
         }
-        self.books.close_step(self.step.solver, &self.step.to, after);
+        self.books.close_step(self.step.solver, &self.step.to, after, cause);
         self.touches = guards(self.step.solver, GuardKind::Touch, &self.step.to);
         Ok(())
     }
