@@ -137,7 +137,8 @@ fn errors(run: &Run, reference: &Run, (scene, rail): (&Scene, &Foundation), accu
     let deflection = worst(&both(Channel::Displacement(0, BodyDof::Y)), &|_| true);
     let [own, true_values] = both(Channel::Speed(0, BodyDof::Y));
     let error: Vec<f64> = own.iter().zip(&true_values).map(|(own, value)| own - value).collect();
-    let largest = forces.iter().map(|[_, force]| size(force)).fold(0.0, f64::max) * scene.contacts.len() as f64;
+    let largest =
+        forces.iter().map(|[_, force]| size(force)).fold(0.0, f64::max) * scene.contacts.len() as f64;
     let across = (1..judged.len()).filter(|&i| !judged[i] && scene.bodies.len() == 1);
     let impulse = across.map(|i| scene.bodies[0].mass * (error[i] - error[i - 1]).abs());
     Errors { force, deflection, impulse: impulse.fold(0.0, f64::max) / (largest * period(scene)) }
@@ -367,7 +368,9 @@ fn judge_at_random(seed: u64, count: usize) -> Tally {
 fn scenes_at_random_keep_the_accuracy_asked() {
     for seed in [20_260_722, 77_001, 9_118_273_645] {
         let Tally { judged, misses, missed_impulses, open, steps } = judge_at_random(seed, 70);
-        println!("seed {seed}: {misses} misses, {missed_impulses} of impulses, in {judged} runs, {open} not judged, {steps} steps");
+        println!(
+            "seed {seed}: {misses} misses, {missed_impulses} of impulses, in {judged} runs, {open} not judged, {steps} steps"
+        );
         // Most of the misses are by SDIRK4, in scenes with dips or with many losses of contact.
         assert!(12 * misses <= judged, "{misses} of {judged}");
     }

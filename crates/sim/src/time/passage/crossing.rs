@@ -303,7 +303,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
     /// highest frequency of a contact, whose damping limits it to 1 + 1/(2 pi zeta).
     fn bounces(&self, quickest: f64) -> f64 {
         let omega = quickest.sqrt().recip();
-        let ratio = self.contacts.ratio[..self.system.elements.len()].iter().fold(f64::INFINITY, |a, b| a.min(*b));
+        let ratio =
+            self.contacts.ratio[..self.system.elements.len()].iter().fold(f64::INFINITY, |a, b| a.min(*b));
         (self.system.scene.end * omega / TAU).min(1.0 + 2.0 / (TAU * ratio * omega)).min(100.0)
     }
 
