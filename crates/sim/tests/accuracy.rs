@@ -219,12 +219,15 @@ fn errors_in_undamped_modes_do_not_add_up_beyond_the_accuracy() {
     }
 }
 
+/// Name, scene by its damper, and the dampers that are judged.
+type Crossing = (&'static str, fn(Damper) -> Scene, &'static [Damper]);
+
 /// The same for every crossing and down to 1e-8, massless and with mass, with dampers to ground and to the rail.
 #[test]
 #[ignore = "minutes"]
 fn every_crossing_keeps_the_accuracy_asked_in_every_method() {
     let accuracies = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-    let scenes: [(&str, fn(Damper) -> Scene, &[Damper]); 4] = [
+    let scenes: [Crossing; 4] = [
         ("S1", |damper| bogie(5.0, 12.0, damper), &[Damper::Ground, Damper::Rail]),
         ("S2", |damper| bogie(100.0, 0.55, damper), &[Damper::Ground, Damper::Rail]),
         ("S3", train, &[Damper::Ground, Damper::Rail]),
