@@ -50,9 +50,6 @@ pub(crate) struct Step<'a, 'b> {
     pub shortest_delay: f64,
     /// Whether the step just taken begins neither at a break nor at an event.
     pub begins_smoothly: bool,
-    /// Whether the rates of penetrations that are states have errors of their own on structures with all their modes. They
-    /// have the order two, and determine the errors of forces at small tolerances.
-    pub resolves_rates: bool,
     /// Penetrations in the step just taken, from its first sample on.
     penetrations: Option<Penetrations>,
 }
@@ -91,7 +88,6 @@ impl<'a, 'b> Step<'a, 'b> {
             last_jump: start.t,
             shortest_delay: 0.0,
             begins_smoothly: false,
-            resolves_rates: false,
             penetrations: None,
             from: start.clone(),
             arrived: start.clone(),
@@ -185,7 +181,7 @@ impl<'a, 'b> Step<'a, 'b> {
     /// those of natural modes for every period.
     pub fn force_errors(&mut self) -> &[f64] {
         let (h, end) = (self.length(), self.system().scene.end);
-        let Step { solver, from, to, integrator, errors, resolves_rates, .. } = self;
+        let Step { solver, from, to, integrator, errors, .. } = self;
         let Errors { q, v, rate, force, frequency, ringing } = errors;
         let of = |k: usize| match &*integrator {
             Integrator::Collocation(collocation) => collocation.error(k),
@@ -194,10 +190,9 @@ impl<'a, 'b> Step<'a, 'b> {
         solver.for_errors(to, of, |k, [dq, dv]| (q[k], v[k]) = (dq, dv));
         for (i, rate) in rate.iter_mut().enumerate() {
             let delay = if solver.remembers(i) { solver.delay(i, to) } else { 0.0 };
-            let errs = *resolves_rates && solver.remembers(i) && solver.is_on_rigid_rail(i);
             let is_settling = delay > self.shortest_delay && from.t - self.last_jump < SETTLED * delay;
             *rate = match &*integrator {
-                Integrator::Sdirk(sdirk) if is_settling || errs || delay > QUICK * h => sdirk.rate_error(i),
+                Integrator::Sdirk(sdirk) if is_settling || delay > QUICK * h => sdirk.rate_error(i),
                 Integrator::Collocation(collocation) if is_settling => collocation.rate_error(from, i),
                 _ => 0.0,
             };

@@ -60,10 +60,6 @@ const FORCE_SHARE: f64 = 0.6;
 /// the step.
 const LOOSEST: f64 = 8e-3;
 
-/// Tolerance of a step below which the errors of penetration rates on structures with all their modes determine those
-/// of forces.
-const FINE: f64 = 1e-6;
-
 /// Energy that a step in which a flange touches or separates may leave unaccounted for, relative to the peak energy, per
 /// unit of the tolerance.
 const ENERGY: f64 = 3e-4;
@@ -160,8 +156,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
     ) -> Result<Self, Error> {
         let scene = solver.system().scene;
         solver.store_open(&start);
-        let has_mass = solver.system().mechanics.omegas.iter().any(Option::is_some);
-        let mut stepper = Stepper {
+        Ok(Stepper {
             triggers: Triggers::new(solver.system())?,
             books: Books::new(solver, &start),
             touches: guards(solver, GuardKind::Touch, &start),
@@ -175,9 +170,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             stalled: 0,
             chatter: 0,
             meets: None,
-        };
-        stepper.step.resolves_rates = has_mass && tolerance < FINE;
-        Ok(stepper)
+        })
     }
 
     /// The last step.
