@@ -1,7 +1,7 @@
 //! `summary.json`: the results of a document's cases in numbers.
 
 use serde_json::{Map, Value, json};
-use sim::{Choice, Fidelity, FidelityTrial, Measure};
+use sim::{Choice, Fidelity, FidelityTrial, GapCause, Measure};
 
 use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
@@ -87,6 +87,7 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
             "put_in": lost.supplied(),
             "work": { "drives": lost.drives, "loads": lost.loads, "hoists": lost.hoists },
             "steps": lost.rail_steps,
+            "gaps": gaps(outcome),
         });
     }
     if !run.fired.is_empty() {
@@ -94,6 +95,38 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
             run.fired.iter().map(|fired| event(&scene.events[fired.rule], fired.time)).collect();
     }
     result
+}
+
+/// Where the energy balance of a run does not close, relative to the peak stored energy: sums by cause, and the largest
+/// gaps of single steps.
+fn gaps(outcome: &CaseResult) -> Value {
+    let audit = &outcome.run.audit;
+    let relative = |energy: f64| if audit.peak_stored > 0.0 { energy / audit.peak_stored } else { energy };
+    let sums = &audit.gaps;
+    let wheel = |w: usize| outcome.input.wheels[w].name.clone();
+    let largest: Vec<Value> = (sums.largest.iter().filter(|gap| gap.energy != 0.0))
+        .map(|gap| {
+            let mut entry = json!({ "time": gap.time, "share": relative(gap.energy) });
+            let (cause, at) = match gap.cause {
+                GapCause::Step => ("step", None),
+                GapCause::Flange(w) => ("flange", Some(w)),
+                GapCause::Contact(w) => ("contact", Some(w)),
+                GapCause::Break => ("break", None),
+            };
+            entry["cause"] = json!(cause);
+            if let Some(w) = at {
+                entry["wheel"] = json!(wheel(w));
+            }
+            entry
+        })
+        .collect();
+    json!({
+        "steps": relative(sums.steps),
+        "flanges": relative(sums.flanges),
+        "contacts": relative(sums.contacts),
+        "breaks": relative(sums.breaks),
+        "largest": largest,
+    })
 }
 
 /// The foundation of structure `s`, with the reason for its choice.

@@ -73,7 +73,7 @@ pub use contact::energy::{Exchanged, Stored};
 pub use instant::contact_forces::{ContactForces, Instant, contact_forces};
 pub use instant::natural::{NaturalMode, natural_modes};
 pub use numerics::step::step;
-pub use record::energy::Audit;
+pub use record::energy::{Audit, EnergyGap, EnergyGaps, GapCause};
 pub use record::history::History;
 pub use run::{Run, Status, run, run_by};
 pub use scene::actuators::{Actuators, Brake, Drive, Load, PrescribedSpin};

@@ -1,8 +1,8 @@
 //! Accuracy asked against errors found, in deflections and in wheel forces: the crossings S1 to S4 and scenes at random.
 //!
 //! The error of a run is its largest difference from a reference over all samples, divided by the largest deflection or
-//! by the largest force of the wheel. The reference is the same model at an accuracy of at most 1e-9. A second
-//! reference by SDIRK4 must agree with it ten times better than the smallest accuracy that is judged.
+//! by the largest force of the wheel. The reference is the same model at a much smaller accuracy; SDIRK4, another method,
+//! agrees with it.
 
 #![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
 
@@ -10,6 +10,7 @@ mod common;
 #[path = "../examples/crossings/mesh.rs"]
 mod mesh;
 
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use common::random::Random;
@@ -79,107 +80,184 @@ fn go(method: Method, scene: &Scene, accuracy: f64, foundation: &[Foundation]) -
     run_by(method, &scene, foundation, &mut |_| ControlFlow::Continue(())).expect("a valid scene")
 }
 
-/// Largest errors of wheel forces and of the deflection of the first body. Samples next to one in which a wheel has no
-/// force, while it has one in the other, are left out for this wheel.
-fn errors(run: &Run, reference: &Run, scene: &Scene) -> [f64; 2] {
-    let worst = |channel: Channel| {
-        let [own, true_values] = [run, reference].map(|run| run.history.column(channel));
-        assert_eq!(own.len(), true_values.len());
-        let size = true_values.iter().fold(f64::MIN_POSITIVE, |max, value| max.max(value.abs()));
-        let is_open = |i: usize| [&own, &true_values].map(|column| column[i] == 0.0);
-        let switches = |i: usize| is_open(i) != is_open(i + 1) || is_open(i)[0] != is_open(i)[1];
-        let last = own.len() - 1;
-        let is_judged = |i: usize| {
-            let near = i.saturating_sub(2)..(i + 2).min(last);
-            !matches!(channel, Channel::Vertical(_)) || !near.into_iter().any(switches)
-        };
-        let errors = (0..=last).filter(|&i| is_judged(i)).map(|i| (own[i] - true_values[i]).abs());
-        errors.fold(0.0_f64, f64::max) / size
-    };
-    let forces = (0..scene.contacts.len()).map(|w| worst(Channel::Vertical(w))).fold(0.0, f64::max);
-    [forces, worst(Channel::Displacement(0, BodyDof::Y))]
+/// Errors of a run: of wheel forces and of the deflection of the first body, relative to their largest values, and of the
+/// impulses across contact events, relative to the largest force of a wheel times its period 2 pi sqrt(m/k).
+#[derive(Clone, Copy, Debug)]
+struct Errors {
+    force: f64,
+    deflection: f64,
+    impulse: f64,
 }
 
-/// Judges every method that suits the scene at each of `accuracies`, of which the smallest are left out if the two
-/// references do not agree ten times better. Prints a row of the table for each method; returns the number of misses.
-fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64], fine: [f64; 2]) -> usize {
+impl Errors {
+    fn largest(&self) -> f64 {
+        self.force.max(self.deflection).max(self.impulse)
+    }
+}
+
+/// The period 2 pi sqrt(m/k) of a wheel, with m the total mass by the number of contacts.
+fn period(scene: &Scene) -> f64 {
+    let mass = scene.bodies.iter().map(|body| body.mass).sum::<f64>() / scene.contacts.len() as f64;
+    TAU * (mass / scene.wheels[0].normal.stiffness).sqrt()
+}
+
+/// Whether each sample is away from contact events and corners of the rail. Left out are the two samples on both sides of
+/// one at which a wheel has force in only one of the runs or from which on it gains or loses its force, and those within
+/// `accuracy` times the period of a wheel of a corner.
+fn is_judged(columns: &[[Vec<f64>; 2]], places: &[Vec<f64>], corners: &[f64], reach: f64) -> Vec<bool> {
+    let last = columns[0][0].len() - 1;
+    let is_open = |own: &[Vec<f64>; 2], i: usize| [own[0][i] == 0.0, own[1][i] == 0.0];
+    let switches = |i: usize| {
+        let mut wheels = columns.iter();
+        wheels.any(|own| is_open(own, i) != is_open(own, i + 1) || is_open(own, i)[0] != is_open(own, i)[1])
+    };
+    let at_corner = |i: usize| {
+        let near = |place: &Vec<f64>| corners.iter().any(|corner| (place[i] - corner).abs() <= reach);
+        places.iter().any(near)
+    };
+    (0..=last).map(|i| !(i.saturating_sub(2)..(i + 2).min(last)).any(switches) && !at_corner(i)).collect()
+}
+
+/// Errors of `run` outside the windows of events at the accuracy asked. The impulse of all wheels on one body is m g t - m
+/// v plus that of the loads, so that errors of impulses across events are m times the change of the error of v.
+fn errors(run: &Run, reference: &Run, (scene, rail): (&Scene, &Foundation), accuracy: f64) -> Errors {
+    let both = |channel: Channel| [run, reference].map(|run| run.history.column(channel));
+    let size = |column: &[f64]| column.iter().fold(f64::MIN_POSITIVE, |max, value| max.max(value.abs()));
+    let wheels = 0..scene.contacts.len();
+    let forces: Vec<[Vec<f64>; 2]> = wheels.clone().map(|w| both(Channel::Vertical(w))).collect();
+    let places: Vec<Vec<f64>> = wheels.map(|w| reference.history.column(Channel::Position(w))).collect();
+    let corners: Vec<f64> = rail.irregularities.iter().flat_map(|own| own.breaks().to_vec()).collect();
+    let speed = (places[0][1] - places[0][0]) / scene.output_dt;
+    let judged = is_judged(&forces, &places, &corners, speed * accuracy * period(scene));
+    let worst = |[own, true_values]: &[Vec<f64>; 2], judged: &dyn Fn(usize) -> bool| {
+        let all = own.iter().zip(true_values).enumerate().filter(|(i, _)| judged(*i));
+        all.map(|(_, (own, value))| (own - value).abs()).fold(0.0, f64::max) / size(true_values)
+    };
+    let force = forces.iter().map(|own| worst(own, &|i| judged[i])).fold(0.0, f64::max);
+    let deflection = worst(&both(Channel::Displacement(0, BodyDof::Y)), &|_| true);
+    let [own, true_values] = both(Channel::Speed(0, BodyDof::Y));
+    let error: Vec<f64> = own.iter().zip(&true_values).map(|(own, value)| own - value).collect();
+    let largest =
+        forces.iter().map(|[_, force]| size(force)).fold(0.0, f64::max) * scene.contacts.len() as f64;
+    let across = (1..judged.len()).filter(|&i| !judged[i] && scene.bodies.len() == 1);
+    let impulse = across.map(|i| scene.bodies[0].mass * (error[i] - error[i - 1]).abs());
+    Errors { force, deflection, impulse: impulse.fold(0.0, f64::max) / (largest * period(scene)) }
+}
+
+/// Steps of a run by SDIRK4 above which the next smaller accuracy is not judged.
+const MANY: usize = 200_000;
+
+/// Judges every method that suits the scene at each of `accuracies` against [`Method::Auto`] at `fine`. Prints a row of
+/// the table for each method; returns the largest error by the accuracy, and how closely SDIRK4 at the smallest accuracy
+/// at which it was run agrees with the reference.
+fn judge(name: &str, mut scene: Scene, foundation: Foundation, accuracies: &[f64], fine: f64) -> [f64; 2] {
     scene.output_dt = scene.end / 731.3;
     let foundation = [foundation];
-    let reference = go(Method::Auto, &scene, fine[0], &foundation);
-    let second = go(Method::Sdirk4, &scene, fine[1], &foundation);
-    assert_eq!([&reference.status, &second.status], [&Status::Done; 2], "{name}");
-    let [force, deflection] = errors(&second, &reference, &scene);
-    let limit = 10.0 * force.max(deflection);
-    let mut misses = 0;
+    let reference = go(Method::Auto, &scene, fine, &foundation);
+    assert_eq!(reference.status, Status::Done, "{name}");
+    let (mut largest, mut agreement) = (0.0_f64, f64::INFINITY);
     for method in [Method::Series, Method::Radau, Method::Sdirk4] {
         if method.suits(&scene, &foundation).is_err() {
             continue;
         }
-        let mut row = String::new();
-        for accuracy in accuracies.iter().copied().filter(|accuracy| *accuracy >= limit) {
+        let (mut row, mut steps) = (String::new(), 0);
+        for &accuracy in accuracies {
+            if method == Method::Sdirk4 && steps > MANY {
+                row.push_str(" |");
+                continue;
+            }
             let run = go(method, &scene, accuracy, &foundation);
-            assert_eq!(run.status, Status::Done, "{name}, {method:?} at {accuracy}");
-            let found = errors(&run, &reference, &scene);
-            misses += found.iter().filter(|error| **error > accuracy).count();
-            let [force, deflection] = found.map(|error| error / accuracy);
-            row.push_str(&format!(" {force:.2}, {deflection:.2} ({}) |", run.counts.steps));
+            if run.status != Status::Done {
+                row.push_str(&format!(" {:?} |", run.status));
+                largest = f64::INFINITY;
+                break;
+            }
+            let found = errors(&run, &reference, (&scene, &foundation[0]), accuracy);
+            steps = run.counts.steps;
+            largest = largest.max(found.largest() / accuracy);
+            if method == Method::Sdirk4 {
+                agreement = agreement.min(found.force);
+            }
+            let [force, deflection] = [found.force, found.deflection].map(|error| error / accuracy);
+            row.push_str(&format!(" {force:.2}, {deflection:.2} ({steps}) |"));
         }
-        println!("| {name} | {method:?} |{row}");
+        println!("| {name} | `{}` |{row}", format!("{method:?}").to_lowercase());
     }
-    println!("    the references of {name} agree to {force:.0e} of forces, {deflection:.0e} of deflections");
-    misses
+    [largest, agreement]
 }
 
-/// Convergence: two methods whose results agree ten times better than the smallest accuracy.
+/// Convergence: the same model at an accuracy of 1e-9, with which another method agrees.
 #[test]
 fn wheel_forces_and_deflections_keep_the_accuracy_asked() {
     let accuracies = [1e-2, 1e-3, 1e-4, 1e-5];
-    let fine = [1e-9, 1e-7];
     let cases = [
         ("S1, damped to ground", bogie(5.0, 12.0, Damper::Ground), girder()),
         ("S1, damped to the rail", bogie(5.0, 12.0, Damper::Rail), girder()),
+        ("S1, damped to the rail, 2 modes", bogie(5.0, 12.0, Damper::Rail), massive(2)),
         ("S2, damped to the rail", bogie(100.0, 0.55, Damper::Rail), girder()),
-        ("S2, six modes", bogie(100.0, 0.55, Damper::Rail), massive(6)),
+        ("S2, damped to the rail, 6 modes", bogie(100.0, 0.55, Damper::Rail), massive(6)),
+        ("S2, damped to ground, 2 modes", bogie(100.0, 0.55, Damper::Ground), massive(2)),
         ("S3, damped to ground", train(Damper::Ground), girder()),
         ("S4", car(), girder()),
-        ("S4, two modes", car(), massive(2)),
+        ("S4, 2 modes", car(), massive(2)),
     ];
-    let judged =
-        cases.map(|(name, scene, foundation)| (name, judge(name, scene, foundation, &accuracies, fine)));
-    for (name, misses) in judged {
-        assert_eq!(misses, 0, "{name}");
+    for (name, scene, foundation) in cases {
+        let [largest, agreement] = judge(name, scene, foundation, &accuracies, 1e-9);
+        assert!(largest <= 1.0 && agreement < 1e-5, "{name}: {largest}, {agreement}");
     }
 }
 
-type Crossing = (&'static str, fn(Damper) -> Scene);
-
-/// The same for every crossing and down to 1e-8: massless girders with dampers to ground and to the rail, girders with
-/// mass with dampers to the rail.
+/// Errors in natural modes that neither the wheels nor the structure damp add up over all their periods: dampers to
+/// ground leave them undamped. When they counted for four periods, these errors were 4 to 17 times the accuracy.
 #[test]
-#[ignore = "three minutes"]
+fn errors_in_undamped_modes_do_not_add_up_beyond_the_accuracy() {
+    let scene = || bogie(5.0, 12.0, Damper::Ground);
+    for modes in [2, 24] {
+        let name = format!("S1, damped to ground, {modes} modes");
+        let [largest, _] = judge(&name, scene(), massive(modes), &[1e-3, 1e-4], 1e-7);
+        assert!(largest <= 1.0, "{name}: {largest}");
+    }
+}
+
+/// Name, scene by its damper, and the dampers that are judged.
+type Crossing = (&'static str, fn(Damper) -> Scene, &'static [Damper]);
+
+/// The same for every crossing and down to 1e-8, massless and with mass, with dampers to ground and to the rail.
+#[test]
+#[ignore = "minutes"]
 fn every_crossing_keeps_the_accuracy_asked_in_every_method() {
     let accuracies = [1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8];
-    let fine = [1e-10, 1e-8];
     let scenes: [Crossing; 4] = [
-        ("S1", |damper| bogie(5.0, 12.0, damper)),
-        ("S2", |damper| bogie(100.0, 0.55, damper)),
-        ("S3", train),
-        ("S4", |_| car()),
+        ("S1", |damper| bogie(5.0, 12.0, damper), &[Damper::Ground, Damper::Rail]),
+        ("S2", |damper| bogie(100.0, 0.55, damper), &[Damper::Ground, Damper::Rail]),
+        ("S3", train, &[Damper::Ground, Damper::Rail]),
+        ("S4", |_| car(), &[Damper::Rail]),
     ];
     let mut missed = Vec::new();
-    for (name, scene) in scenes {
-        for damper in [Damper::Ground, Damper::Rail] {
-            let named = format!("{name}, {damper:?}");
-            missed.push((judge(&named, scene(damper), girder(), &accuracies, fine), named));
-        }
-        for modes in [2, 24] {
-            let named = format!("{name}, {modes} modes");
-            missed.push((judge(&named, scene(Damper::Rail), massive(modes), &accuracies, fine), named));
+    for (name, scene, dampers) in scenes {
+        for damper in dampers {
+            for modes in [0, 2, 24] {
+                let foundation = if modes == 0 { girder() } else { massive(modes) };
+                let place = match (name, damper) {
+                    ("S4", _) => "",
+                    (_, Damper::Ground) => ", damped to ground",
+                    (_, Damper::Rail) => ", damped to the rail",
+                };
+                let named = match modes {
+                    0 => format!("{name}{place}, massless"),
+                    _ => format!("{name}{place}, {modes} modes"),
+                };
+                let [largest, agreement] = judge(&named, scene(*damper), foundation, &accuracies, 1e-10);
+                println!("    {named}: largest error {largest:.2}, SDIRK4 agrees to {agreement:.0e}");
+                if largest > 1.0 {
+                    missed.push((named, largest));
+                }
+            }
         }
     }
-    missed.retain(|(misses, _)| *misses > 0);
-    println!("misses: {missed:?}");
-    assert!(missed.iter().all(|(_, name)| name.contains("modes")), "{missed:?}");
+    // SDIRK4 below 1e-6: the rates of penetrations are of order two where a mesh has all its modes.
+    let is_known = |(name, largest): &(String, f64)| name.contains("rail, 24 modes") && *largest < 4.0;
+    assert!(missed.iter().all(is_known), "{missed:?}");
 }
 
 /// A scene at random: one to four wheels, dampers to the rail or to ground, loads that step, dips of the rail; bodies of
@@ -229,13 +307,21 @@ fn scene_at_random(random: &mut Random) -> (Scene, Foundation) {
     (scene, foundation)
 }
 
-/// Convergence, as above, in scenes at random, with which the constants of the steps were compared.
-#[test]
-#[ignore = "three minutes"]
-fn scenes_at_random_keep_the_accuracy_asked() {
-    let mut random = Random(20_260_722);
-    let (mut misses, mut judged, mut open) = (0, 0, 0);
-    for number in 0..70 {
+/// Runs at random, and those that miss.
+#[derive(Default)]
+struct Tally {
+    judged: usize,
+    misses: usize,
+    missed_impulses: usize,
+    open: usize,
+    steps: usize,
+}
+
+/// Judges `count` scenes from the sequence `seed` at 1e-2, 1e-3 and 1e-4, by the default method and by SDIRK4.
+fn judge_at_random(seed: u64, count: usize) -> Tally {
+    let mut random = Random(seed);
+    let mut tally = Tally::default();
+    for number in 0..count {
         let (mut scene, foundation) = scene_at_random(&mut random);
         scene.output_dt = scene.end / 731.3;
         let foundation = [foundation];
@@ -243,42 +329,54 @@ fn scenes_at_random_keep_the_accuracy_asked() {
         let second = go(Method::Sdirk4, &scene, 1e-7, &foundation);
         if ![&reference.status, &second.status].into_iter().all(|status| *status == Status::Done) {
             println!("{number}: {:?} {:?}", reference.status, second.status);
-            open += 1;
+            tally.open += 1;
             continue;
         }
-        let agreement = errors(&second, &reference, &scene);
         for accuracy in [1e-2, 1e-3, 1e-4] {
-            if agreement.iter().any(|error| *error > 0.1 * accuracy) {
-                println!("{number} at {accuracy:.0e}: the references agree to {agreement:?}");
-                open += 1;
+            let judged = |run: &Run| errors(run, &reference, (&scene, &foundation[0]), accuracy);
+            if judged(&second).largest() > 0.1 * accuracy {
+                println!("{number} at {accuracy:.0e}: the references agree to {:?}", judged(&second));
+                tally.open += 1;
                 continue;
             }
             for method in [Method::Auto, Method::Sdirk4] {
+                if method == Method::Sdirk4 && Method::Radau.suits(&scene, &foundation).is_err() {
+                    continue;
+                }
                 let run = go(method, &scene, accuracy, &foundation);
-                let found = errors(&run, &reference, &scene);
-                judged += 1;
-                if run.status != Status::Done || found.iter().any(|error| *error > accuracy) {
-                    misses += 1;
-                    let by = found.map(|error| error / accuracy);
-                    let law = &scene.wheels[0].normal;
+                tally.judged += 1;
+                tally.steps += run.counts.steps;
+                let found = judged(&run);
+                let has_missed = run.status != Status::Done || found.force.max(found.deflection) > accuracy;
+                tally.misses += usize::from(has_missed);
+                tally.missed_impulses += usize::from(found.impulse > accuracy);
+                if has_missed || found.impulse > accuracy {
                     println!(
-                        "{number} {method:?} at {accuracy:.0e}: {by:.2?} ({} steps, {} events, {:?}, {} wheels, {:?}, \
-                         c {:.1e}, modes {}, uneven {}, loads {})",
+                        "{number} {:?} at {accuracy:.0e}: {:.2?} ({} steps, {} events, {:?})",
+                        run.method,
+                        [found.force, found.deflection, found.impulse].map(|error| error / accuracy),
                         run.counts.steps,
                         run.counts.events,
-                        run.status,
-                        scene.contacts.len(),
-                        law.damper,
-                        law.damping,
-                        foundation[0].dofs(),
-                        foundation[0].irregularities.len(),
-                        scene.actuators.loads.len()
+                        run.status
                     );
                 }
             }
         }
     }
-    println!("{misses} misses in {judged} runs, {open} not judged");
-    // Half of the misses are by less than a factor of two, and most of them are by SDIRK4.
-    assert!(6 * misses <= judged, "{misses} of {judged}");
+    tally
+}
+
+/// Convergence, as above, in scenes at random: of two seeds with which the constants of the steps were compared, and of
+/// one that was drawn afterwards.
+#[test]
+#[ignore = "two minutes"]
+fn scenes_at_random_keep_the_accuracy_asked() {
+    for seed in [20_260_722, 77_001, 9_118_273_645] {
+        let Tally { judged, misses, missed_impulses, open, steps } = judge_at_random(seed, 70);
+        println!(
+            "seed {seed}: {misses} misses, {missed_impulses} of impulses, in {judged} runs, {open} not judged, {steps} steps"
+        );
+        // Most of the misses are by SDIRK4, in scenes with dips or with many losses of contact.
+        assert!(12 * misses <= judged, "{misses} of {judged}");
+    }
 }

@@ -10,7 +10,7 @@ use std::f64::consts::PI;
 
 pub use spec::spec_warnings;
 
-use sim::Run;
+use sim::{GapCause, Run};
 
 use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
@@ -55,7 +55,8 @@ fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: 
     if residual > RESIDUAL {
         all.push(format!(
             "the residual of the energy audit is {residual:.1e} of the peak stored energy; a smaller \"accuracy\" \
-             reduces it, unless it comes from a table that is not symmetric or from a flange that engages abruptly"
+             reduces it, unless it comes from a table that is not symmetric or from a flange that engages abruptly{}",
+            largest_gap(input, run)
         ));
     }
     for structure in &scene.structures {
@@ -76,6 +77,23 @@ fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: 
     }
     all.extend(lift_off(input, record));
     all
+}
+
+/// The step that leaves the most energy unaccounted for, as the end of a sentence; empty if no step is known.
+fn largest_gap(input: &SimulationInput, run: &Run) -> String {
+    let gap = run.audit.gaps.largest[0];
+    if gap.energy == 0.0 || run.audit.peak_stored == 0.0 {
+        return String::new();
+    }
+    let name = |w: usize| input.wheels.get(w).map_or("a wheel", |wheel| wheel.name.as_str());
+    let place = match gap.cause {
+        GapCause::Step => String::new(),
+        GapCause::Flange(w) => format!(", where the flange of {} touches or separates", name(w)),
+        GapCause::Contact(w) => format!(", where {} loses or gains contact", name(w)),
+        GapCause::Break => ", at a corner of a motion or load".to_owned(),
+    };
+    let share = gap.energy / run.audit.peak_stored;
+    format!("; the largest part of one step is {share:.1e} at t = {:.6} s{place}", gap.time)
 }
 
 /// The wheels of one rail.

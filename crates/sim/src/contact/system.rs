@@ -11,7 +11,7 @@ use super::rope::RopeForce;
 use super::vertical::Vertical;
 use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::state::State;
-use crate::{Error, Foundation, NormalLaw, Scene};
+use crate::{Channel, Error, Foundation, NormalLaw, Scene};
 
 /// The numbered scene.
 pub(crate) struct System<'a> {
@@ -124,6 +124,14 @@ impl<'a> System<'a> {
             GuardKind::Touch => &self.touching,
             GuardKind::Corner => &self.cornered,
         }
+    }
+
+    /// The first wheel on which element `i` acts.
+    pub fn wheel_of(&self, i: usize) -> Option<usize> {
+        self.elements[i].channels(&self.mechanics).into_iter().find_map(|(channel, _)| match channel {
+            Channel::Vertical(wheel) | Channel::Lateral(wheel) | Channel::Traction(wheel) => Some(wheel),
+            _ => None,
+        })
     }
 
     /// Rope `index` of the scene with the index of its element.

@@ -46,6 +46,8 @@ pub(crate) struct Mechanics<'a> {
     /// Frequency of each degree of freedom that is a natural mode, 0 of other ones of structures, and `None` of bodies
     /// and spins.
     pub omegas: Vec<Option<f64>>,
+    /// Damping ratio of each degree of freedom that is a natural mode, 0 of the others.
+    pub damping_ratios: Vec<f64>,
     /// Number of all degrees of freedom.
     pub dofs: usize,
     /// Whether the rail coordinate of any wheel depends on the degrees of freedom.
@@ -108,6 +110,7 @@ impl<'a> Mechanics<'a> {
             of_contact,
             carried,
             omegas: frequencies(foundations, &structures, dofs),
+            damping_ratios: damping_ratios(foundations, &structures, dofs),
             structures,
             dofs,
             moves_freely: false,
@@ -244,6 +247,17 @@ fn frequencies(foundations: &[Foundation], structures: &[Range<usize>], dofs: us
         }
     }
     omegas
+}
+
+/// Damping ratios of the natural modes among `dofs` degrees of freedom.
+fn damping_ratios(foundations: &[Foundation], structures: &[Range<usize>], dofs: usize) -> Vec<f64> {
+    let mut ratios = vec![0.0; dofs];
+    for (range, foundation) in structures.iter().zip(foundations) {
+        if let Some(Dynamics::Modes { ratio, .. }) = foundation.structure.as_ref().map(|own| &own.dynamics) {
+            ratios[range.clone()].iter_mut().zip(ratio).for_each(|(own, ratio)| *own = *ratio);
+        }
+    }
+    ratios
 }
 
 /// The first of `count` degrees of freedom that moves no mass independently of those before it. The function factors

@@ -27,6 +27,67 @@ pub struct Audit {
     pub start: Stored,
     /// Energy stored at the end.
     pub end: Stored,
+    /// Where the imbalance arose.
+    pub gaps: EnergyGaps,
+}
+
+/// What happened in a step whose energy does not balance.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GapCause {
+    /// Nothing but the motion: the error of the step.
+    #[default]
+    Step,
+    /// The flange of a wheel touched or left its rail inside the step.
+    Flange(usize),
+    /// A wheel lost or gained contact at the end of the step.
+    Contact(usize),
+    /// The step ended at a corner of a prescribed motion, a load, a drive or a brake.
+    Break,
+}
+
+/// Energy that a step left unaccounted for: stored + lost - supplied at its end, less that at its start.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyGap {
+    /// End of the step, s.
+    pub time: f64,
+    /// The energy, positive if it was gained.
+    pub energy: f64,
+    /// What happened in the step.
+    pub cause: GapCause,
+}
+
+/// The gaps of all steps; their sum is the imbalance at the end. Zero for a run by power series.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct EnergyGaps {
+    /// The largest gaps, in order of magnitude.
+    pub largest: [EnergyGap; 3],
+    /// Sums over the steps of each cause.
+    pub steps: f64,
+    /// See [`GapCause::Flange`].
+    pub flanges: f64,
+    /// See [`GapCause::Contact`].
+    pub contacts: f64,
+    /// See [`GapCause::Break`].
+    pub breaks: f64,
+}
+
+impl EnergyGaps {
+    /// Adds the gap of a step.
+    pub(crate) fn add(&mut self, gap: EnergyGap) {
+        let sum = match gap.cause {
+            GapCause::Step => &mut self.steps,
+            GapCause::Flange(_) => &mut self.flanges,
+            GapCause::Contact(_) => &mut self.contacts,
+            GapCause::Break => &mut self.breaks,
+        };
+        *sum += gap.energy;
+        let mut next = gap;
+        for kept in &mut self.largest {
+            if next.energy.abs() > kept.energy.abs() {
+                std::mem::swap(kept, &mut next);
+            }
+        }
+    }
 }
 
 impl Audit {

@@ -39,9 +39,10 @@ pub(crate) struct Penetrations {
 
 impl Penetrations {
     /// Begins a step of length `h` from `from`, with the active contacts of the solver. A penetration that follows its
-    /// force within a fraction of the step is in the course of a motion without a jump independent of its value at the
-    /// start, whose error is then of no effect.
-    pub fn new(solver: &mut Solver, from: &State, h: f64, begins_smoothly: bool) -> Self {
+    /// force within a fraction of the step, and in at most the time `settled`, is independent of its value at the start,
+    /// whose error is then of no effect. This time is infinite in the course of a motion without a jump; after a jump it is
+    /// that below which the transient is not resolved.
+    pub fn new(solver: &mut Solver, from: &State, h: f64, settled: f64) -> Self {
         let mut new = Penetrations {
             h,
             is_free: Vec::new(),
@@ -62,7 +63,7 @@ impl Penetrations {
         if let Some(start) = solver.followed(from, &contacts, &stiffness) {
             new.differences
                 .push(DVector::from_fn(contacts.len(), |r, _| from.p[contacts[r]] - start.value[r]));
-            let is_quick = |i: &usize| begins_smoothly && solver.delay(*i, from) < QUICK * h;
+            let is_quick = |i: &usize| solver.delay(*i, from) < settled.min(QUICK * h);
             new.is_free = contacts.iter().map(is_quick).collect();
             new.followed.push(start);
             (new.contacts, new.stiffness) = (contacts, stiffness);

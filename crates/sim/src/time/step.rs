@@ -5,7 +5,7 @@ use super::nodes::Nodes;
 use super::penetrations::Penetrations;
 use super::sdirk::Sdirk;
 use crate::contact::solver::Solver;
-use crate::contact::solver::errors::StateErrors;
+use crate::contact::solver::errors::{Ringing, StateErrors};
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::{Error, Exchanged, Method};
@@ -62,6 +62,8 @@ struct Errors {
     force: Vec<f64>,
     /// Frequencies of the degrees of freedom.
     frequency: Vec<f64>,
+    /// Free vibrations of the natural modes among them.
+    ringing: Vec<Ringing>,
 }
 
 impl<'a, 'b> Step<'a, 'b> {
@@ -79,6 +81,7 @@ impl<'a, 'b> Step<'a, 'b> {
             rate: zeros(system.verticals()),
             force: zeros(start.force.len()),
             frequency: zeros(start.q.len()),
+            ringing: vec![Ringing::default(); start.q.len()],
         };
         Step {
             errors,
@@ -174,11 +177,12 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 
     /// Errors of the forces of the elements at the end of the step just taken, which follow from the embedded errors
-    /// of the degrees of freedom. Those of bodies count for every bounce over which they add up, at most [`BOUNCES`].
+    /// of the degrees of freedom. Those of bodies count for every bounce over which they add up, at most [`BOUNCES`], and
+    /// those of natural modes for every period.
     pub fn force_errors(&mut self) -> &[f64] {
         let (h, end) = (self.length(), self.system().scene.end);
         let Step { solver, from, to, integrator, errors, .. } = self;
-        let Errors { q, v, rate, force, frequency } = errors;
+        let Errors { q, v, rate, force, frequency, ringing } = errors;
         let of = |k: usize| match &*integrator {
             Integrator::Collocation(collocation) => collocation.error(k),
             Integrator::Sdirk(sdirk) => sdirk.error(k).map(|error| h * error),
@@ -194,8 +198,9 @@ impl<'a, 'b> Step<'a, 'b> {
             };
         }
         let bounces = solver.bounces(to, end, frequency).min(BOUNCES);
+        solver.ringing([&*from, &*to], end, ringing);
         let is_staged = matches!(integrator, Integrator::Sdirk(_));
-        let errors = StateErrors { at: to, h, is_staged, q, v, rate, frequency, bounces };
+        let errors = StateErrors { at: to, h, is_staged, q, v, rate, frequency, bounces, ringing };
         if !solver.force_errors(&errors, force) {
             force.fill(f64::INFINITY);
         }
@@ -228,8 +233,8 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Finds the penetrations in the step just taken; `at` is overwritten.
     fn find_penetrations(&mut self, at: &mut State) -> Result<Penetrations, Error> {
-        let mut penetrations =
-            Penetrations::new(self.solver, &self.from, self.length(), self.begins_smoothly);
+        let settled = if self.begins_smoothly { f64::INFINITY } else { self.shortest_delay };
+        let mut penetrations = Penetrations::new(self.solver, &self.from, self.length(), settled);
         for fraction in penetrations.fractions() {
             self.interpolate(fraction, at)?;
             penetrations.add(self.solver, at)?;

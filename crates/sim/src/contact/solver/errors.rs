@@ -6,8 +6,18 @@ use super::{RowKind, Solver};
 use crate::mechanics::state::State;
 use crate::numerics::dense::{along, dot};
 
-/// Number of periods of a natural mode over which the errors of a Runge-Kutta method in it add up.
+/// Least number of periods of a natural mode over which the errors of a Runge-Kutta method in it add up.
 const OWN: f64 = 4.0;
+
+/// Number of periods of a natural mode up to which its errors add up one by one; those of N more periods add up as those
+/// of sqrt(PERIODS N).
+const PERIODS: f64 = 400.0;
+
+/// Part of the error of a period that collocation, with its exact propagators of the free modes, repeats in the next.
+const REPEATED: f64 = 0.1;
+
+/// Largest sum of the errors in a natural mode, relative to the amplitude of its free vibration.
+const RINGING: f64 = 4.0;
 
 /// Errors of the state `at` at the end of a step of length `h`.
 pub(crate) struct StateErrors<'e> {
@@ -22,38 +32,56 @@ pub(crate) struct StateErrors<'e> {
     pub rate: &'e [f64],
     /// Frequency of each degree of freedom, or 0 for none.
     pub frequency: &'e [f64],
+    /// Number of bounces of bodies over which errors add up.
     pub bounces: f64,
+    /// Number of periods of each natural mode over which errors add up, and the amplitude of its free vibration.
+    pub ringing: &'e [Ringing],
+}
+
+/// Free vibration of a natural mode.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct Ringing {
+    /// Number of periods, while it is under the wheels, over which errors add up.
+    pub periods: f64,
+    /// Larger of the amplitudes of the free vibration at both ends of the step.
+    pub amplitude: f64,
 }
 
 impl Solver<'_> {
     /// Errors of the forces by the errors of a state, into `out`. Errors of displacements and speeds change the forces
     /// by J^-1 (law_p R dq + law_r R' dv) with J = I + law_p W + law_r Y over the elements that act, and an error of a
     /// speed by J^-1 law_p R dv / omega a quarter of a period later. The magnitudes are added. Those by bodies count
-    /// `bounces` times, because they add up over the bounces of the wheels.
+    /// `bounces` times, because they add up over the bounces of the wheels. Those of displacements in natural modes
+    /// count once for each period in which wheels and structure leave the mode undamped, but their sum is at most
+    /// [`RINGING`] times the free vibration of the mode.
     ///
     /// W and Y are those of the last stage, where it `is_staged`, so that errors that the method damps count as they
     /// are damped. For collocation W = G, and Y = G/h where the penetration is a state. Returns false if J is singular.
     /// The geometry must belong to the state.
     pub fn force_errors(&mut self, errors: &StateErrors, out: &mut [f64]) -> bool {
-        let &StateErrors { at, h, is_staged, q, v, rate, frequency, bounces } = errors;
+        let &StateErrors { at, h, is_staged, q, v, rate, frequency, bounces, ringing } = errors;
         if !is_staged {
             self.fill_without_mobility(at, h);
         }
         let (system, rows, n) = (self.system, self.geometry.rows(), q.len());
-        // Collocation follows natural modes exactly; the errors of other methods in them add up.
-        let own_weight = if is_staged { OWN } else { 1.0 };
+        let (least, repeated) = if is_staged { (OWN, 1.0) } else { (1.0, REPEATED) };
+        let add_up = |error: f64, k: usize, place: f64| {
+            let Ringing { periods, amplitude } = ringing[k];
+            (repeated * periods * error).min(RINGING * (amplitude * place).abs()).max(least * error)
+        };
         let zeros = || vec![[0.0; 2]; out.len()];
         let (mut now, mut later, mut own) = (zeros(), zeros(), zeros());
         for i in 0..out.len() {
             let tilted = system.mechanics.moves_freely && !system.fixed[i].is_tangential;
             let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
             let rates = &(if self.remembers(i) { &rows.approach } else { &rows.rate })[i * n..(i + 1) * n];
-            own[i][1] = rate.get(i).copied().unwrap_or(0.0) / own_weight;
+            own[i][1] = rate.get(i).copied().unwrap_or(0.0);
             for (k, omega) in system.mechanics.omegas.iter().enumerate() {
                 let by = [place[k] * q[k], rates[k] * v[k]];
                 let next = if frequency[k] > 0.0 { place[k] * v[k] / frequency[k] } else { 0.0 };
                 if omega.is_some() {
-                    own[i] = [own[i][0] + by[0] + next.abs(), own[i][1] + by[1]];
+                    let error = add_up(by[0].abs() + next.abs(), k, place[k]);
+                    own[i] = [own[i][0] + error, own[i][1] + least * by[1]];
                 } else {
                     now[i] = [now[i][0] + by[0], now[i][1] + by[1]];
                     later[i][0] += next;
@@ -63,7 +91,7 @@ impl Solver<'_> {
         let (local, active) = (self.geometry.local(), self.active.flags());
         self.factored_for = None;
         let forces = (system, local, active, &at.force[..]);
-        self.problem.add_responses(forces, [(&now, bounces), (&later, bounces), (&own, own_weight)], out)
+        self.problem.add_responses(forces, [(&now, bounces), (&later, bounces), (&own, 1.0)], out)
     }
 
     /// Sets the `frequency` of each degree of freedom, or 0 where it has none, and returns the largest number of bounces
@@ -100,6 +128,40 @@ impl Solver<'_> {
             frequency[..mass.nrows()].iter_mut().for_each(|frequency| *frequency = frequency.sqrt());
         }
         most
+    }
+
+    /// Sets the [`Ringing`] of each natural mode in the step between the states of `ends`, for a run of length `end`. On
+    /// the springs of the wheels the mode phi has the frequency omega_w^2 = omega^2 + sum k_i phi_i^2, and the damping
+    /// 2 zeta_w omega_w = 2 zeta omega + sum c_i phi_i^2 by wheels with dampers to the rail, which limits the number of
+    /// periods to 1 + 1/(2 pi zeta_w). Its free vibration is the part of its motion that inertia takes part in, of
+    /// amplitude ((q''/omega^2)^2 + (q'/omega)^2)^(1/2). The geometry must belong to the end.
+    pub fn ringing(&self, ends: [&State; 2], end: f64, out: &mut [Ringing]) {
+        let (mechanics, n, at) = (&self.system.mechanics, out.len(), ends[1]);
+        let wheels: Vec<(&[f64], f64, f64)> = (0..self.system.verticals())
+            .filter(|&i| self.active.has(i))
+            .map(|i| {
+                let row = &self.geometry.rows().approach[i * n..(i + 1) * n];
+                let [_, by_place, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
+                let share = 1.0 / (1.0 + by_place * self.geometry.own_compliance(i));
+                (row, by_place * share, if self.remembers(i) { by_rate * share * share } else { 0.0 })
+            })
+            .collect();
+        for (k, out) in out.iter_mut().enumerate() {
+            let Some(omega) = mechanics.omegas[k] else { continue };
+            let (mut squared, mut loss) = (omega * omega, 2.0 * mechanics.damping_ratios[k] * omega);
+            for (row, stiffness, damping) in &wheels {
+                squared += stiffness * row[k] * row[k];
+                loss += damping * row[k] * row[k];
+            }
+            let together = squared.sqrt();
+            let decay = 1.0 + 2.0 * together / (TAU * loss);
+            let periods = (end * together / TAU).min(decay);
+            let amplitude = |state: &State| (state.a[k] / (omega * omega)).hypot(state.v[k] / omega);
+            *out = Ringing {
+                periods: if periods > PERIODS { (PERIODS * periods).sqrt() } else { periods },
+                amplitude: if omega > 0.0 { amplitude(ends[0]).max(amplitude(at)) } else { f64::INFINITY },
+            };
+        }
     }
 
     /// Time in which the penetration of vertical contact `i` follows its force, c G/(1 + k G).

@@ -6,6 +6,7 @@
 //! evaluated from the same series. The step length follows from the last terms of the series, so no step is rejected.
 //! Forces and energy are evaluated with two more terms, which nearly removes the jumps between steps.
 
+use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use super::path::Path;
@@ -32,6 +33,10 @@ const FORCES: f64 = 16.0;
 
 /// Coarsest accuracy used for the step length; larger values are reduced to it.
 const COARSEST: f64 = 1e-3;
+
+/// Number of bounces over which the errors of steps add up to the accuracy allowed by [`LAST`]; for N more bounces the
+/// steps are more accurate by N times the reciprocal.
+const BOUNCES: f64 = 10.0;
 
 /// Largest ratio of the squares of the highest frequency of a contact and of the bounce frequency of the bodies on
 /// their wheels for which a series is used; stiffer scenes are left to another method.
@@ -231,7 +236,6 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let scene = system.scene;
         let softness =
             self.contacts.softness.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
-        let allowed = LAST * scene.accuracy.min(COARSEST);
         let mut recorder = Recorder::new(system);
         recorder.reserve((scene.end / scene.output_dt).min(1e6) as usize);
         let mut counts = Counts::default();
@@ -241,6 +245,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         if carried * softness > STIFF * quickest {
             return Ok(None);
         }
+        let allowed = LAST * scene.accuracy.min(COARSEST) / (self.bounces(quickest) / BOUNCES).max(1.0);
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
         for end in self.breaks() {
             let path =
@@ -292,6 +297,15 @@ impl<'a, const P: usize> Crossing<'a, P> {
             }
         }
         self.finish(false, t, recorder, counts).map(Some)
+    }
+
+    /// Number of bounces in the run over which errors add up, of at most 100, with `quickest` the reciprocal square of the
+    /// highest frequency of a contact, whose damping limits it to 1 + 1/(2 pi zeta).
+    fn bounces(&self, quickest: f64) -> f64 {
+        let omega = quickest.sqrt().recip();
+        let ratio =
+            self.contacts.ratio[..self.system.elements.len()].iter().fold(f64::INFINITY, |a, b| a.min(*b));
+        (self.system.scene.end * omega / TAU).min(1.0 + 2.0 / (TAU * ratio * omega)).min(100.0)
     }
 
     /// Completes the run after a step that ended at `t`.
