@@ -5,8 +5,8 @@ use std::path::Path;
 use super::raw::RawScene;
 use super::read::{Files, scene};
 use super::values::scene::{FORMAT, Scene};
-use crate::text::convert::convert;
 use crate::text::diagnostic::Diagnostic;
+use crate::text::examine::examine;
 use crate::text::fault::{Fault, Faults};
 use crate::text::inputs::Inputs;
 use crate::text::names::check_name;
@@ -50,18 +50,20 @@ impl Document {
     /// Reads a scene, the files to which it refers, and its comparisons.
     ///
     /// # Errors
-    /// The first syntax or type error, or otherwise all other faults in all files.
+    /// All faults of all files; those of comparisons only if the scene itself has none.
     pub fn open(path: &Path) -> Result<Document, Vec<Diagnostic>> {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let tree = source.tree();
-        let raw: RawScene = tree.convert(FORMAT).map_err(|error| vec![*error])?;
-        let mut faults = tree.duplicates_below("compare");
-        let mut files = Files::of(&mut inputs);
-        let scene = scene::read(&raw, &source.name, &mut files, &mut faults);
         let comparisons =
             tree.root().member("compare").map(|member| member.value.items()).unwrap_or_default();
-        check_labels(comparisons, &mut faults);
-        let mut wrong = tree.diagnose(&faults);
+        let mut files = Files::of(&mut inputs);
+        let scene = tree.read(FORMAT, |raw: &RawScene, faults| {
+            faults.0.extend(tree.duplicates_below("compare").0);
+            let scene = scene::read(raw, &source.name, &mut files, faults);
+            check_labels(comparisons, faults);
+            scene
+        });
+        let (scene, mut wrong) = scene.map_or_else(|wrong| (None, wrong), |scene| (Some(scene), Vec::new()));
         wrong.append(&mut files.wrong);
         let base_is_right = wrong.is_empty();
         let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
@@ -111,6 +113,7 @@ fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
             Some(None) => faults.add(Fault::new(&at.key("label"), "must be a string")),
             None => faults.add(
                 Fault::new(&at, "missing key `label`")
+                    .of_value()
                     .hint("the label is part of the file name history-<label>.csv"),
             ),
         }
@@ -135,17 +138,11 @@ fn case(
         changes.member("label").and_then(|label| label.value.as_text()).unwrap_or_default().to_owned();
     let mut merged = tree.root().without("compare");
     merged.merge(changes.without("label"));
-    let mut faults = Faults::default();
     let mut files = Files::of(inputs);
-    let (raw, wrong) = convert::<RawScene>(&merged);
-    let scene = match (raw, wrong.into_iter().next()) {
-        (Some(raw), None) => scene::read(&raw, file, &mut files, &mut faults),
-        (_, first) => {
-            first.into_iter().for_each(|located| faults.add(located.fault));
-            None
-        }
-    };
-    match scene {
+    let examined = examine(&merged, |raw: &RawScene, faults| scene::read(raw, file, &mut files, faults));
+    let mut faults = examined.faults;
+    faults.0.extend(examined.types.into_iter().map(|located| located.fault));
+    match examined.value {
         Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => {
             Ok(Case { label: Some(label), scene })
         }

@@ -1,6 +1,6 @@
 //! Translates the messages of serde and `serde_json` to the wording of this program.
 
-use super::fault::{Fault, nearest};
+use super::fault::{Basis, Fault, nearest};
 use super::place::{Path, Step};
 
 /// Whether a message of serde reports a duplicate key.
@@ -10,7 +10,14 @@ pub(super) fn is_duplicate(message: &str) -> bool {
 
 /// Converts a message of serde about the value at `path`: it has the wrong type, or its key is unknown.
 pub(super) fn type_fault(path: Path, message: &str) -> Fault {
-    let mut fault = Fault { path, at_key: false, expected: message.to_owned(), found: None, hint: None };
+    let mut fault = Fault {
+        path,
+        at_key: false,
+        expected: message.to_owned(),
+        found: None,
+        hint: None,
+        basis: Basis::Value,
+    };
     if let Some(rest) = message.strip_prefix("unknown field `")
         && let Some((key, known)) = rest.split_once('`')
     {
@@ -43,6 +50,12 @@ pub(super) fn type_fault(path: Path, message: &str) -> Fault {
         }
     }
     fault
+}
+
+/// The known key that was probably meant by an unknown one.
+pub(super) fn meant_key(fault: &Fault) -> Option<&str> {
+    let hint = fault.hint.as_deref()?.strip_prefix("did you mean `")?;
+    hint.split_once('`').map(|(key, _)| key)
 }
 
 /// Examples of values whose type is often wrong, by their key.

@@ -106,7 +106,7 @@ fn read_bodies(
     let mut bodies = Vec::new();
     let place = root.key("bodies");
     if raw.bodies.0.is_empty() {
-        check.faults.add(Fault::new(root, "must have at least one body in `bodies`"));
+        check.faults.add(Fault::new(root, "must have at least one body in `bodies`").of_value());
     }
     check.items(raw.bodies.0.len(), &BODIES, &place);
     for (name, raw) in &raw.bodies.0 {
@@ -165,7 +165,7 @@ fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Opti
             Some(check.not_negative(gravity, &root.key("gravity"), Dimension::ACCELERATION, hint))
         }
         None => {
-            let fault = Fault::new(root, "missing key `gravity`");
+            let fault = Fault::new(root, "missing key `gravity`").of_value();
             check.faults.add(fault.hint("such as 32.174 with ft and s, 9.80665 with m and s, or 0"));
             None
         }
@@ -179,7 +179,7 @@ fn read_structures(
     check: &mut Check<'_>,
 ) -> Vec<Structure> {
     if raw.structures.0.is_empty() {
-        check.faults.add(Fault::new(root, "must have at least one structure in `structures`"));
+        check.faults.add(Fault::new(root, "must have at least one structure in `structures`").of_value());
     }
     let place = root.key("structures");
     let mut structures = Vec::new();
@@ -249,6 +249,7 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
     if raw.trucks.is_empty() {
         check.faults.add(
             Fault::new(root, "must have at least one truck in `trucks`")
+                .of_value()
                 .hint("bodies run on their rails with trucks"),
         );
     }
