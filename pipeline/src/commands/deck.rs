@@ -30,6 +30,10 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     }
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
+    let unsupported = deck::unsupported(scene);
+    if !unsupported.0.is_empty() {
+        return Err(document.inputs.all()[0].source()?.diagnose(&unsupported).into());
+    }
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {

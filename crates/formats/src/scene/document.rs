@@ -7,7 +7,7 @@ use super::read::{Files, scene};
 use super::values::scene::{FORMAT, Scene};
 use crate::text::diagnostic::Diagnostic;
 use crate::text::examine::examine;
-use crate::text::fault::{Fault, Faults};
+use crate::text::fault::{Basis, Fault, Faults};
 use crate::text::inputs::Inputs;
 use crate::text::names::check_name;
 use crate::text::place::Place;
@@ -50,7 +50,8 @@ impl Document {
     /// Reads a scene, the files to which it refers, and its comparisons.
     ///
     /// # Errors
-    /// All faults of all files; those of comparisons only if the scene itself has none.
+    /// All faults of all files. If the scene itself has faults, those of comparisons are wrong types and keys, and
+    /// values out of range.
     pub fn open(path: &Path) -> Result<Document, Vec<Diagnostic>> {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let tree = source.tree();
@@ -65,16 +66,13 @@ impl Document {
         });
         let (scene, mut wrong) = scene.map_or_else(|wrong| (None, wrong), |scene| (Some(scene), Vec::new()));
         wrong.append(&mut files.wrong);
-        let base_is_right = wrong.is_empty();
+        let base = wrong.clone();
         let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
-        if base_is_right {
-            for (index, changes) in comparisons.iter().enumerate() {
-                match case(&tree, &source.name, index, changes, &mut inputs) {
-                    Ok(case) => cases.push(case),
-                    Err(diagnostics) => wrong.extend(
-                        diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>(),
-                    ),
-                }
+        for (index, changes) in comparisons.iter().enumerate() {
+            match case(&tree, &source.name, index, changes, &base, &mut inputs) {
+                Ok(case) => cases.push(case),
+                Err(diagnostics) => wrong
+                    .extend(diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>()),
             }
         }
         if wrong.is_empty() { Ok(Document { cases, inputs }) } else { Err(wrong) }
@@ -126,12 +124,14 @@ fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
     }
 }
 
-/// The scene of a document with the changes of `compare[index]` merged into it.
+/// The scene of a document with the changes of `compare[index]` merged into it. `base` has the faults of the scene
+/// itself and its files. If there are any, the faults of the changes alone are reported.
 fn case(
     tree: &Tree<'_>,
     file: &str,
     index: usize,
     changes: &TreeNode<'_>,
+    base: &[Diagnostic],
     inputs: &mut Inputs,
 ) -> Result<Case, Vec<Diagnostic>> {
     let label =
@@ -141,6 +141,9 @@ fn case(
     let mut files = Files::of(inputs);
     let examined = examine(&merged, |raw: &RawScene, faults| scene::read(raw, file, &mut files, faults));
     let mut faults = examined.faults;
+    if !base.is_empty() {
+        faults.0.retain(|fault| fault.basis == Basis::Value);
+    }
     faults.0.extend(examined.types.into_iter().map(|located| located.fault));
     match examined.value {
         Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => {
@@ -151,7 +154,14 @@ fn case(
             for diagnostic in wrong.iter_mut().filter(|found| !found.path.starts_with("compare")) {
                 diagnostic.expected = format!("in comparison \"{label}\": {}", diagnostic.expected);
             }
-            wrong.append(&mut files.wrong);
+            if base.is_empty() {
+                wrong.append(&mut files.wrong);
+            } else {
+                let is_of_base = |one: &Diagnostic| {
+                    base.iter().any(|known| one.path.ends_with(&known.path) && one.expected == known.expected)
+                };
+                wrong.retain(|one| one.path.starts_with("compare") && !is_of_base(one));
+            }
             Err(wrong)
         }
     }

@@ -1,7 +1,7 @@
 //! Faults of a document, identified by path. They are collected first and located in the text afterwards.
 
 pub use super::number::number;
-use super::place::{Path, Place};
+use super::place::{Path, Place, Step};
 
 /// Beginning of the message for a duplicate key.
 const DUPLICATE: &str = "duplicate key ";
@@ -117,6 +117,15 @@ impl Faults {
     /// Adds a fault.
     pub fn add(&mut self, fault: Fault) {
         self.0.push(fault);
+    }
+
+    /// Whether a fault concerns the whole document, or one of these members of it.
+    #[must_use]
+    pub fn concern(&self, members: &[&str]) -> bool {
+        self.0.iter().any(|fault| match fault.path.0.first() {
+            Some(Step::Key(key)) => members.contains(&key.as_str()),
+            _ => true,
+        })
     }
 
     /// Returns the value if it is present; otherwise adds a fault for the missing key.

@@ -150,10 +150,19 @@ fn read_actions(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut
     if all_trucks && truck_spacing::check(scene, check.faults) {
         scene.practice = practice::read(&raw.practice, scene, root, check);
     }
-    if check.faults.0.is_empty() {
+    let before = check.faults.clone();
+    let bodies_on_rails = ["structures", "bodies", "trucks"];
+    let is_right = |more: &[&str]| !before.concern(&bodies_on_rails) && !before.concern(more);
+    if is_right(&["loads"]) {
         mount::check(scene, check.faults);
+    }
+    if is_right(&["motions", "end"]) {
         check_travel(raw, scene, root, check.faults);
+    }
+    if is_right(&["motions"]) {
         inertia::check(raw, scene, root, check.faults);
+    }
+    if is_right(&["wheels", "motions", "stepper", "step", "analysis", "ropes", "stops", "loads", "events"]) {
         method::suits(scene, root, check.faults);
     }
 }

@@ -73,6 +73,13 @@ pub(super) fn read(
     {
         windows_fit(girder, count, handover, at, check);
     }
+    if let (FoundationWord::Modal | FoundationWord::Full, Origin::Spec { spec, .. }) = (word, &origin)
+        && !spec.has_mass()
+    {
+        let expected = format!("\"{}\" needs mass, and the spec has none", foundation.word());
+        let fault = Fault::new(&at.key("foundation"), expected);
+        check.faults.add(fault.hint("give its materials a density, or the girder `mass_per_length`"));
+    }
     let rails = origin.rails();
     if interpolation != TableInterpolation::Exact {
         enough_stations(&rails, interpolation, at, check);
