@@ -135,11 +135,12 @@ fn frame(draw: &mut Draw<'_>) -> Value {
     let segments: Vec<Value> = (0..along - 1).map(|k| json!({ "cell": [0, k] })).collect();
     let end = 2.0 * (along - 1) as f64;
     let [release_a, release_b] = releases;
+    let orientations = vec![json!([0.1, 1, 0.2]); cells.len()];
     let mut spec = json!({
         "format": "girderway-beam/1", "units": units(), "theory": theory(draw), "points": points,
         "cells": [{ "type": "line", "data": cells }],
         "cell_data": { "kind": [kinds], "release_a": [release_a], "release_b": [release_b],
-                       "orientation": [[[0.1, 1, 0.2]].repeat(cells.len())] },
+                       "orientation": [orientations] },
         "materials": [{ "name": "steel", "E": 2.1e8, "G": 8.1e7, "density": 7.85 }],
         "sections": [section], "supports": supports,
         "rails": { "rail": { "axis": [1, 0, 0], "segments": segments, "stations": [0, 0.3 * end, 0.6 * end, end] } }

@@ -68,13 +68,15 @@ impl Document {
         wrong.append(&mut files.wrong);
         let base = wrong.clone();
         let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
-        for (index, changes) in comparisons.iter().enumerate() {
+        for (index, changes) in comparisons.iter().enumerate().filter(|_| tree.is_whole()) {
             match case(&tree, &source.name, index, changes, &base, &mut inputs) {
                 Ok(case) => cases.push(case),
                 Err(diagnostics) => wrong
                     .extend(diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>()),
             }
         }
+        // the faults of the scene file first
+        wrong.sort_by_key(|one| one.file != source.name);
         if wrong.is_empty() { Ok(Document { cases, inputs }) } else { Err(wrong) }
     }
 

@@ -92,7 +92,7 @@ struct Unconverted {
     start: usize,
     /// Its fault; there is none if the failure is a consequence of other faults.
     located: Option<Located>,
-    /// Path of the value that is missing without it.
+    /// Path of the value that is missing or uncertain without it.
     lost: Option<Path>,
 }
 
@@ -113,8 +113,8 @@ impl Stop {
             && let Some(second) = node.second_of_a_key()
         {
             let located = Located { fault: Fault::duplicate(path, &second.key), offset: second.start };
-            let start = second.value.start;
-            return Stop::At(Box::new(Unconverted { start, located: Some(located), lost: None }));
+            let (start, lost) = (second.value.start, reader.place.key(&second.key).path());
+            return Stop::At(Box::new(Unconverted { start, located: Some(located), lost: Some(lost) }));
         }
         let follows = reader.left_out.range(node.start..).next().is_some_and(|start| *start < node.end);
         let located = Located { fault: type_fault(path.clone(), &message), offset: node.start };

@@ -96,6 +96,12 @@ pub struct Tree<'s> {
 }
 
 impl<'s> Tree<'s> {
+    /// Whether the text is JSON.
+    #[must_use]
+    pub const fn is_whole(&self) -> bool {
+        self.error.is_none()
+    }
+
     /// The value of the text.
     #[must_use]
     pub const fn root(&self) -> &TreeNode<'s> {
