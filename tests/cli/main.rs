@@ -6,6 +6,7 @@ mod events;
 mod fatigue;
 mod figures;
 mod folders;
+mod full;
 mod grids;
 mod init;
 mod modes;

@@ -3,12 +3,17 @@
 use std::fs::File;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::time::Duration;
 
 use sha2::{Digest, Sha256};
 
 use super::diagnostic::Diagnostic;
+use super::pipe;
 use super::source::Source;
 use crate::limits::FILE_BYTES;
+
+/// Time to wait for a program that writes into a pipe.
+const PATIENCE: Duration = Duration::from_secs(10);
 
 /// One input file of a job.
 #[derive(Clone, Debug)]
@@ -104,8 +109,12 @@ fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         return Err("cannot be read: it is neither a file nor a pipe".to_owned());
     }
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(message)?;
-    file.take(most + 1).read_to_end(&mut bytes).map_err(message)?;
+    if is_pipe(&kind) {
+        pipe::read(path, most + 1, PATIENCE, &mut bytes)?;
+    } else {
+        let file = File::open(path).map_err(message)?;
+        file.take(most + 1).read_to_end(&mut bytes).map_err(message)?;
+    }
     if bytes.len() as u64 > most {
         return Err(format!(
             "cannot be read: it has more than {} MB, the largest size of an input",
