@@ -14,6 +14,7 @@ mod json;
 pub mod names;
 pub mod number;
 pub mod object;
+#[cfg(unix)]
 mod pipe;
 pub mod place;
 pub mod source;

@@ -1,54 +1,49 @@
 //! Reading from a pipe, into which perhaps nobody writes.
 
 use std::fs::OpenOptions;
-use std::io::{ErrorKind, Read};
+use std::io::{self, ErrorKind, Read};
+use std::os::unix::fs::OpenOptionsExt;
 use std::path::Path;
-use std::thread;
-use std::time::{Duration, Instant};
 
-use super::inputs::read_error_message;
+use rustix::event::{PollFd, PollFlags, Timespec, poll};
+use rustix::fs::OFlags;
 
-/// Interval at which a pipe without data is read again.
-const INTERVAL: Duration = Duration::from_millis(10);
-
-/// Appends at most `most` bytes from a pipe to `bytes`, up to its end. A pipe from which nothing has come, and which
-/// nobody has opened for writing, is waited for as long as `patience`.
-///
-/// # Errors
-/// The reason why the pipe cannot be read, as text.
-pub(super) fn read(path: &Path, most: u64, patience: Duration, bytes: &mut Vec<u8>) -> Result<(), String> {
-    let message = |error: std::io::Error| read_error_message(&error);
-    let mut options = OpenOptions::new();
-    options.read(true);
-    // otherwise opening would wait for a writer without end
-    #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::custom_flags(
-        &mut options,
-        rustix::fs::OFlags::NONBLOCK.bits().cast_signed(),
-    );
-    let mut pipe = options.open(path).map_err(message)?.take(most);
-    let begun = Instant::now();
+/// Appends at most `most` bytes from a pipe to `bytes`, up to its end. A pipe that nobody has opened for writing is
+/// waited for as long as `patience`, in seconds; returns whether there was a writer.
+pub(super) fn read(path: &Path, most: u64, patience: i64, bytes: &mut Vec<u8>) -> io::Result<bool> {
+    // without the flag, opening would wait for a writer without end
+    let no_wait = OFlags::NONBLOCK.bits().cast_signed();
+    let file = OpenOptions::new().read(true).custom_flags(no_wait).open(path)?;
+    let mut pipe = (&file).take(most);
     let mut block = vec![0; 1 << 16];
+    let mut has_writer = false;
     loop {
-        match pipe.read(&mut block) {
-            Ok(0) if bytes.is_empty() && begun.elapsed() < patience => thread::sleep(INTERVAL),
-            Ok(0) if bytes.is_empty() => {
-                return Err("cannot be read: nothing is written into this pipe".to_owned());
+        let patience = match pipe.read(&mut block) {
+            Ok(0) if has_writer => return Ok(true),
+            Ok(0) => Some(Timespec { tv_sec: patience, tv_nsec: 0 }),
+            Ok(count) => {
+                has_writer = true;
+                bytes.extend_from_slice(&block[..count]);
+                continue;
             }
-            Ok(0) => return Ok(()),
-            Ok(count) => bytes.extend_from_slice(&block[..count]),
             // the pipe has a writer, and no data yet
-            Err(error) if error.kind() == ErrorKind::WouldBlock => thread::sleep(INTERVAL),
-            Err(error) if error.kind() == ErrorKind::Interrupted => {}
-            Err(error) => return Err(message(error)),
+            Err(error) if error.kind() == ErrorKind::WouldBlock => None,
+            Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+            Err(error) => return Err(error),
+        };
+        let mut wait = [PollFd::new(&file, PollFlags::IN)];
+        match poll(&mut wait, patience.as_ref()) {
+            Ok(0) => return Ok(false),
+            // data, or the end after a writer
+            Ok(_) => has_writer = true,
+            Err(error) if error == rustix::io::Errno::INTR => {}
+            Err(error) => return Err(error.into()),
         }
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(test)]
 mod tests {
-    use std::fs::File;
-    use std::io::Write;
     use std::process::Command;
 
     use super::*;
@@ -60,17 +55,14 @@ mod tests {
         let made = Command::new("mkfifo").arg(&path).status();
         assert!(made.is_ok_and(|status| status.success()), "mkfifo is part of every Unix");
         let mut bytes = Vec::new();
-        let why = read(&path, 100, Duration::from_millis(50), &mut bytes).expect_err("nobody writes");
-        assert!(why.contains("nothing is written"), "{why}");
-        let to = path.clone();
-        let writer = thread::spawn(move || {
-            let mut pipe = File::create(to).expect("a reader is there");
-            pipe.write_all(b"first ").expect("a reader is there");
-            thread::sleep(Duration::from_millis(50));
-            pipe.write_all(b"second").expect("a reader is there");
-        });
-        read(&path, 100, Duration::from_secs(10), &mut bytes).expect("a writer");
-        writer.join().expect("no panic");
-        assert_eq!(bytes, b"first second");
+        assert!(matches!(read(&path, 100, 0, &mut bytes), Ok(false)));
+        for (script, wanted) in [("printf first; sleep 0.1; printf second", "firstsecond"), ("true", "")] {
+            let line = format!("exec > pipe; {script}");
+            let writer = Command::new("sh").args(["-c", &line]).current_dir(folder.path()).spawn();
+            bytes.clear();
+            assert!(matches!(read(&path, 100, 30, &mut bytes), Ok(true)));
+            assert!(writer.and_then(|mut writer| writer.wait()).is_ok_and(|status| status.success()));
+            assert_eq!(String::from_utf8_lossy(&bytes), wanted);
+        }
     }
 }
