@@ -1,6 +1,7 @@
 //! Translates the messages of serde and `serde_json` to the wording of this program.
 
 use super::fault::{Basis, Fault, nearest};
+use super::json::TOO_MANY_VALUES;
 use super::place::{Path, Step};
 
 /// Whether a message of serde reports a duplicate key.
@@ -116,6 +117,11 @@ pub(super) fn syntax(message: &str, text: &str) -> (String, Option<String>) {
     if message == "number out of range" {
         let hint = "double precision ends at 1.8e308";
         return ("the number is too large".to_owned(), Some(hint.to_owned()));
+    }
+    if message == TOO_MANY_VALUES {
+        let hint =
+            "an input may have 20 million numbers, words and items; a grid has n x n numbers for n stations";
+        return ("the file has too many values".to_owned(), Some(hint.to_owned()));
     }
     if message.starts_with("EOF while parsing") {
         return ("not valid JSON: the file ends too early".to_owned(), None);
