@@ -11,7 +11,7 @@ mod targets;
 use std::collections::BTreeSet;
 use std::env;
 use std::fs::{self, File};
-use std::io::{self, Seek, Write};
+use std::io::{self, Read, Seek, Write};
 use std::panic::{self, AssertUnwindSafe};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -47,6 +47,11 @@ fn seeds(target: &Target) -> Vec<Vec<u8>> {
         .iter()
         .map(|file| fs::read(root().join(file)).expect("a file of the repository"))
         .collect();
+    if target.name == "arrays" {
+        let archives = ["plain", "packed", "oblong"].map(|name| format!("tests/tables/data/{name}.npz"));
+        let read = |file: String| fs::read(root().join(file)).expect("a file of the repository");
+        seeds.extend(archives.map(|file| unpacked(&read(file))));
+    }
     if let Some(ending) = target.name.strip_prefix("tables_") {
         let units = Units { length: Length::Foot, force: Force::Pound };
         let text =
@@ -61,6 +66,23 @@ fn seeds(target: &Target) -> Vec<Vec<u8>> {
             .collect();
     }
     seeds
+}
+
+/// An archive in the form that the target `arrays` takes.
+fn unpacked(bytes: &[u8]) -> Vec<u8> {
+    let mut archive = zip::ZipArchive::new(io::Cursor::new(bytes)).expect("an archive");
+    let mut out = Vec::new();
+    for index in 0..archive.len() {
+        let mut member = archive.by_index(index).expect("a member");
+        let mut contents = Vec::new();
+        member.read_to_end(&mut contents).expect("a member that is right");
+        let length = u32::try_from(contents.len()).expect("a small member");
+        out.extend(member.name().expect("a plain name").bytes());
+        out.push(b'\n');
+        out.extend(length.to_be_bytes());
+        out.extend(contents);
+    }
+    out
 }
 
 /// Words of the corpus, and for JSON all keys of its format.

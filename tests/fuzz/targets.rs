@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::collections::hash_map::DefaultHasher;
 use std::fs;
 use std::hash::{Hash, Hasher};
-use std::io;
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -48,6 +48,7 @@ pub const TARGETS: &[Target] = &[
     Target { name: "tables_csv", run: tables_csv, seeds: &[] },
     Target { name: "tables_json", run: tables_json, seeds: &[] },
     Target { name: "tables_npz", run: tables_npz, seeds: &[] },
+    Target { name: "arrays", run: arrays, seeds: &[] },
     Target {
         name: "deck",
         run: deck,
@@ -257,6 +258,30 @@ fn tables_json(bytes: &[u8]) -> u64 {
 
 fn tables_npz(bytes: &[u8]) -> u64 {
     tables("a.npz", bytes)
+}
+
+/// Arrays of numpy as members of an archive that is right. An archive with random damage is refused by its checksums,
+/// so that its arrays are never read.
+fn arrays(bytes: &[u8]) -> u64 {
+    tables("a.npz", &packed(bytes))
+}
+
+/// The archive of members that are each written as their name, a line feed, four bytes of length, and contents.
+fn packed(mut bytes: &[u8]) -> Vec<u8> {
+    let mut archive = zip::ZipWriter::new(io::Cursor::new(Vec::new()));
+    let options = zip::write::SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+    while let Some(end) = bytes.iter().position(|byte| *byte == b'\n') {
+        let (name, rest) = bytes.split_at(end);
+        let Some((length, rest)) = rest[1..].split_at_checked(4) else { break };
+        let length = length.iter().fold(0, |sum, byte| 256 * sum + usize::from(*byte));
+        let (contents, rest) = rest.split_at(length.min(rest.len()));
+        bytes = rest;
+        // a name that occurs twice is left out
+        if archive.start_file(String::from_utf8_lossy(name), options).is_ok() {
+            archive.write_all(contents).expect("memory");
+        }
+    }
+    archive.finish().map(io::Cursor::into_inner).unwrap_or_default()
 }
 
 /// Reads a data set, resolves it, and executes it: the forces at its initial state and its equilibrium.
