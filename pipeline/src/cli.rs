@@ -304,6 +304,9 @@ pub struct DeckArgs {
     /// Data set to write; its command file is written to the same folder [default: standard output, data set only]
     #[arg(short, long, value_name = "FILE.adm")]
     pub output: Option<PathBuf>,
+    /// Replace a command file beside the data set that girderway did not write
+    #[arg(long, requires = "output")]
+    pub force: bool,
     /// Method by which the deck reads the compliance of the rails [default: factored; akispl where the scene reads a structure by it]
     #[arg(long)]
     pub form: Option<DeckFormArg>,

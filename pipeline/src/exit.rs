@@ -6,6 +6,9 @@ use formats::spec::SolveError;
 use formats::tables::WriteError;
 use formats::text::diagnostic::Diagnostic;
 
+/// Largest number of errors that are printed as text.
+const MOST: usize = 20;
+
 /// Exit status of the program.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -66,7 +69,7 @@ impl Failure {
         Failure::Untrusted(error.to_string())
     }
 
-    /// Text for standard error: a line for each error, or one JSON object.
+    /// Text for standard error: a line for each of the first errors, or one JSON object with all of them.
     #[must_use]
     pub fn report(&self, json: bool) -> String {
         if json {
@@ -81,8 +84,13 @@ impl Failure {
         }
         match self {
             Failure::Input(diagnostics) => {
-                let lines: Vec<String> =
-                    diagnostics.iter().map(|diagnostic| format!("{diagnostic}\n")).collect();
+                let mut lines: Vec<String> =
+                    diagnostics.iter().take(MOST).map(|diagnostic| format!("{diagnostic}\n")).collect();
+                match diagnostics.len().saturating_sub(MOST) {
+                    0 => {}
+                    1 => lines.push("girderway: and 1 more fault\n".to_owned()),
+                    more => lines.push(format!("girderway: and {more} more faults\n")),
+                }
                 lines.concat()
             }
             Failure::Differs(message) | Failure::Untrusted(message) => format!("girderway: {message}\n"),

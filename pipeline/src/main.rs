@@ -9,6 +9,7 @@ use formats::text::diagnostic::Diagnostic;
 use girderway::cli::{Cli, Command};
 use girderway::commands;
 use girderway::exit::{Exit, Failure};
+use girderway::output;
 
 fn main() -> ExitCode {
     // a panic is reported in one line below, without a backtrace
@@ -46,9 +47,13 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
 /// Writes help to standard output, and errors of usage to standard error, as JSON if --json is present.
 fn usage(error: &clap::Error) -> Exit {
     if !error.use_stderr() {
-        // an error of writing is ignored: the reader of standard output may have closed it
-        let _ = error.print();
-        return Exit::Done;
+        return match error.print() {
+            // the reader of standard output may have closed it
+            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => {
+                tell(&output::cannot_print(&error).into(), false)
+            }
+            _ => Exit::Done,
+        };
     }
     if std::env::args_os().any(|argument| argument == "--json") {
         let text = error.to_string();

@@ -75,21 +75,55 @@ fn put_by(
     bytes: &[u8],
     persist: impl FnOnce(NamedTempFile) -> Result<File, tempfile::PersistError>,
 ) -> io::Result<()> {
+    let file = staged(path, bytes)?;
+    persist(file).map_err(|error| error.error)?;
+    sync(&folder_of(path))
+}
+
+/// Writes bytes to the disk in a temporary file beside `path`. It has the permissions of the file that it is to
+/// replace, or those of a new file.
+fn staged(path: &Path, bytes: &[u8]) -> io::Result<NamedTempFile> {
     let folder = folder_of(path);
     clear_dead_files(&folder);
     let mut file = temporary(&folder)?;
+    if let Ok(older) = path.metadata() {
+        file.as_file().set_permissions(older.permissions())?;
+    }
     file.write_all(bytes)?;
     file.as_file().sync_all()?;
-    let file = persist(file).map_err(|error| error.error)?;
-    readable(&file)?;
-    sync(&folder)
+    Ok(file)
+}
+
+/// Writes several files that belong together: all of them to the disk in temporary files first, so that a full disk
+/// leaves the older ones as they were.
+///
+/// # Errors
+/// An operation of the file system fails; the error contains the name of the file.
+pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), Failure> {
+    let mut all = Vec::new();
+    for (path, bytes) in files {
+        let stage = || {
+            let path = target(path)?;
+            Ok((staged(&path, bytes)?, path))
+        };
+        all.push((stage().map_err(|error| cannot_write(path, &error))?, path));
+    }
+    for ((file, to), path) in all {
+        let placed = file.persist(&to).map_err(|error| error.error).and_then(|_| sync(&folder_of(&to)));
+        placed.map_err(|error| cannot_write(path, &error))?;
+    }
+    Ok(())
 }
 
 /// Creates a temporary file that is locked until it is closed, so that other runs do not take it for one that a dead
-/// run has left.
+/// run has left. It has the permissions that new files have.
 fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(TEMPORARY).rand_bytes(RANDOM);
+    #[cfg(unix)]
+    builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o666));
     loop {
-        let file = tempfile::Builder::new().prefix(TEMPORARY).rand_bytes(RANDOM).tempfile_in(folder)?;
+        let file = builder.tempfile_in(folder)?;
         // without locks of the file system, nothing is cleared either
         let _ = file.as_file().lock();
         if has_name(file.as_file())? {
@@ -137,18 +171,6 @@ fn has_name(_file: &File) -> io::Result<bool> {
     Ok(true)
 }
 
-/// Makes a file readable for all users. Temporary files are created readable for their owner only.
-#[cfg(unix)]
-fn readable(file: &File) -> io::Result<()> {
-    use std::os::unix::fs::PermissionsExt;
-    file.set_permissions(fs::Permissions::from_mode(0o644))
-}
-
-#[cfg(not(unix))]
-fn readable(_file: &File) -> io::Result<()> {
-    Ok(())
-}
-
 /// Flushes renames in a folder to the disk, on systems that support it.
 pub(crate) fn sync(folder: &Path) -> io::Result<()> {
     if cfg!(unix) { File::open(folder)?.sync_all() } else { Ok(()) }
@@ -164,15 +186,36 @@ pub(crate) fn folder_of(path: &Path) -> PathBuf {
 
 /// Creates the failure of a file that cannot be written.
 pub(crate) fn cannot_write(path: &Path, error: &io::Error) -> Failure {
-    let why = match error.kind() {
+    let fault =
+        Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {}", reason(error)));
+    if is_full(error) {
+        fault.hint("free some space, or name another folder with -o").into()
+    } else {
+        fault.into()
+    }
+}
+
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
         io::ErrorKind::NotFound => "its folder does not exist".to_owned(),
         io::ErrorKind::PermissionDenied => "permission denied".to_owned(),
         io::ErrorKind::InvalidFilename => "its name is too long for the file system".to_owned(),
         io::ErrorKind::IsADirectory => "it is a folder".to_owned(),
         io::ErrorKind::NotADirectory => "part of its path is not a folder".to_owned(),
+        io::ErrorKind::StorageFull => "the disk is full".to_owned(),
+        io::ErrorKind::QuotaExceeded => "the quota of the disk is exceeded".to_owned(),
+        io::ErrorKind::FileTooLarge => "the file is larger than the system permits".to_owned(),
+        io::ErrorKind::ReadOnlyFilesystem => "the file system is read-only".to_owned(),
         _ => error.to_string(),
-    };
-    Diagnostic::of_file(path.display().to_string(), format!("cannot be written: {why}")).into()
+    }
+}
+
+/// Whether there is no room for a file.
+fn is_full(error: &io::Error) -> bool {
+    matches!(
+        error.kind(),
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge
+    )
 }
 
 /// Formats JSON for files and standard output: indented, with a newline at the end.
@@ -189,12 +232,15 @@ pub fn print(text: &str) -> Result<(), Failure> {
     print_bytes(text.as_bytes())
 }
 
+/// Creates the diagnostic of standard output that cannot be written.
+pub fn cannot_print(error: &io::Error) -> Diagnostic {
+    Diagnostic::of_file("standard output", format!("cannot be written: {}", reason(error)))
+}
+
 fn print_bytes(bytes: &[u8]) -> Result<(), Failure> {
     let mut stdout = io::stdout().lock();
     match stdout.write_all(bytes).and_then(|()| stdout.flush()) {
-        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => {
-            Err(Diagnostic::of_file("standard output", format!("cannot be written: {error}")).into())
-        }
+        Err(error) if error.kind() != io::ErrorKind::BrokenPipe => Err(cannot_print(&error).into()),
         _ => Ok(()),
     }
 }
@@ -253,6 +299,33 @@ mod tests {
         assert!(!dead.exists() && mine.exists() && living.path().exists());
         drop(living);
         assert_eq!(names(folder.path()), [".girderway-notes", "grid.json"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_file_keeps_its_permissions_and_a_new_one_has_those_of_new_files() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let mode =
+            |name: &str| fs::metadata(folder.path().join(name)).expect("a file").permissions().mode() & 0o777;
+        fs::write(folder.path().join("plain"), "x").expect("writable");
+        let [old, new] = ["old", "new"].map(|name| folder.path().join(name));
+        fs::write(&old, "x").expect("writable");
+        fs::set_permissions(&old, fs::Permissions::from_mode(0o640)).expect("our own file");
+        write(&old, b"y").expect("writable");
+        write(&new, b"y").expect("writable");
+        assert_eq!(mode("old"), 0o640);
+        assert_eq!(mode("new"), mode("plain"));
+    }
+
+    #[test]
+    fn of_files_that_belong_together_all_are_written_or_none() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let [one, two] = ["one", "none/two"].map(|name| folder.path().join(name));
+        fs::write(&one, "old").expect("writable");
+        assert!(write_together(&[(&one, b"new"), (&two, b"new")]).is_err());
+        assert_eq!(fs::read(&one).expect("written"), b"old");
+        assert_eq!(names(folder.path()), ["one"]);
     }
 
     #[cfg(unix)]

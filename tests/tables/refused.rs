@@ -104,7 +104,7 @@ fn json_is_refused_by_path() {
             "tables[0].id: must be positive, got 0",
         ),
         (
-            ours("[{\"x\": [0,1,2,3], \"y\": [[1,2,3,4]]}]"),
+            ours("[{\"x\": [0,1,2,3], \"values\": [[1,2,3,4]], \"y\": [[1,2,3,4]]}]"),
             "tables[0].y: unknown key `y`  hint: known keys are id, name, quantity, rail, load_rail, x, z, values",
         ),
         (

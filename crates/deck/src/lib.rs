@@ -32,6 +32,7 @@ use adams::DataSet;
 
 pub use error::Error;
 pub use model::plan::{DeckPlan, plan};
+pub use model::refuse::unsupported;
 pub use words::form::DeckForm;
 
 use foundations::SolvedStructure;

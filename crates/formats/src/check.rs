@@ -22,7 +22,7 @@ impl Check<'_> {
         let [_, largest] = MAGNITUDES;
         if value.abs() > largest {
             let fault = Fault::new(place, format!("must be at most {} in magnitude", number(largest)));
-            self.faults.add(fault.got(number(value)));
+            self.faults.add(fault.got(number(value)).of_value());
         }
         self.scaled(value, place, self.scale.factor(dimension))
     }
@@ -36,7 +36,7 @@ impl Check<'_> {
         }
         if !converted.is_finite() || (value != 0.0 && converted == 0.0) {
             let expected = "must stay within double precision after conversion of its unit";
-            self.faults.add(Fault::new(place, expected).got(number(value)));
+            self.faults.add(Fault::new(place, expected).got(number(value)).of_value());
         }
         converted
     }
@@ -44,7 +44,8 @@ impl Check<'_> {
     /// A number above zero.
     pub fn positive(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
         if value <= 0.0 {
-            self.faults.add(hinted(Fault::new(place, "must be positive").got(number(value)), hint));
+            self.faults
+                .add(hinted(Fault::new(place, "must be positive").got(number(value)).of_value(), hint));
         }
         self.magnitude(value, place, hint);
         self.scaled(value, place, self.scale.factor(dimension))
@@ -53,7 +54,8 @@ impl Check<'_> {
     /// A number that is zero or above.
     pub fn not_negative(&mut self, value: f64, place: &Place<'_>, dimension: Dimension, hint: &str) -> f64 {
         if value < 0.0 {
-            self.faults.add(hinted(Fault::new(place, "must not be negative").got(number(value)), hint));
+            self.faults
+                .add(hinted(Fault::new(place, "must not be negative").got(number(value)).of_value(), hint));
         }
         self.magnitude(value, place, hint);
         self.scaled(value, place, self.scale.factor(dimension))
@@ -63,7 +65,9 @@ impl Check<'_> {
     fn magnitude(&mut self, value: f64, place: &Place<'_>, hint: &str) {
         if value > 0.0 && !is_within(value) {
             let [least, most] = MAGNITUDES.map(number);
-            let fault = Fault::new(place, format!("must be between {least} and {most}")).got(number(value));
+            let fault = Fault::new(place, format!("must be between {least} and {most}"))
+                .got(number(value))
+                .of_value();
             self.faults.add(hinted(fault, hint));
         }
     }
@@ -80,7 +84,7 @@ impl Check<'_> {
 
     fn limit(&mut self, count: usize, limit: &Limit, expected: String, place: &Place<'_>) -> bool {
         if count > limit.most {
-            self.faults.add(Fault::new(place, expected).got(count).hint(limit.reason));
+            self.faults.add(Fault::new(place, expected).got(count).hint(limit.reason).of_value());
         }
         count <= limit.most
     }

@@ -15,6 +15,10 @@ pub(crate) struct Limit {
 /// number, has about this size.
 pub(crate) const FILE_BYTES: u64 = 256 << 20;
 
+/// Largest number of values of one JSON text, counted by its commas. Its tree takes about 64 bytes for each. The
+/// influence grid of 2000 stations in three directions has 12 million numbers.
+pub(crate) const VALUES: usize = 20_000_000;
+
 /// Smallest and largest magnitude of a number that must be positive, in the units of its file, and the largest
 /// magnitude of every other number. Between them lie all quantities of structures in every supported unit; products
 /// of a few of them stay within double precision.

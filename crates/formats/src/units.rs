@@ -151,7 +151,7 @@ impl Units {
         let Some(raw) = raw else {
             let hint = "units are not guessed: {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}, \
                         or in, m, mm; kip, N, kN";
-            faults.add(Fault::new(place, "missing key `units`").hint(hint));
+            faults.add(Fault::new(place, "missing key `units`").hint(hint).of_value());
             return None;
         };
         let at = place.key("units");

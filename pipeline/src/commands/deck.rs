@@ -1,6 +1,7 @@
 //! `girderway deck`: a scene as an ADAMS data set.
 
 use super::run::solve_all;
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use crate::cli::{DeckArgs as Arguments, Global};
@@ -28,8 +29,15 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
             .hint("its command file, with the ending .acf, is written to the same folder")
             .into());
     }
+    if let Some(path) = args.output.as_deref().filter(|_| !args.force) {
+        check_owner(&command_file(path))?;
+    }
     let document = Document::open(&args.scene)?;
     let scene = document.scene();
+    let unsupported = deck::unsupported(scene);
+    if !unsupported.0.is_empty() {
+        return Err(document.inputs.all()[0].source()?.diagnose(&unsupported).into());
+    }
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
@@ -40,9 +48,14 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let model = args.output.as_deref().map_or_else(|| scene.name.clone(), stem);
     let deck = deck::deck(&plan, &known, &model)?;
     let text = deck.set.write().map_err(Failure::untrusted)?;
-    output::deliver(args.output.as_deref(), &text, &progress)?;
-    if let Some(path) = &args.output {
-        output::deliver(Some(&command_file(path)), &deck.commands, &progress)?;
+    match &args.output {
+        None => output::print(&text)?,
+        Some(path) => {
+            let beside = command_file(path);
+            output::write_together(&[(path, text.as_bytes()), (&beside, deck.commands.as_bytes())])?;
+            progress.say(&format!("wrote {}", path.display()));
+            progress.say(&format!("wrote {}", beside.display()));
+        }
     }
     if !args.check {
         return Ok(Exit::Done);
@@ -66,6 +79,23 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "model".to_owned(), |stem| stem.to_string_lossy().into_owned())
+}
+
+/// Checks that a command file that would be replaced has the form that this command writes.
+fn check_owner(path: &Path) -> Result<(), Failure> {
+    let Ok(bytes) = fs::read(path) else { return Ok(()) };
+    let text = String::from_utf8_lossy(&bytes);
+    let lines: Vec<&str> = text.lines().collect();
+    let is_ours = matches!(&lines[..], [file, simulate, "stop"]
+        if file.starts_with("file/model=") && simulate.starts_with("SIMULATE/"));
+    if is_ours {
+        return Ok(());
+    }
+    let fault = Diagnostic::of_file(
+        path.display().to_string(),
+        "would be replaced, but is not as girderway wrote it",
+    );
+    Err(fault.hint("move it, name another file with -o, or replace it with --force").into())
 }
 
 /// Path of the command file that belongs to a data set.

@@ -32,6 +32,10 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     let solved = foundations::solve_to(&spec, args.accuracy, MAX_DOFS);
     drop(stage);
     let solved = solved.map_err(|error| spec.locate_error(&source, &error))?;
+    if solved.grid.blocks.is_empty() {
+        let notes = solved.grid.notes.join("; ");
+        return Err(Failure::untrusted(format_args!("{}: {notes}", source.name)));
+    }
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
     }

@@ -17,6 +17,8 @@ use formats::grid::file as grid_file;
 use formats::scene::Document;
 use formats::spec::Spec;
 use formats::tables;
+use formats::text::fault::{Fault, Faults};
+use formats::text::place::Place;
 use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, solve_specs};
 use report::figures::run::{OmittedFigure, figures};
 use report::text::run_report;
@@ -56,7 +58,8 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let outcomes = simulate(&document, &known, global.threads, &|now| match now {
         SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
         SimulationProgress::Trial(foundations) => bar.name(&format!("simulating, trial on {foundations}")),
-    })?;
+    })
+    .map_err(|error| located(&document, error))?;
     drop(bar);
     clock.lap("simulation");
 
@@ -104,6 +107,28 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
         progress.say(&format!("warning: the figure {name} is omitted because it cannot be drawn: {why}"));
     }
     finish(&outcomes, &summary, &written, &document, global, &progress)
+}
+
+/// Converts an error of the simulation. Elements that are too many for all modes to be found, and a structure whose
+/// mass cannot move, are located in the scene.
+fn located(document: &Document, error: results::Error) -> Failure {
+    let results::Error::Foundation(foundations::Error::Modes { structure, source }) = &error else {
+        return error.into();
+    };
+    let (key, hint) = match source {
+        fea::Error::TooManyModes { .. } => {
+            ("elements", "use fewer, or \"modal\", which computes only the lowest modes")
+        }
+        fea::Error::NoMass => ("foundation", "give its materials a density, or the girder `mass_per_length`"),
+        _ => return error.into(),
+    };
+    let root = Place::root();
+    let list = root.key("structures");
+    let fault = Fault::new(&list.key(structure).key(key), source.to_string());
+    match document.inputs.all()[0].source() {
+        Ok(scene) => Failure::Input(scene.diagnose(&Faults(vec![fault.hint(hint)]))),
+        Err(wrong) => wrong.into(),
+    }
 }
 
 /// Prints the results and warnings. Returns an error if a run is incomplete.

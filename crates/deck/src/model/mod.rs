@@ -3,4 +3,5 @@
 
 pub mod compliance;
 pub mod plan;
+pub mod refuse;
 pub mod start;

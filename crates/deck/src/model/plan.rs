@@ -7,11 +7,12 @@ use splines::Axis;
 
 use crate::Error;
 use crate::model::compliance::{RailAxis, RailCompliance};
+use crate::model::refuse::unsupported;
 use crate::model::start::Start;
 use crate::words::form::DeckForm;
 use crate::words::ids::{NextId, number};
 use formats::scene::motion::{SimulationInput, simulation_input};
-use formats::scene::{self, BodyMotion, Scene};
+use formats::scene::{self, Scene};
 use formats::text::diagnostic::Diagnostic;
 use foundations::{SolvedStructure, solution_of};
 
@@ -232,73 +233,12 @@ fn wheels(
     wheels
 }
 
-/// Refuses scenes with ropes, stops, events, drives, brakes, loads, irregularities, pinned bodies and similar items,
-/// which decks do not support.
+/// Refuses a scene by the first item that decks do not support.
 fn refuse_unsupported(scene: &Scene, file: &str) -> Result<(), Error> {
-    let refuse = |why: String, hint: &str| Err(refusal(file, why, hint));
-    if let Some(rope) = scene.ropes.first() {
-        let why = format!("a deck cannot have ropes: \"{}\"", rope.name);
-        return refuse(
-            why,
-            "leave `ropes` and what hangs on them out, and add an SFORCE to the deck by hand",
-        );
-    }
-    if let Some(spin) = scene.spins.first() {
-        let why = format!("a deck cannot have prescribed spins: truck \"{}\"", scene.trucks[spin.truck].name);
-        return refuse(why, "leave the motion out, and add a MOTION to the deck by hand");
-    }
-    if let Some(structure) = scene.structures.iter().find(|structure| structure.longitudinal) {
-        let why = format!("a deck cannot have compliance along its rails: structure \"{}\"", structure.name);
-        return refuse(why, "leave `longitudinal` out");
-    }
-    if let Some(event) = scene.events.first() {
-        let why = format!("a deck cannot have events: \"{}\"", event.name);
-        return refuse(why, "leave `events` out, and add a SENSOR to the deck by hand");
-    }
-    if let Some(structure) = scene.structures.iter().find(|structure| !structure.irregularities.is_empty()) {
-        let why = format!("a deck cannot have uneven rails: structure \"{}\"", structure.name);
-        return refuse(why, "leave `irregularities` out");
-    }
-    if let Some(stop) = scene.stops.first() {
-        let why = format!("a deck cannot have stops: \"{}\"", stop.name);
-        return refuse(why, "leave `stops` out, and add an SFORCE with IMPACT to the deck by hand");
-    }
-    if let Some(body) = scene.bodies.iter().find(|body| body.in_space) {
-        let why = format!("body \"{}\": a deck cannot have bodies in space", body.name);
-        return refuse(why, "leave it out, and add a PART to the deck by hand");
-    }
-    if let Some(structure) = scene.structures.iter().find(|structure| structure.carrier.is_some()) {
-        let why = format!("structure \"{}\": a deck cannot have structures on bodies", structure.name);
-        return refuse(why, "leave out the trolley, and put its mass into the bridge");
-    }
-    refuse_actuated_bodies(scene, file)?;
-    match scene.loads.first() {
-        Some(load) => {
-            let why = format!("body \"{}\": a deck cannot have its load", scene.bodies[load.body].name);
-            refuse(why, "leave `loads` out, and add an SFORCE to the deck by hand")
-        }
+    match unsupported(scene).0.into_iter().next() {
+        Some(fault) => Err(refusal(file, fault.expected, fault.hint.as_deref().unwrap_or_default())),
         None => Ok(()),
     }
-}
-
-/// Refuses bodies that are pinned to others, driven or braked.
-fn refuse_actuated_bodies(scene: &Scene, file: &str) -> Result<(), Error> {
-    for body in &scene.bodies {
-        if body.pinned.is_some() {
-            let why = format!("body \"{}\": a deck cannot have bodies pinned to others", body.name);
-            let hint = "model its mass with the body that carries it, and give the truck a nested `tree`";
-            return Err(refusal(file, why, hint));
-        }
-        let what = match (&body.motion, body.brake) {
-            (BodyMotion::Driven(_), _) => "drive",
-            (_, Some(_)) => "brake",
-            _ => continue,
-        };
-        let why = format!("body \"{}\": a deck cannot have its {what}", body.name);
-        let hint = "use a motion of kind \"prescribed\", or add an SFORCE to the deck by hand";
-        return Err(refusal(file, why, hint));
-    }
-    Ok(())
 }
 
 /// The refusal of the scene `file`.
@@ -346,16 +286,8 @@ fn compliances(
                 })?;
                 out.push(compliance);
             }
-            scene::Foundation::Rigid | scene::Foundation::Influence => {
-                out.push(RailCompliance::rigid(structure, form))
-            }
-            scene::Foundation::Parts { .. }
-            | scene::Foundation::Modal { .. }
-            | scene::Foundation::Full { .. }
-            | scene::Foundation::Ties { .. } => {
-                let why = format!("a deck cannot have the foundation \"{}\"", structure.foundation.word());
-                return Err(refuse(why, "use \"influence\" or \"rigid\""));
-            }
+            // the others have been refused
+            _ => out.push(RailCompliance::rigid(structure, form)),
         }
     }
     Ok(out)

@@ -186,18 +186,15 @@ impl RawInfluence {
 /// Reads a grid file: the grid, and the exact compliance if the file contains it.
 ///
 /// # Errors
-/// The first syntax or type error, or otherwise all other faults, such as a block whose size differs from the number
-/// of stations or a direct block that is not exactly symmetric.
+/// All faults of the file, such as a block whose size differs from the number of stations or a direct block that is
+/// not exactly symmetric.
 pub fn read(source: &Source) -> Result<(StationGrid, Option<ExactSurface>), Vec<Diagnostic>> {
-    let raw: RawGrid = source.parse(FORMAT).map_err(|error| vec![*error])?;
-    let mut faults = Faults::default();
-    let grid = check(&raw, source, &mut faults);
-    let place = Place::root();
-    let surface = raw.surface.as_ref().and_then(|raw| raw.surface(&place.key("surface"), &mut faults));
-    match grid {
-        Some(grid) if faults.0.is_empty() => Ok((grid, surface)),
-        _ => Err(source.diagnose(&faults)),
-    }
+    source.read(FORMAT, |raw: &RawGrid, faults| {
+        let grid = check(raw, source, faults);
+        let place = Place::root();
+        let surface = raw.surface.as_ref().and_then(|raw| raw.surface(&place.key("surface"), faults));
+        grid.map(|grid| (grid, surface))
+    })
 }
 
 fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationGrid> {

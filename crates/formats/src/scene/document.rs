@@ -5,9 +5,9 @@ use std::path::Path;
 use super::raw::RawScene;
 use super::read::{Files, scene};
 use super::values::scene::{FORMAT, Scene};
-use crate::text::convert::convert;
 use crate::text::diagnostic::Diagnostic;
-use crate::text::fault::{Fault, Faults};
+use crate::text::examine::examine;
+use crate::text::fault::{Basis, Fault, Faults};
 use crate::text::inputs::Inputs;
 use crate::text::names::check_name;
 use crate::text::place::Place;
@@ -50,31 +50,35 @@ impl Document {
     /// Reads a scene, the files to which it refers, and its comparisons.
     ///
     /// # Errors
-    /// The first syntax or type error, or otherwise all other faults in all files.
+    /// All faults of all files. If the scene itself has faults, those of comparisons are wrong types and keys, and
+    /// values out of range.
     pub fn open(path: &Path) -> Result<Document, Vec<Diagnostic>> {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let tree = source.tree();
-        let raw: RawScene = tree.convert(FORMAT).map_err(|error| vec![*error])?;
-        let mut faults = tree.duplicates_below("compare");
-        let mut files = Files::of(&mut inputs);
-        let scene = scene::read(&raw, &source.name, &mut files, &mut faults);
         let comparisons =
             tree.root().member("compare").map(|member| member.value.items()).unwrap_or_default();
-        check_labels(comparisons, &mut faults);
-        let mut wrong = tree.diagnose(&faults);
+        let mut files = Files::of(&mut inputs);
+        let scene = tree.read(FORMAT, |raw: &RawScene, faults| {
+            faults.0.extend(tree.duplicates_below("compare").0);
+            let scene = scene::read(raw, &source.name, &mut files, faults);
+            check_labels(comparisons, faults);
+            scene
+        });
+        let (scene, mut wrong) = scene.map_or_else(|wrong| (None, wrong), |scene| (Some(scene), Vec::new()));
         wrong.append(&mut files.wrong);
-        let base_is_right = wrong.is_empty();
+        let base = wrong.clone();
         let mut cases: Vec<Case> = scene.map(|scene| Case { label: None, scene }).into_iter().collect();
-        if base_is_right {
-            for (index, changes) in comparisons.iter().enumerate() {
-                match case(&tree, &source.name, index, changes, &mut inputs) {
-                    Ok(case) => cases.push(case),
-                    Err(diagnostics) => wrong.extend(
-                        diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>(),
-                    ),
-                }
+        for (index, changes) in comparisons.iter().enumerate().filter(|_| tree.is_whole()) {
+            // another value has been reported with the labels
+            let Value::Object(_) = changes.value else { continue };
+            match case(&tree, &source.name, index, changes, &base, &mut inputs) {
+                Ok(case) => cases.push(case),
+                Err(diagnostics) => wrong
+                    .extend(diagnostics.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>()),
             }
         }
+        // the faults of the scene file first
+        wrong.sort_by_key(|one| one.file != source.name);
         if wrong.is_empty() { Ok(Document { cases, inputs }) } else { Err(wrong) }
     }
 
@@ -111,6 +115,7 @@ fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
             Some(None) => faults.add(Fault::new(&at.key("label"), "must be a string")),
             None => faults.add(
                 Fault::new(&at, "missing key `label`")
+                    .of_value()
                     .hint("the label is part of the file name history-<label>.csv"),
             ),
         }
@@ -123,29 +128,29 @@ fn check_labels(comparisons: &[TreeNode<'_>], faults: &mut Faults) {
     }
 }
 
-/// The scene of a document with the changes of `compare[index]` merged into it.
+/// The scene of a document with the changes of `compare[index]` merged into it. `base` has the faults of the scene
+/// itself and its files. If there are any, the faults of the changes alone are reported.
 fn case(
     tree: &Tree<'_>,
     file: &str,
     index: usize,
     changes: &TreeNode<'_>,
+    base: &[Diagnostic],
     inputs: &mut Inputs,
 ) -> Result<Case, Vec<Diagnostic>> {
     let label =
         changes.member("label").and_then(|label| label.value.as_text()).unwrap_or_default().to_owned();
     let mut merged = tree.root().without("compare");
     merged.merge(changes.without("label"));
-    let mut faults = Faults::default();
     let mut files = Files::of(inputs);
-    let (raw, wrong) = convert::<RawScene>(&merged);
-    let scene = match (raw, wrong.into_iter().next()) {
-        (Some(raw), None) => scene::read(&raw, file, &mut files, &mut faults),
-        (_, first) => {
-            first.into_iter().for_each(|located| faults.add(located.fault));
-            None
-        }
-    };
-    match scene {
+    let examined = examine(&merged, |raw: &RawScene, faults| scene::read(raw, file, &mut files, faults));
+    let mut faults = examined.faults;
+    if !base.is_empty() {
+        // a key that misses in the changes may be one that is wrong in the scene
+        faults.0.retain(|fault| fault.basis == Basis::Value && !fault.expected.starts_with("missing key"));
+    }
+    faults.0.extend(examined.types.into_iter().map(|located| located.fault));
+    match examined.value {
         Some(scene) if faults.0.is_empty() && files.wrong.is_empty() => {
             Ok(Case { label: Some(label), scene })
         }
@@ -154,7 +159,14 @@ fn case(
             for diagnostic in wrong.iter_mut().filter(|found| !found.path.starts_with("compare")) {
                 diagnostic.expected = format!("in comparison \"{label}\": {}", diagnostic.expected);
             }
-            wrong.append(&mut files.wrong);
+            if base.is_empty() {
+                wrong.append(&mut files.wrong);
+            } else {
+                let is_of_base = |one: &Diagnostic| {
+                    base.iter().any(|known| one.path.ends_with(&known.path) && one.expected == known.expected)
+                };
+                wrong.retain(|one| one.path.starts_with("compare") && !is_of_base(one));
+            }
             Err(wrong)
         }
     }

@@ -110,7 +110,7 @@ pub(super) fn read_frame(
         let cell = check.faults.require(&raw.cell, at, "cell").copied();
         let place = check.faults.require(&raw.at, at, "at").copied();
         if let Some(place) = place.filter(|place| !(0.0..=1.0).contains(place)) {
-            let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(place));
+            let fault = Fault::new(&at.key("at"), "must be from 0 to 1").got(number(place)).of_value();
             check.faults.add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
         }
         let member = cell.and_then(|cell| cells.of(cell, &at.key("cell"), check));

@@ -73,7 +73,9 @@ fn read_lengths(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> (Vec<
     if let Some(given) = check.faults.require(&raw.spans, at, "spans") {
         let place = at.key("spans");
         if given.is_empty() {
-            check.faults.add(Fault::new(&place, "must have at least one span").got("an empty list"));
+            check
+                .faults
+                .add(Fault::new(&place, "must have at least one span").got("an empty list").of_value());
         }
         check.items(given.len(), &SPANS, &place);
         for (index, span) in given.iter().enumerate() {
@@ -106,7 +108,9 @@ fn read_stations(
     let Some(given) = check.faults.require(stations, root, "stations") else { return Vec::new() };
     let place = root.key("stations");
     if given.is_empty() {
-        check.faults.add(Fault::new(&place, "must have at least one station").got("an empty list"));
+        check
+            .faults
+            .add(Fault::new(&place, "must have at least one station").got("an empty list").of_value());
     }
     check.items(given.len(), &STATIONS, &place);
     check.faults.increasing(given, &place);

@@ -4,7 +4,7 @@ use fea::{Dof, Error, ModelEntry};
 
 use super::structure::{Form, Spec};
 use crate::text::diagnostic::Diagnostic;
-use crate::text::fault::{Fault, Faults};
+use crate::text::fault::{Basis, Fault, Faults};
 use crate::text::place::{Path, Step};
 use crate::text::source::Source;
 
@@ -30,6 +30,7 @@ impl Spec {
                     expected: fault.to_string(),
                     found: None,
                     hint: None,
+                    basis: Basis::Several,
                 };
                 SolveError::Input(source.diagnose(&Faults(vec![fault])))
             }

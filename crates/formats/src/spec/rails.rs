@@ -65,7 +65,7 @@ fn read_rail(
     let stations = stations.unwrap_or_default();
     let line = at.key("stations");
     if raw.stations.is_some() && stations.is_empty() {
-        check.faults.add(Fault::new(&line, "must have at least one station").got("an empty list"));
+        check.faults.add(Fault::new(&line, "must have at least one station").got("an empty list").of_value());
     }
     check.items(stations.len(), &STATIONS, &line);
     check.faults.increasing(stations, &line);
@@ -106,7 +106,9 @@ fn read_segments(
     let mut places = Vec::new();
     let Some(given) = check.faults.require(&raw.segments, at, "segments") else { return (segments, places) };
     if given.is_empty() {
-        check.faults.add(Fault::new(&place, "must have at least one segment").got("an empty list"));
+        check
+            .faults
+            .add(Fault::new(&place, "must have at least one segment").got("an empty list").of_value());
     }
     for (index, raw) in given.iter().enumerate() {
         let item = place.index(index);

@@ -20,15 +20,9 @@ impl Spec {
     /// Reads a spec and converts it to the units `target`, or keeps its own units if that is `None`.
     ///
     /// # Errors
-    /// The first syntax or type error, or else all other faults of the file, each with its place.
+    /// All faults of the file, each with its place.
     pub fn read(source: &Source, target: Option<Units>) -> Result<Spec, Vec<Diagnostic>> {
-        let raw: RawSpec = source.parse(FORMAT).map_err(|error| vec![*error])?;
-        let mut faults = Faults::default();
-        let spec = Spec::check(&raw, &source.name, target, &mut faults);
-        match spec {
-            Some(spec) if faults.0.is_empty() => Ok(spec),
-            _ => Err(source.diagnose(&faults)),
-        }
+        source.read(FORMAT, |raw: &RawSpec, faults| Spec::check(raw, &source.name, target, faults))
     }
 
     fn check(raw: &RawSpec, file: &str, target: Option<Units>, faults: &mut Faults) -> Option<Spec> {

@@ -114,6 +114,18 @@ impl Spec {
         }
     }
 
+    /// Whether anything of the structure has mass.
+    #[must_use]
+    pub fn has_mass(&self) -> bool {
+        match &self.form {
+            Form::Girder(girder) => girder.mass_per_length.is_some_and(|mass| mass > 0.0),
+            Form::Frame(FrameSpec { model, .. }) => {
+                let members = || model.members.iter().any(|member| model.sections[member.section].mass > 0.0);
+                model.masses.iter().any(|point| point.mass > 0.0) || members()
+            }
+        }
+    }
+
     /// The rails, in the order of the file.
     #[must_use]
     pub fn rails(&self) -> Vec<RailOutline> {

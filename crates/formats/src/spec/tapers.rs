@@ -108,7 +108,7 @@ impl<'r> Tapers<'r> {
 /// Adds a fault if the number of parts is out of range.
 fn check_parts(parts: usize, at: &Place<'_>, check: &mut Check<'_>) {
     if !(1..=MAX_PARTS).contains(&parts) {
-        let fault = Fault::new(at, format!("must be from 1 to {MAX_PARTS}")).got(parts);
+        let fault = Fault::new(at, format!("must be from 1 to {MAX_PARTS}")).got(parts).of_value();
         check.faults.add(fault.hint("errors fall with the square of the number of parts"));
     }
 }

@@ -114,17 +114,19 @@ struct RawProduct {
 
 /// Reads `girderway-tables/1`, or an object of `x`, `z` (or `stations` for both) and `values`.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
-    let raw: RawSet = source.parse(FORMAT).map_err(|error| vec![*error])?;
-    let mut faults = Faults::default();
+    source.read(FORMAT, |raw: &RawSet, faults| Some(check(raw, source, faults)))
+}
+
+fn check(raw: &RawSet, source: &Source, faults: &mut Faults) -> Parsed {
     let root = Place::root();
     let units = match &raw.units {
         None => None,
-        units => Units::read(units, &root, &mut faults),
+        units => Units::read(units, &root, faults),
     };
     let name = raw.name.clone().unwrap_or_else(|| stem(&source.name));
     let mut products = Vec::new();
     let drafts = if raw.format.is_some() || raw.tables.is_some() {
-        format(&raw.format, FORMAT, &root, &mut faults);
+        format(&raw.format, FORMAT, &root, faults);
         for (key, there) in [
             ("x", raw.x.is_some()),
             ("z", raw.z.is_some()),
@@ -139,22 +141,19 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         let list = root.key("tables");
         let tables = faults.require(&raw.tables, &root, "tables").map(Vec::as_slice).unwrap_or_default();
         let drafts: Vec<Option<Draft>> =
-            tables.iter().enumerate().map(|(k, table)| draft(table, &list.index(k), &mut faults)).collect();
-        check_ids(tables, &list, &mut faults);
-        products = read_products(&raw, tables, &root.key("factored"), &mut faults);
+            tables.iter().enumerate().map(|(k, table)| draft(table, &list.index(k), faults)).collect();
+        check_ids(tables, &list, faults);
+        products = read_products(raw, tables, &root.key("factored"), faults);
         if drafts.is_empty() && faults.0.is_empty() {
             faults.add(Fault::new(&list, "must have at least one table"));
         }
         drafts.into_iter().flatten().collect()
     } else {
-        single(&raw, &root, &mut faults).into_iter().collect()
+        single(raw, &root, faults).into_iter().collect()
     };
-    if !faults.0.is_empty() {
-        return Err(source.diagnose(&faults));
-    }
     let missing_units =
         ["has no `units`", "such as \"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}"];
-    Ok(Parsed { name, units, missing_units, drafts, comments: String::new(), products })
+    Parsed { name, units, missing_units, drafts, comments: String::new(), products }
 }
 
 /// The one table of a file without `format` and `tables`.

@@ -1,11 +1,12 @@
 //! Conversion of a located tree to the types of a format.
 //!
 //! A value is converted by serde. If a value has the wrong type, or a key is unknown or duplicate, the fault is
-//! recorded with its place, and the member or item is marked as omitted. The whole tree is then converted again
+//! recorded with its place, and the member or item is marked as left out. The whole tree is then converted again
 //! without it, and this is repeated until no further fault occurs. Derived types therefore need no code for error
-//! recovery, and a correct text is converted once. A value that fails only because a part of it has been omitted (for
-//! example a vector with too few items) is omitted without a fault of its own. The conversion stops where the text is
-//! truncated.
+//! recovery, and a correct text is converted once. In place of an item of a list that is left out, its neighbour is
+//! converted, so that the other items keep their indices. A value that fails only because a part of it has been left
+//! out (for example a vector without any valid item) is left out without a fault of its own. The conversion stops
+//! where the text is truncated.
 
 use std::collections::BTreeSet;
 use std::fmt;
@@ -15,9 +16,9 @@ use serde::de::{self, Deserialize, DeserializeSeed, Deserializer, Unexpected, Vi
 use serde::forward_to_deserialize_any;
 
 use super::fault::Fault;
-use super::place::Place;
+use super::place::{Path, Place};
 use super::tree::{TreeMember, TreeNode, Value};
-use super::wording::{is_duplicate, type_fault};
+use super::wording::{is_duplicate, meant_key, type_fault};
 
 /// Maximum number of faults that are collected from one text.
 const MOST: usize = 100;
@@ -29,30 +30,46 @@ pub(crate) struct Located {
     pub fault: Fault,
     /// Byte offset of the value or key that the fault concerns.
     pub offset: usize,
-    /// Byte offset of the first surplus item, if a list is too long.
-    pub excess: Option<usize>,
 }
 
-/// Converts a tree. The first fault is the first one in the text. If there are faults, the members and items
-/// concerned are omitted from the value; there is no value if the remainder cannot be converted either.
-pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> (Option<T>, Vec<Located>) {
+/// A tree that has been converted as far as possible.
+#[derive(Debug)]
+pub(crate) struct Conversion<T> {
+    /// The value without the parts that are left out; there is none if the remainder cannot be converted.
+    pub value: Option<T>,
+    /// The faults. The first one is the first in the text.
+    pub faults: Vec<Located>,
+    /// Paths of the values that are left out.
+    pub lost: Vec<Path>,
+}
+
+/// Converts a tree.
+pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> Conversion<T> {
     let mut left_out = BTreeSet::new();
-    let mut faults = Vec::new();
-    while faults.len() < MOST {
-        let place = Place::root();
-        let reader = Reader { node: root, place: &place, left_out: &left_out };
-        match T::deserialize(reader).map_err(|stop| stop.at(&reader)) {
-            Ok(value) => return (Some(value), faults),
-            Err(Stop::At { located, start }) => {
-                faults.extend(located.map(|located| *located));
-                if start == root.start || !left_out.insert(start) {
+    let mut found = Conversion { value: None, faults: Vec::new(), lost: Vec::new() };
+    while found.faults.len() < MOST {
+        match pass(root, &left_out) {
+            Ok(value) => {
+                found.value = Some(value);
+                break;
+            }
+            Err(Stop::At(part)) => {
+                found.faults.extend(part.located);
+                found.lost.extend(part.lost);
+                if part.start == root.start || !left_out.insert(part.start) {
                     break;
                 }
             }
             Err(Stop::Message(_) | Stop::Excess { .. } | Stop::Broken) => break,
         }
     }
-    (None, faults)
+    found
+}
+
+fn pass<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>, left_out: &BTreeSet<usize>) -> Result<T, Stop> {
+    let place = Place::root();
+    let reader = Reader { node: root, place: &place, left_out };
+    T::deserialize(reader).map_err(|stop| stop.at(&reader))
 }
 
 /// The reason why a conversion stops.
@@ -60,13 +77,23 @@ pub(crate) fn convert<'de, T: Deserialize<'de>>(root: &'de TreeNode<'de>) -> (Op
 enum Stop {
     /// A message of serde whose place has not been determined yet.
     Message(String),
-    /// A list has too many items. The first surplus item begins at byte `offset`.
-    Excess { items: usize, offset: usize },
-    /// The value that begins at byte `start` cannot be converted. It has no fault of its own if the failure is a
-    /// consequence of other faults.
-    At { located: Option<Box<Located>>, start: usize },
+    /// A list of so many items has more than `most`.
+    Excess { items: usize, most: usize },
+    /// A value cannot be converted.
+    At(Box<Unconverted>),
     /// The text is truncated here.
     Broken,
+}
+
+/// A value that cannot be converted.
+#[derive(Debug)]
+struct Unconverted {
+    /// Byte offset of its beginning.
+    start: usize,
+    /// Its fault; there is none if the failure is a consequence of other faults.
+    located: Option<Located>,
+    /// Path of the value that is missing or uncertain without it.
+    lost: Option<Path>,
 }
 
 impl Stop {
@@ -74,33 +101,35 @@ impl Stop {
     #[cold]
     fn at(self, reader: &Reader<'_, '_>) -> Stop {
         let node = reader.node;
-        let (message, excess) = match self {
-            Stop::Message(message) => (message, None),
-            Stop::Excess { items, offset } => {
-                (format!("invalid length {items}, expected fewer elements in array"), Some(offset))
+        let message = match self {
+            Stop::Message(message) => message,
+            Stop::Excess { items, most } => {
+                format!("invalid length {items}, expected an array of length {most}")
             }
-            placed @ (Stop::At { .. } | Stop::Broken) => return placed,
+            placed @ (Stop::At(_) | Stop::Broken) => return placed,
         };
         let path = reader.place.path();
         if is_duplicate(&message)
             && let Some(second) = node.second_of_a_key()
         {
-            let located =
-                Located { fault: Fault::duplicate(path, &second.key), offset: second.start, excess: None };
-            return Stop::At { located: Some(Box::new(located)), start: second.value.start };
+            let located = Located { fault: Fault::duplicate(path, &second.key), offset: second.start };
+            let (start, lost) = (second.value.start, reader.place.key(&second.key).path());
+            return Stop::At(Box::new(Unconverted { start, located: Some(located), lost: Some(lost) }));
         }
         let follows = reader.left_out.range(node.start..).next().is_some_and(|start| *start < node.end);
-        let located = Located { fault: type_fault(path, &message), offset: node.start, excess };
-        Stop::At { located: (!follows).then(|| Box::new(located)), start: node.start }
+        let located = Located { fault: type_fault(path.clone(), &message), offset: node.start };
+        let located = (!follows).then_some(located);
+        Stop::At(Box::new(Unconverted { start: node.start, located, lost: Some(path) }))
     }
 
-    /// Assigns the place of the key of a member.
+    /// Assigns the place of the key of a member. If another key was probably meant, its value is missing.
     #[cold]
     fn at_key(self, member: &TreeMember<'_>, place: &Place<'_>) -> Stop {
         let Stop::Message(message) = self else { return self };
         let fault = type_fault(place.key(&member.key).path(), &message);
-        let located = Located { fault, offset: member.start, excess: None };
-        Stop::At { located: Some(Box::new(located)), start: member.value.start }
+        let lost = meant_key(&fault).map(|key| place.key(key).path());
+        let located = Some(Located { fault, offset: member.start });
+        Stop::At(Box::new(Unconverted { start: member.value.start, located, lost }))
     }
 }
 
@@ -109,7 +138,7 @@ impl fmt::Display for Stop {
         match self {
             Stop::Message(message) => f.write_str(message),
             Stop::Excess { items, .. } => write!(f, "invalid length {items}"),
-            Stop::At { located, .. } => f.write_str(located.as_ref().map_or("", |at| &at.fault.expected)),
+            Stop::At(part) => f.write_str(part.located.as_ref().map_or("", |at| &at.fault.expected)),
             Stop::Broken => f.write_str("the text breaks off"),
         }
     }
@@ -152,7 +181,7 @@ impl de::Error for Stop {
 struct Reader<'a, 'de> {
     node: &'de TreeNode<'de>,
     place: &'a Place<'a>,
-    /// Byte offsets of the omitted values.
+    /// Byte offsets of the values that are left out.
     left_out: &'a BTreeSet<usize>,
 }
 
@@ -169,9 +198,8 @@ impl<'de> Reader<'_, 'de> {
     fn list<V: Visitor<'de>>(self, items: &'de [TreeNode<'de>], visitor: V) -> Result<V::Value, Stop> {
         let mut rest = Items { reader: self, items, next: 0 };
         let value = visitor.visit_seq(&mut rest)?;
-        rest.skip_left_out();
-        match items.get(rest.next) {
-            Some(item) => Err(Stop::Excess { items: items.len(), offset: item.start }),
+        match rest.current() {
+            Some(_) => Err(Stop::Excess { items: items.len(), most: rest.next }),
             None => self.closed(value),
         }
     }
@@ -248,11 +276,23 @@ struct Items<'a, 'de> {
     next: usize,
 }
 
-impl Items<'_, '_> {
-    fn skip_left_out(&mut self) {
-        while self.items.get(self.next).is_some_and(|item| self.reader.is_left_out(item)) {
-            self.next += 1;
+impl<'de> Items<'_, 'de> {
+    /// The item that is converted next, with its index: the next one; or, if it is left out, the nearest item before
+    /// it, or otherwise after it.
+    fn current(&self) -> Option<(usize, &'de TreeNode<'de>)> {
+        let is_valid = |index: &usize| !self.reader.is_left_out(&self.items[*index]);
+        let here = self.next;
+        if here >= self.items.len() {
+            return None;
         }
+        let index = if is_valid(&here) {
+            Some(here)
+        } else {
+            let before = || (0..here).rev().find(is_valid);
+            let after = || (here + 1..self.items.len()).find(is_valid);
+            before().or_else(after)
+        };
+        index.map(|index| (index, &self.items[index]))
     }
 }
 
@@ -260,11 +300,10 @@ impl<'de> de::SeqAccess<'de> for &mut Items<'_, 'de> {
     type Error = Stop;
 
     fn next_element_seed<T: DeserializeSeed<'de>>(&mut self, seed: T) -> Result<Option<T::Value>, Stop> {
-        self.skip_left_out();
-        let Some(node) = self.items.get(self.next) else { return self.reader.closed(None) };
-        let place = self.reader.place.index(self.next);
+        let Some((index, node)) = self.current() else { return self.reader.closed(None) };
+        let place = self.reader.place.index(index);
         self.next += 1;
-        let item = Reader { node, place: &place, left_out: self.reader.left_out };
+        let item = Reader { node, place: &place, ..self.reader };
         seed.deserialize(item).map(Some).map_err(|stop| stop.at(&item))
     }
 
@@ -296,7 +335,7 @@ impl<'de> de::MapAccess<'de> for Members<'_, 'de> {
         let member = &self.members[self.next];
         self.next += 1;
         let place = self.reader.place.key(&member.key);
-        let value = Reader { node: &member.value, place: &place, left_out: self.reader.left_out };
+        let value = Reader { node: &member.value, place: &place, ..self.reader };
         seed.deserialize(value).map_err(|stop| stop.at(&value))
     }
 }
@@ -324,7 +363,7 @@ mod tests {
     /// The value, and the faults as `path: message @ text at the byte`.
     fn beam(text: &str) -> (Option<Beam>, Vec<String>) {
         let root = json::read(text).root;
-        let (value, faults) = convert(&root);
+        let Conversion { value, faults, .. } = convert(&root);
         let written = |located: &Located| {
             let fault = &located.fault;
             let rest: String = text[located.offset..].chars().take(4).collect();
@@ -361,8 +400,20 @@ mod tests {
         ];
         assert_eq!(faults, expected);
         let parts = Entries(vec![("a".to_owned(), Some(1.0))]);
-        let beam = Beam { span: Some(61.0), points: vec![1.0, 3.0], parts, ..Beam::default() };
+        let up = Some([0.0; 3]);
+        let beam = Beam { span: Some(61.0), up, points: vec![1.0, 1.0, 3.0], parts, ..Beam::default() };
         assert_eq!(value, Some(beam));
+    }
+
+    #[test]
+    fn an_item_that_is_left_out_is_replaced_by_a_neighbour() {
+        let text = r#"{"up": [0, "1", 2], "points": [null, 2, 3, true]}"#;
+        let root = json::read(text).root;
+        let Conversion { value, lost, .. } = convert::<Beam>(&root);
+        let paths: Vec<String> = lost.iter().map(Path::to_string).collect();
+        assert_eq!(paths, ["up[1]", "points[0]", "points[3]"]);
+        let value = value.expect("the rest is right");
+        assert_eq!((value.up, value.points), (Some([0.0, 0.0, 2.0]), vec![2.0, 2.0, 3.0, 3.0]));
     }
 
     #[test]
@@ -379,10 +430,9 @@ mod tests {
     fn lists_have_the_length_that_is_wanted() {
         let (_, faults) = beam(r#"{"up": [0, 1], "span": [[]]}"#);
         assert_eq!(faults, ["up: must be a list of 3 items @ [0, ", "span: must be a number @ [[]]"]);
-        let text = r#"{"up": [0, 1, 0, 7]}"#;
-        let root = json::read(text).root;
-        let (_, faults) = convert::<Beam>(&root);
-        assert_eq!(faults[0].excess, text.find('7'));
+        let root = json::read(r#"{"up": [0, 1, 0, 7]}"#).root;
+        let faults = convert::<Beam>(&root).faults;
+        assert_eq!(faults[0].fault.expected, "must be a list of 3 items");
         assert_eq!(faults[0].fault.found.as_deref(), Some("4 items"));
     }
 

@@ -1,7 +1,7 @@
 //! Faults of a document, identified by path. They are collected first and located in the text afterwards.
 
 pub use super::number::number;
-use super::place::{Path, Place};
+use super::place::{Path, Place, Step};
 
 /// Beginning of the message for a duplicate key.
 const DUPLICATE: &str = "duplicate key ";
@@ -30,13 +30,34 @@ pub struct Fault {
     pub found: Option<String>,
     /// What the user can do about it.
     pub hint: Option<String>,
+    /// From what the fault follows.
+    pub basis: Basis,
+}
+
+/// What a fault follows from. If values of the file have wrong types, this decides whether the fault is certain.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Basis {
+    /// The value alone: its range, a keyword, a missing key.
+    Value,
+    /// A name and the names that the file has.
+    Names,
+    /// Several values.
+    #[default]
+    Several,
 }
 
 impl Fault {
     /// A fault of the value at `place`.
     #[must_use]
     pub fn new(place: &Place<'_>, expected: impl Into<String>) -> Self {
-        Fault { path: place.path(), at_key: false, expected: expected.into(), found: None, hint: None }
+        Fault {
+            path: place.path(),
+            at_key: false,
+            expected: expected.into(),
+            found: None,
+            hint: None,
+            basis: Basis::Several,
+        }
     }
 
     /// A duplicate key in the object at `path`. Its place is the second occurrence of the key.
@@ -44,7 +65,7 @@ impl Fault {
     pub(super) fn duplicate(path: Path, key: &str) -> Self {
         let expected = format!("{DUPLICATE}`{key}`");
         let hint = Some("give each key once".to_owned());
-        Fault { path, at_key: false, expected, found: None, hint }
+        Fault { path, at_key: false, expected, found: None, hint, basis: Basis::Value }
     }
 
     /// Whether the fault is a duplicate key.
@@ -66,6 +87,20 @@ impl Fault {
         self
     }
 
+    /// Declares that the fault follows from its value alone.
+    #[must_use]
+    pub fn of_value(mut self) -> Self {
+        self.basis = Basis::Value;
+        self
+    }
+
+    /// Declares that the fault is a name that the file does not have.
+    #[must_use]
+    pub fn of_names(mut self) -> Self {
+        self.basis = Basis::Names;
+        self
+    }
+
     /// Places the fault at the key instead of its value.
     #[must_use]
     pub fn at_key(mut self) -> Self {
@@ -84,10 +119,19 @@ impl Faults {
         self.0.push(fault);
     }
 
+    /// Whether a fault concerns the whole document, or one of these members of it.
+    #[must_use]
+    pub fn concern(&self, members: &[&str]) -> bool {
+        self.0.iter().any(|fault| match fault.path.0.first() {
+            Some(Step::Key(key)) => members.contains(&key.as_str()),
+            _ => true,
+        })
+    }
+
     /// Returns the value if it is present; otherwise adds a fault for the missing key.
     pub fn require<'v, T>(&mut self, value: &'v Option<T>, place: &Place<'_>, key: &str) -> Option<&'v T> {
         if value.is_none() {
-            self.add(Fault::new(place, format!("missing key `{key}`")));
+            self.add(Fault::new(place, format!("missing key `{key}`")).of_value());
         }
         value.as_ref()
     }
@@ -101,6 +145,7 @@ impl Faults {
         let known: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
         let mut fault =
             Fault::new(place, format!("must be {}", alternatives(&known))).got(format!("\"{found}\""));
+        fault = fault.of_value();
         if let Some(near) = nearest(found, &known).filter(|_| known.len() > 1) {
             fault = fault.hint(format!("did you mean \"{near}\"?"));
         }

@@ -7,8 +7,14 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 use super::diagnostic::Diagnostic;
+#[cfg(unix)]
+use super::pipe;
 use super::source::Source;
 use crate::limits::FILE_BYTES;
+
+/// Time to wait for a program that writes into a pipe, s.
+#[cfg(unix)]
+const PATIENCE: i64 = 10;
 
 /// One input file of a job.
 #[derive(Clone, Debug)]
@@ -104,8 +110,10 @@ fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         return Err("cannot be read: it is neither a file nor a pipe".to_owned());
     }
     let mut bytes = Vec::new();
-    let file = File::open(path).map_err(message)?;
-    file.take(most + 1).read_to_end(&mut bytes).map_err(message)?;
+    let is_written = read_bytes(path, is_pipe(&kind), most + 1, &mut bytes).map_err(message)?;
+    if !is_written {
+        return Err("cannot be read: nothing is written into this pipe".to_owned());
+    }
     if bytes.len() as u64 > most {
         return Err(format!(
             "cannot be read: it has more than {} MB, the largest size of an input",
@@ -113,6 +121,16 @@ fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, String> {
         ));
     }
     Ok(bytes)
+}
+
+/// Appends at most `most` bytes of a file or pipe; returns whether there was a writer of the pipe.
+fn read_bytes(path: &Path, is_pipe: bool, most: u64, bytes: &mut Vec<u8>) -> std::io::Result<bool> {
+    #[cfg(unix)]
+    if is_pipe {
+        return pipe::read(path, most, PATIENCE, bytes);
+    }
+    debug_assert!(!is_pipe, "pipes have names on Unix alone");
+    File::open(path)?.take(most).read_to_end(bytes).map(|_| true)
 }
 
 #[cfg(unix)]

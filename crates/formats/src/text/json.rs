@@ -15,9 +15,13 @@ use serde_json::value::RawValue;
 
 use super::place::{Path, Step};
 use super::tree::{TreeMember, TreeNode, Value};
+use crate::limits::VALUES;
 
 /// Nesting depth of lists and objects from which a text is rejected.
 const DEPTH: usize = 128;
+
+/// Message of a text of more values than are read.
+pub(super) const TOO_MANY_VALUES: &str = "too many values";
 
 /// The result of parsing a text: its tree, up to the first syntax error.
 #[derive(Debug)]
@@ -41,6 +45,15 @@ pub(super) struct SyntaxError {
 
 /// Parses a text.
 pub(super) fn read(text: &str) -> Reading<'_> {
+    read_up_to(text, VALUES)
+}
+
+/// Parses a text of at most about `most` values. They are counted by their commas before memory is taken for them.
+fn read_up_to(text: &str, most: usize) -> Reading<'_> {
+    if let Some((offset, _)) = text.bytes().enumerate().filter(|(_, byte)| *byte == b',').nth(most) {
+        let root = TreeNode { start: 0, end: 0, value: Value::Null };
+        return Reading { root, error: Some(SyntaxError::new(TOO_MANY_VALUES, offset)) };
+    }
     let reader = Reader { text };
     let start = reader.skip_space(0);
     let mut values = Deserializer::from_str(&text[start..]).into_iter::<&RawValue>();

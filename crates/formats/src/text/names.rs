@@ -29,7 +29,10 @@ pub fn resolve(
             hint = format!("did you mean \"{near}\"? {hint}");
         }
         faults.add(
-            Fault::new(place, format!("must be the name of a {what}")).got(format!("\"{name}\"")).hint(hint),
+            Fault::new(place, format!("must be the name of a {what}"))
+                .got(format!("\"{name}\""))
+                .hint(hint)
+                .of_names(),
         );
     }
     found
@@ -41,7 +44,8 @@ pub fn check_name(name: &str, place: &Place<'_>, faults: &mut Faults) {
     let fits = name.chars().all(|c| c.is_alphanumeric() || matches!(c, '_' | '-' | ' '));
     if name.trim() != name || name.is_empty() || !fits {
         let fault = Fault::new(place, "must be a name of letters, digits, spaces, `_` and `-`")
-            .got(format!("{name:?}"));
+            .got(format!("{name:?}"))
+            .of_value();
         faults.add(fault.hint("names become parts of column and file names"));
     }
 }

@@ -4,6 +4,7 @@ use serde::de::DeserializeOwned;
 
 use super::convert::{Located, convert};
 use super::diagnostic::Diagnostic;
+use super::examine::{Examined, examine};
 use super::fault::{Fault, Faults};
 use super::json::{self, SyntaxError};
 use super::place::{Path, Place, Step};
@@ -66,12 +67,16 @@ impl Source {
         Tree { source: self, root, error }
     }
 
-    /// Converts the text to `T`, the contents of a file of this format.
+    /// Converts the text to `T`, the contents of a file of this format, and checks it.
     ///
     /// # Errors
-    /// The first syntax or type error, with its place; or a different `format`, if that explains the error.
-    pub fn parse<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
-        self.tree().convert(format)
+    /// Those of [`Tree::read`].
+    pub fn read<T: DeserializeOwned, R>(
+        &self,
+        format: &str,
+        check: impl FnOnce(&T, &mut Faults) -> Option<R>,
+    ) -> Result<R, Vec<Diagnostic>> {
+        self.tree().read(format, check)
     }
 
     /// Locates faults in the text and returns them in the order of the text.
@@ -91,29 +96,56 @@ pub struct Tree<'s> {
 }
 
 impl<'s> Tree<'s> {
+    /// Whether the text is JSON.
+    #[must_use]
+    pub const fn is_whole(&self) -> bool {
+        self.error.is_none()
+    }
+
     /// The value of the text.
     #[must_use]
     pub const fn root(&self) -> &TreeNode<'s> {
         &self.root
     }
 
-    /// Converts the tree to `T`, the contents of a file of this format.
+    /// Converts the tree to `T`, the contents of a file of this format, and checks it. If there are faults of types or
+    /// keys, the remainder is checked as well.
     ///
     /// # Errors
-    /// The first syntax or type error, with its place; or a different `format`, if that explains the error.
-    pub fn convert<T: DeserializeOwned>(&self, format: &str) -> Result<T, Box<Diagnostic>> {
-        let (value, faults) = convert(&self.root);
-        let first = match (faults.first(), &self.error, value) {
-            (None, None, Some(value)) => return Ok(value),
-            (Some(first), ..) => match first.excess {
-                Some(offset) => self.not_json("trailing characters", offset, &first.fault.path),
-                None => self.other_format(format).unwrap_or_else(|| self.located(first)),
-            },
-            (None, Some(SyntaxError { message, offset, path }), _) => self.not_json(message, *offset, path),
-            // every complete text without faults results in a value
-            (None, None, None) => Diagnostic::of_file(&self.source.name, "cannot be read"),
+    /// All faults in the order of the text: the syntax error, wrong types and keys, and the independent ones of those
+    /// that the check finds; or only a different `format`, if that explains wrong types and keys.
+    pub fn read<T: DeserializeOwned, R>(
+        &self,
+        format: &str,
+        check: impl FnOnce(&T, &mut Faults) -> Option<R>,
+    ) -> Result<R, Vec<Diagnostic>> {
+        let Examined { value, types, faults } = match self.error {
+            None => examine(&self.root, check),
+            Some(_) => {
+                let types = convert::<T>(&self.root).faults;
+                Examined { value: None, types, faults: Faults::default() }
+            }
         };
-        Err(Box::new(first))
+        if let Some(value) = value.filter(|_| faults.0.is_empty()) {
+            return Ok(value);
+        }
+        if !types.is_empty()
+            && let Some(other) = self.other_format(format)
+        {
+            return Err(vec![other]);
+        }
+        let mut wrong: Vec<Diagnostic> = types.iter().map(|located| self.located(located)).collect();
+        wrong.extend(self.diagnose(&faults));
+        wrong.extend(
+            self.error
+                .iter()
+                .map(|SyntaxError { message, offset, path }| self.not_json(message, *offset, path)),
+        );
+        if wrong.is_empty() {
+            // a check that has no result reports why
+            wrong.push(Diagnostic::of_file(&self.source.name, "cannot be read"));
+        }
+        Err(sorted(wrong))
     }
 
     /// The diagnostic for a file whose `format` is a different one.
@@ -137,7 +169,7 @@ impl<'s> Tree<'s> {
         }
     }
 
-    fn located(&self, Located { fault, offset, .. }: &Located) -> Diagnostic {
+    fn located(&self, Located { fault, offset }: &Located) -> Diagnostic {
         self.diagnostic(fault, &fault.path, Some(*offset))
     }
 

@@ -1,6 +1,7 @@
 //! Translates the messages of serde and `serde_json` to the wording of this program.
 
-use super::fault::{Fault, nearest};
+use super::fault::{Basis, Fault, nearest};
+use super::json::TOO_MANY_VALUES;
 use super::place::{Path, Step};
 
 /// Whether a message of serde reports a duplicate key.
@@ -10,7 +11,14 @@ pub(super) fn is_duplicate(message: &str) -> bool {
 
 /// Converts a message of serde about the value at `path`: it has the wrong type, or its key is unknown.
 pub(super) fn type_fault(path: Path, message: &str) -> Fault {
-    let mut fault = Fault { path, at_key: false, expected: message.to_owned(), found: None, hint: None };
+    let mut fault = Fault {
+        path,
+        at_key: false,
+        expected: message.to_owned(),
+        found: None,
+        hint: None,
+        basis: Basis::Value,
+    };
     if let Some(rest) = message.strip_prefix("unknown field `")
         && let Some((key, known)) = rest.split_once('`')
     {
@@ -43,6 +51,12 @@ pub(super) fn type_fault(path: Path, message: &str) -> Fault {
         }
     }
     fault
+}
+
+/// The known key that was probably meant by an unknown one.
+pub(super) fn meant_key(fault: &Fault) -> Option<&str> {
+    let hint = fault.hint.as_deref()?.strip_prefix("did you mean `")?;
+    hint.split_once('`').map(|(key, _)| key)
 }
 
 /// Examples of values whose type is often wrong, by their key.
@@ -103,6 +117,11 @@ pub(super) fn syntax(message: &str, text: &str) -> (String, Option<String>) {
     if message == "number out of range" {
         let hint = "double precision ends at 1.8e308";
         return ("the number is too large".to_owned(), Some(hint.to_owned()));
+    }
+    if message == TOO_MANY_VALUES {
+        let hint =
+            "an input may have 20 million numbers, words and items; a grid has n x n numbers for n stations";
+        return ("the file has too many values".to_owned(), Some(hint.to_owned()));
     }
     if message.starts_with("EOF while parsing") {
         return ("not valid JSON: the file ends too early".to_owned(), None);

@@ -125,7 +125,7 @@ impl Mesh {
                 let record = section.next(findings)?;
                 let mut place = [0.0; 3];
                 for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
-                    place[axis] = record.real(axis, name, findings)?;
+                    place[axis] = record.coordinate(axis, name, findings)?;
                 }
                 if self.nodes.insert(tag, place).is_some() {
                     findings.error(ImportFinding::new(at, "node", "occurs twice").with_found(tag));

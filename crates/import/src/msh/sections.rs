@@ -105,23 +105,22 @@ impl Sections {
     /// # Errors
     /// All errors of the file, with their positions.
     pub fn read(source: &Source) -> Result<Sections, Vec<Diagnostic>> {
-        let raw: Raw = source.parse(FORMAT).map_err(|error| vec![*error])?;
-        let mut faults = Faults::default();
+        source.read(FORMAT, Sections::check)
+    }
+
+    fn check(raw: &Raw, faults: &mut Faults) -> Option<Sections> {
         let root = Place::root();
         if let Some(word) = faults.require(&raw.format, &root, "format") {
             faults.one_of(word, &root.key("format"), &[(FORMAT, ())]);
         }
-        let units = Units::read(&raw.units, &root, &mut faults);
-        let Some(units) = units else { return Err(source.diagnose(&faults)) };
-        let mut check = Check { faults: &mut faults, scale: Scale { from: units, to: units } };
-        let materials = materials(&raw, &root, &mut check);
-        let sections = sections(&raw, &materials, &root, &mut check);
-        let groups = groups(&raw, &materials, &sections, &root, &mut faults);
-        if faults.0.is_empty() {
-            Ok(Sections { units, materials, sections, groups })
-        } else {
-            Err(source.diagnose(&faults))
-        }
+        let own = Units::read(&raw.units, &root, faults);
+        // without units the numbers are checked in an arbitrary system of units
+        let units = own.unwrap_or(Units::SI);
+        let mut check = Check { faults, scale: Scale { from: units, to: units } };
+        let materials = materials(raw, &root, &mut check);
+        let sections = sections(raw, &materials, &root, &mut check);
+        let groups = groups(raw, &materials, &sections, &root, check.faults);
+        own.map(|units| Sections { units, materials, sections, groups })
     }
 }
 

@@ -1,6 +1,12 @@
 //! Division of a mesh file into sections, lines and words.
 
+use formats::limits::MAGNITUDES;
+use formats::text::fault::number;
+
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
+
+/// Largest magnitude of a coordinate. In every unit of length it is within the limits of a beam spec.
+const LARGEST: f64 = MAGNITUDES[1] / 1e4;
 
 /// A line divided into words, with the column of each word.
 #[derive(Clone, Debug)]
@@ -63,12 +69,18 @@ impl<'t> MeshRecord<'t> {
         value
     }
 
-    /// Reads a finite real number.
-    pub fn real(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<f64> {
+    /// Reads a coordinate.
+    pub fn coordinate(&self, index: usize, what: &str, findings: &mut ImportFindings) -> Option<f64> {
         let (at, word) = self.word(index, what, findings)?;
         let value = word.parse().ok().filter(|value: &f64| value.is_finite());
-        if value.is_none() {
-            findings.error(ImportFinding::new(at, what, "must be a finite number").with_found(word));
+        match value {
+            None => findings.error(ImportFinding::new(at, what, "must be a finite number").with_found(word)),
+            Some(value) if value.abs() > LARGEST => {
+                let expected = format!("must be at most {} in magnitude", number(LARGEST));
+                findings.error(ImportFinding::new(at, what, expected).with_found(word));
+                return None;
+            }
+            _ => {}
         }
         value
     }

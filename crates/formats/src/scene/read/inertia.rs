@@ -1,6 +1,6 @@
 //! Inertia of free degrees of freedom.
 
-use sim::{Foundation, Method};
+use sim::{Damper, Foundation, Method, NormalLaw, Wheel};
 
 use crate::scene::motion::simulation_input;
 use crate::scene::raw::RawScene;
@@ -9,12 +9,16 @@ use crate::scene::values::scene::Scene;
 use crate::text::fault::{Fault, Faults, number};
 use crate::text::place::Place;
 
-/// Checks that every free degree of freedom of a scene without other faults moves a mass.
+/// Checks that every free degree of freedom of a scene, whose bodies, trucks and structures have no faults, moves a
+/// mass. If the wheels have faults, others are put in their place, because inertia does not depend on them.
 ///
 /// The mass matrix of the bodies is assembled as in a run, on rigid structures. The inertia of a structure on a body
 /// is not known yet: its carrier, and the bodies to which this is pinned, are taken as having inertia.
 pub(super) fn check(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     let Ok(mut input) = simulation_input(scene) else { return };
+    if faults.concern(&["wheels"]) {
+        input.scene.wheels.fill(Wheel::new(1.0, NormalLaw::linear(1.0, 0.0, Damper::Rail)));
+    }
     for mount in scene.structures.iter().filter_map(|structure| structure.carrier) {
         let mut carrier = Some(mount.body);
         // pins form no cycle: at most as many steps as bodies

@@ -106,7 +106,7 @@ fn read_bodies(
     let mut bodies = Vec::new();
     let place = root.key("bodies");
     if raw.bodies.0.is_empty() {
-        check.faults.add(Fault::new(root, "must have at least one body in `bodies`"));
+        check.faults.add(Fault::new(root, "must have at least one body in `bodies`").of_value());
     }
     check.items(raw.bodies.0.len(), &BODIES, &place);
     for (name, raw) in &raw.bodies.0 {
@@ -150,10 +150,19 @@ fn read_actions(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut
     if all_trucks && truck_spacing::check(scene, check.faults) {
         scene.practice = practice::read(&raw.practice, scene, root, check);
     }
-    if check.faults.0.is_empty() {
+    let before = check.faults.clone();
+    let bodies_on_rails = ["structures", "bodies", "trucks"];
+    let is_right = |more: &[&str]| !before.concern(&bodies_on_rails) && !before.concern(more);
+    if is_right(&["loads"]) {
         mount::check(scene, check.faults);
+    }
+    if is_right(&["motions", "end"]) {
         check_travel(raw, scene, root, check.faults);
+    }
+    if is_right(&["motions"]) {
         inertia::check(raw, scene, root, check.faults);
+    }
+    if is_right(&["wheels", "motions", "stepper", "step", "analysis", "ropes", "stops", "loads", "events"]) {
         method::suits(scene, root, check.faults);
     }
 }
@@ -165,7 +174,7 @@ fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Opti
             Some(check.not_negative(gravity, &root.key("gravity"), Dimension::ACCELERATION, hint))
         }
         None => {
-            let fault = Fault::new(root, "missing key `gravity`");
+            let fault = Fault::new(root, "missing key `gravity`").of_value();
             check.faults.add(fault.hint("such as 32.174 with ft and s, 9.80665 with m and s, or 0"));
             None
         }
@@ -179,7 +188,7 @@ fn read_structures(
     check: &mut Check<'_>,
 ) -> Vec<Structure> {
     if raw.structures.0.is_empty() {
-        check.faults.add(Fault::new(root, "must have at least one structure in `structures`"));
+        check.faults.add(Fault::new(root, "must have at least one structure in `structures`").of_value());
     }
     let place = root.key("structures");
     let mut structures = Vec::new();
@@ -249,6 +258,7 @@ fn read_trucks(raw: &RawScene, scene: &mut Scene, root: &Place<'_>, check: &mut 
     if raw.trucks.is_empty() {
         check.faults.add(
             Fault::new(root, "must have at least one truck in `trucks`")
+                .of_value()
                 .hint("bodies run on their rails with trucks"),
         );
     }

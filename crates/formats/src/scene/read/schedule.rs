@@ -28,7 +28,9 @@ pub(super) fn read_rows(
     check: &mut Check<'_>,
 ) -> Option<Vec<[f64; 2]>> {
     if table.is_empty() {
-        check.faults.add(Fault::new(place, "must have at least one row [time, value]").got("an empty list"));
+        check.faults.add(
+            Fault::new(place, "must have at least one row [time, value]").got("an empty list").of_value(),
+        );
         return None;
     }
     let times: Vec<f64> = table.iter().map(|row| row[0]).collect();

@@ -73,6 +73,13 @@ pub(super) fn read(
     {
         windows_fit(girder, count, handover, at, check);
     }
+    if let (FoundationWord::Modal | FoundationWord::Full, Origin::Spec { spec, .. }) = (word, &origin)
+        && !spec.has_mass()
+    {
+        let expected = format!("\"{}\" needs mass, and the spec has none", foundation.word());
+        let fault = Fault::new(&at.key("foundation"), expected);
+        check.faults.add(fault.hint("give its materials a density, or the girder `mass_per_length`"));
+    }
     let rails = origin.rails();
     if interpolation != TableInterpolation::Exact {
         enough_stations(&rails, interpolation, at, check);
@@ -139,7 +146,7 @@ fn read_origin(
 fn read_count(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> usize {
     let count = raw.count.unwrap_or(DEFAULT_PARTS);
     if count < 2 {
-        let fault = Fault::new(&at.key("count"), "must be at least 2").got(count);
+        let fault = Fault::new(&at.key("count"), "must be at least 2").got(count).of_value();
         check.faults.add(fault.hint("number of rigid parts of the chain"));
     }
     if check.count(count, &PARTS, &at.key("count")) { count } else { DEFAULT_PARTS }
@@ -222,7 +229,7 @@ fn read_tolerance(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> 
     let (place, given) = (at.key("tolerance"), raw.tolerance.unwrap_or(TOLERANCE));
     let tolerance = check.positive(given, &place, Dimension::NUMBER, "a relative error, such as 1e-3");
     if given > 0.0 && !(SMALLEST_TOLERANCE..1.0).contains(&given) {
-        let fault = Fault::new(&place, "must be at least 1e-7 and below 1").got(given);
+        let fault = Fault::new(&place, "must be at least 1e-7 and below 1").got(given).of_value();
         check.faults.add(fault.hint("a relative error, such as 1e-3"));
     }
     tolerance
@@ -240,7 +247,7 @@ fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f6
     for (key, count, limit) in [("modes", raw.modes, &MOST_MODES), ("elements", raw.elements, &MOST_ELEMENTS)]
     {
         if count == Some(0) {
-            check.faults.add(Fault::new(&at.key(key), "must be at least 1").got(0));
+            check.faults.add(Fault::new(&at.key(key), "must be at least 1").got(0).of_value());
         }
         check.count(count.unwrap_or(0), limit, &at.key(key));
     }
@@ -248,7 +255,7 @@ fn read_damping(raw: &RawStructure, at: &Place<'_>, check: &mut Check<'_>) -> f6
     let damping =
         check.not_negative(given, &place, Dimension::NUMBER, "a fraction of critical damping, such as 0.01");
     if damping >= 1.0 {
-        let fault = Fault::new(&place, "must be below 1").got(damping);
+        let fault = Fault::new(&place, "must be below 1").got(damping).of_value();
         check.faults.add(fault.hint("a fraction of critical damping, such as 0.01"));
     }
     damping

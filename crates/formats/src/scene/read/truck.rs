@@ -91,7 +91,7 @@ fn read_tree(raw: &RawTruck, at: &Place<'_>, check: &mut Check<'_>) -> Vec<Node>
     let Some(tree) = &raw.tree else { return vec![Node::Wheel(0.0)] };
     let place = at.key("tree");
     if tree.is_empty() {
-        check.faults.add(Fault::new(&place, "must have at least one wheel").got("an empty list"));
+        check.faults.add(Fault::new(&place, "must have at least one wheel").got("an empty list").of_value());
     }
     let nodes = tree.iter().enumerate().map(|(index, node)| {
         let at = place.index(index);

@@ -51,7 +51,7 @@ fn read_vertical(raw: &RawVertical, at: &Place<'_>, check: &mut Check<'_>) -> Tr
     };
     let exponent = if impact { raw.exponent.unwrap_or(DEFAULT_IMPACT_EXPONENT) } else { 1.0 };
     if impact && exponent < 1.0 {
-        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(number(exponent));
+        let fault = Fault::new(&at.key("exponent"), "must be at least 1").got(number(exponent)).of_value();
         check.faults.add(fault.hint("below 1 the contact would be infinitely stiff at first touch"));
     }
     let k = match check.faults.require(&raw.k, at, "k") {

@@ -158,3 +158,11 @@ fn an_error_keeps_the_path_of_the_value_that_breaks_off() {
         assert!(matches!(root.value, Value::Object(_)), "{text}");
     }
 }
+
+#[test]
+fn a_text_of_too_many_values_is_refused_before_it_is_read() {
+    let text = "[1, 2, [3, 4], 5]";
+    assert!(read_up_to(text, 4).error.is_none());
+    let error = read_up_to(text, 3).error.expect("a fourth comma");
+    assert_eq!((error.message.as_str(), error.offset), (TOO_MANY_VALUES, 13));
+}
