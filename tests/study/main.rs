@@ -32,7 +32,7 @@ fn scene(x0: f64, speed: f64, end: f64) -> Value {
     json!({
         "format": "girderway-scene/1", "name": "small", "units": {"length": "ft", "force": "lbf", "time": "s"},
         "gravity": 32.174,
-        "structures": {"girder": {"spec": "spec.json", "foundation": "influence"}},
+        "structures": {"girder": {"spec": "spec.json", "foundation": "influence", "measure": "history"}},
         "bodies": {"car": {"weight": 2e6, "dof": ["y"], "x0": x0}},
         "wheels": {"wheel": {"radius": 1.25, "vertical": {"k": 2e7}}},
         "trucks": [{"name": "axle", "body": "car", "rail": "girder.rail", "tree": [0], "wheel": "wheel"}],
@@ -111,6 +111,30 @@ fn errors_of_equal_steps_fall_with_the_order_of_the_method() {
         assert!(told.len() > 1, "{method:?}: {curve:?}");
         let found = order(&told);
         assert!((found - wanted).abs() < 0.5, "{method:?}: order {found}, theory {wanted}; {curve:?}");
+    }
+}
+
+/// A body that bounces without damping, whose phases differ between influence functions and modes.
+#[test]
+fn a_study_judges_by_the_measure_of_its_scene() {
+    let by = |measure: Option<&str>| {
+        let mut scene = scene(0.0, 40.0, 0.5);
+        scene["structures"]["girder"]["measure"] = json!(measure);
+        if measure.is_none() {
+            scene["structures"]["girder"].as_object_mut().expect("an object").remove("measure");
+        }
+        let depth = StudyBudget { accuracies: vec![1e-4], ..nothing() };
+        let study = conduct(&scene, &girder(Some(500.0)), &depth);
+        let point = study.points.iter().find(|own| own.setting.family == SettingFamily::Influence);
+        let point = point.expect("influence functions").clone();
+        let error = point.error(ErrorGroup::WheelForce).expect("an error");
+        (error, point.measured().expect("a run").errors[1].expect("wheel forces"))
+    };
+    for (measure, is_history) in [(None, false), (Some("extremes"), false), (Some("history"), true)] {
+        let (error, deviation) = by(measure);
+        assert!(deviation.peak < 0.99 * deviation.largest, "the case tells the measures apart: {deviation:?}");
+        let wanted = if is_history { deviation.largest } else { deviation.peak };
+        assert!((error - wanted).abs() <= 0.0, "{measure:?}: {error}, {deviation:?}");
     }
 }
 

@@ -140,12 +140,12 @@ pub(super) fn coarse_modes(
     cache.coarse(&structure.name, solved, count, structure.damping, excitation)
 }
 
-/// Largest relative error of the frequencies of a structure. Where the number of modes is chosen by a tolerance, it is a
-/// hundredth of that, and a thousandth where values at equal times are compared: the phase of an oscillation errs by
-/// 2 pi times this fraction in each period.
+/// Largest relative error of the frequencies of a structure. Where the number of modes is chosen by a tolerance of
+/// extremes, it is a hundredth of that. At equal times the phase of every oscillation counts, to which each period
+/// adds 2 pi times this error.
 fn mode_accuracy(structure: &Structure) -> f64 {
-    let fraction = if structure.measure == Measure::History { 1e-3 } else { 1e-2 };
-    if structure.auto { (fraction * structure.tolerance).max(ACCURACY) } else { ACCURACY }
+    let is_coarse = structure.auto && structure.measure == Measure::Extremes;
+    if is_coarse { (1e-2 * structure.tolerance).max(ACCURACY) } else { ACCURACY }
 }
 
 fn required_solution<'s>(

@@ -143,11 +143,12 @@ impl Open {
         found.map(|tail| tail.kept).or(whole)
     }
 
-    /// The same, and where no number suffices the smallest one whose estimate exceeds that for the most modes by no more
-    /// than the factor [`NO_BETTER`].
+    /// The same, and all modes where no number suffices. Where the estimate for the most modes exceeds even the
+    /// tolerance, it is the smallest number whose estimate is that one by no more than the factor [`NO_BETTER`].
     fn count_for(&self, limit: f64, least: usize) -> usize {
-        let best = || self.sufficient_count(NO_BETTER * self.tails.last()?.error, least);
-        self.sufficient_count(limit, least).or_else(best).unwrap_or(self.basis.structure.dynamics.dofs())
+        let best = self.tails.last().map(|tail| tail.error).filter(|error| *error > self.tolerance);
+        let enough = || self.sufficient_count(NO_BETTER * best?, least);
+        self.sufficient_count(limit, least).or_else(enough).unwrap_or(self.basis.structure.dynamics.dofs())
     }
 
     /// Number of known modes with frequencies below `omega`.
