@@ -132,7 +132,10 @@ fn a_study_judges_by_the_measure_of_its_scene() {
     };
     for (measure, is_history) in [(None, false), (Some("extremes"), false), (Some("history"), true)] {
         let (error, deviation) = by(measure);
-        assert!(deviation.peak < 0.99 * deviation.largest, "the case tells the measures apart: {deviation:?}");
+        assert!(
+            deviation.peak < 0.99 * deviation.largest,
+            "the case tells the measures apart: {deviation:?}"
+        );
         let wanted = if is_history { deviation.largest } else { deviation.peak };
         assert!((error - wanted).abs() <= 0.0, "{measure:?}: {error}, {deviation:?}");
     }

@@ -53,8 +53,6 @@ const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
 const MODAL_RUNS: usize = 3;
-/// Accuracy of the result on uneven rails, relative to the tolerance.
-const UNEVEN: f64 = 3e-3;
 /// Accuracy of a run that only checks influence functions, relative to the tolerance.
 const CHECK_ACCURACY: f64 = 0.1;
 /// Samples for each period of the fastest bounce, and the largest number of samples of a run.
@@ -167,9 +165,8 @@ impl Open {
 struct Search<'a, L: FoundationProvider> {
     /// The scene with the sampling of the trials.
     scene: Scene,
-    /// Accuracy of the result on foundations without mass, and on those with modes.
+    /// Accuracy of the result.
     accuracy: f64,
-    modal_accuracy: f64,
     tolerances: &'a [Option<Tolerance>],
     provider: &'a mut L,
     watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -194,16 +191,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
-        Search {
-            scene,
-            accuracy,
-            modal_accuracy: accuracy,
-            tolerances,
-            provider,
-            watch,
-            choices: Vec::new(),
-            runs: 0,
-        }
+        Search { scene, accuracy, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
     }
 
     /// The structures whose choice depends on runs. The choices of the others are made.
@@ -273,10 +261,6 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             fastest: fastest_bounce(&self.scene),
         };
         let compliances = std::mem::take(&mut first.foundations);
-        // The corners of uneven rails excite modes, whose free oscillations the steps must resolve as well.
-        if compliances.iter().any(|foundation| !foundation.irregularities.is_empty()) {
-            self.modal_accuracy = self.accuracy.min(UNEVEN * least(self.tolerances));
-        }
         let frequency = 2.0 * std::f64::consts::PI / bounces.fastest;
         let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, frequency);
         self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
@@ -320,7 +304,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     fn refine(&mut self, refinement: Refinement, mut lower: Trial) -> Result<Trial, L::Error> {
         let Refinement { mut open, mut counts, is_hopeless, bounces, compliances } = refinement;
         let strictest = self.strictest(&open, &counts);
-        let mut accuracy = if is_hopeless { self.modal_accuracy } else { CHECK_ACCURACY * strictest.value };
+        let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
         let mut lacking = largest(&open, &vec![0; open.len()]);
         for round in 1..=MODAL_RUNS {
             let Some(higher) = self.modal_trial(&open, &counts, accuracy) else {
@@ -354,7 +338,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 self.settle_higher(&open, &counts, factor, &higher, round == MODAL_RUNS);
                 return self.repeated(higher);
             }
-            (lower, counts, accuracy) = (higher, raised, self.modal_accuracy);
+            (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
         Ok(lower)
     }
@@ -368,7 +352,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         higher: Trial,
         error: &TailError,
     ) -> Result<Trial, L::Error> {
-        let is_kept = higher.accuracy <= self.modal_accuracy
+        let is_kept = higher.accuracy <= self.accuracy
             && lower.run.counts.stages as u64 > LONG
             && higher.cost() > COSTLY * lower.cost();
         let (chosen, reason) = if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
@@ -401,7 +385,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
         let (mut last, mut is_last) = (first, false);
         for round in 1..=MODAL_RUNS {
-            let Some(trial) = self.modal_trial(&open, &counts, self.modal_accuracy) else { break };
+            let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
             for (own, count) in open.iter_mut().zip(&counts) {
                 self.estimate(own, &trial, &compliances, *count, SAFE / UNKNOWN * own.tolerance);
             }
@@ -432,9 +416,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
 
     /// A trial, repeated with the accuracy of the result if it was made with a coarser one.
     fn repeated(&mut self, trial: Trial) -> Result<Trial, L::Error> {
-        let has_modes = trial.fidelities.iter().any(|own| matches!(own, Fidelity::Modal(_)));
-        let accuracy = if has_modes { self.modal_accuracy } else { self.accuracy };
-        if trial.accuracy <= accuracy { Ok(trial) } else { self.trial(&trial.fidelities, accuracy, false) }
+        if trial.accuracy <= self.accuracy {
+            return Ok(trial);
+        }
+        self.trial(&trial.fidelities, self.accuracy, false)
     }
 
     /// The smallest tolerance of the structures that have modes, in the stricter measure.
