@@ -111,13 +111,7 @@ impl<T: Real> Factor<T> {
     /// Solves K x = x in place.
     pub fn solve(&self, x: &mut [T]) {
         let (single, _) = x.as_chunks_mut::<1>();
-        let mut scratch = Vec::new();
-        for k in 0..self.panels {
-            self.panel(k).forward(single, &mut scratch);
-        }
-        for k in (0..self.panels).rev() {
-            self.panel(k).backward(x);
-        }
+        self.solve_lanes(single);
     }
 
     /// Solves K x = x in place for W vectors, side by side in each row.
@@ -127,7 +121,7 @@ impl<T: Real> Factor<T> {
             self.panel(k).forward(x, &mut scratch);
         }
         for k in (0..self.panels).rev() {
-            self.panel(k).backward_lanes(x);
+            self.panel(k).backward(x);
         }
     }
 
@@ -268,26 +262,8 @@ impl<T: Real> Panel<'_, T> {
         }
     }
 
-    /// One panel of x := L^-T x.
-    fn backward(&self, x: &mut [T]) {
-        let height = self.width + self.below.len();
-        for j in (0..self.width).rev() {
-            let column = &self.values[j * height + j..(j + 1) * height];
-            let (pivot, rest) = column.split_at(1);
-            let (triangle, below) = rest.split_at(self.width - 1 - j);
-            let mut value = x[self.start + j];
-            for (l, &known) in triangle.iter().zip(&x[self.start + j + 1..]) {
-                value -= *l * known;
-            }
-            for (l, &row) in below.iter().zip(self.below) {
-                value -= *l * x[row];
-            }
-            x[self.start + j] = value / pivot[0];
-        }
-    }
-
-    /// The same for K vectors.
-    fn backward_lanes<const K: usize>(&self, x: &mut [[T; K]]) {
+    /// One panel of x := L^-T x for K vectors.
+    fn backward<const K: usize>(&self, x: &mut [[T; K]]) {
         let height = self.width + self.below.len();
         for j in (0..self.width).rev() {
             let column = &self.values[j * height + j..(j + 1) * height];

@@ -11,9 +11,9 @@
 //! deflected as at the iterate before, and a stiff wheel that is in contact appears to be far above its rail: its force
 //! and its derivatives are zero there, and the Jacobian is singular.
 //!
-//! If no fraction of a step passes the test, or if nothing holds a part, the parts continue against a viscous resistance: J s - D s = -r,
-//! where D resists translations and rotations. The resistance decreases with the residual. Once it is
-//! negligible, Newton's method starts again.
+//! If no fraction of a step passes the test, or if nothing holds a part, the parts continue against a viscous
+//! resistance: J s - D s = -r, where D resists translations and rotations. The resistance decreases with the residual.
+//! Once it is negligible, Newton's method starts again.
 
 use super::balance::balance;
 use super::equilibrium::{ConstraintReaction, Equilibrium};
