@@ -242,12 +242,8 @@ impl ModeCache {
         dampers: Dampers<'_>,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let cached = self.lowest.take().filter(|modes| modes.has(count));
-        let modes = match cached {
-            Some(modes) => modes,
-            None => MeshModes::lowest(name, solved, count, accuracy, excitation)?,
-        };
-        self.lowest.insert(modes).foundation(name, count, ratio, dampers, excitation)
+        let modes = cached(&mut self.lowest, name, solved, (count, accuracy), excitation)?;
+        modes.foundation(name, count, ratio, dampers, excitation)
     }
 
     /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with
@@ -260,12 +256,8 @@ impl ModeCache {
         ratio: f64,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let cached = self.coarse.take().filter(|modes| modes.has(count));
-        let modes = match cached {
-            Some(modes) => modes,
-            None => MeshModes::lowest(name, solved, count, COARSE, excitation)?,
-        };
-        self.coarse.insert(modes).foundation(name, count, ratio, Dampers::NONE, excitation)
+        let modes = cached(&mut self.coarse, name, solved, (count, COARSE), excitation)?;
+        modes.foundation(name, count, ratio, Dampers::NONE, excitation)
     }
 
     /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member, as far
@@ -290,6 +282,21 @@ impl ModeCache {
         };
         self.whole[index].1.foundation(name, usize::MAX, ratio, dampers, excitation)
     }
+}
+
+/// The modes of a `slot` of the cache, computed again if it has fewer than `count`.
+fn cached<'m>(
+    slot: &'m mut Option<MeshModes>,
+    name: &str,
+    solved: &SolvedModel,
+    (count, accuracy): (usize, f64),
+    excitation: Excitation,
+) -> Result<&'m MeshModes, Error> {
+    let modes = match slot.take().filter(|modes| modes.has(count)) {
+        Some(modes) => modes,
+        None => MeshModes::lowest(name, solved, count, accuracy, excitation)?,
+    };
+    Ok(slot.insert(modes))
 }
 
 /// The modes that `excitation` excites, lowest first.
