@@ -124,7 +124,7 @@ fn build_on_ground(
     }
 }
 
-/// The lowest `count` modes of a structure that its wheels excite, with frequencies within 1 %, to estimate the error of
+/// The lowest `count` modes of a structure that its wheels excite, with frequencies within 10 %, to estimate the error of
 /// leaving modes out.
 ///
 /// # Errors
@@ -141,11 +141,11 @@ pub(super) fn coarse_modes(
 }
 
 /// Largest relative error of the frequencies of a structure. Where the number of modes is chosen by a tolerance of
-/// extremes, it is a hundredth of that. At equal times the phase of every oscillation counts, to which each period
+/// extremes, it is a tenth of that; only the highest modes, whose share is small, err by as much. At equal times the phase of every oscillation counts, to which each period
 /// adds 2 pi times this error.
 fn mode_accuracy(structure: &Structure) -> f64 {
     let is_coarse = structure.auto && structure.measure == Measure::Extremes;
-    if is_coarse { (1e-2 * structure.tolerance).max(ACCURACY) } else { ACCURACY }
+    if is_coarse { (0.1 * structure.tolerance).max(ACCURACY) } else { ACCURACY }
 }
 
 fn required_solution<'s>(

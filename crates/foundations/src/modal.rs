@@ -40,7 +40,7 @@ use formats::spec::ties::Pad;
 /// Largest relative error of a frequency due to the subdivision of members.
 pub(super) const ACCURACY: f64 = 1e-6;
 /// The same for modes that serve only to estimate the error of leaving them out.
-const COARSE: f64 = 1e-2;
+const COARSE: f64 = 0.1;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
 /// are assumed not to excite the mode.
 const STILL: f64 = 1e-6;
@@ -247,7 +247,7 @@ impl ModeCache {
     }
 
     /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with
-    /// frequencies within 1 %.
+    /// frequencies within 10 %.
     pub(super) fn coarse(
         &mut self,
         name: &str,

@@ -271,7 +271,7 @@ pub fn selection_reason(choice: &Choice) -> String {
     }
 }
 
-/// Warning about a choice whose error is not known to be within `tolerance`; `None` where it is.
+/// Warning about a choice whose error is not known to be within `tolerance`; `None` where it is known to be.
 #[must_use]
 pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<String> {
     let chosen = fidelity_name(choice.fidelity);
@@ -290,7 +290,15 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
         Reason::Unchecked => {
             format!("the error of {chosen} is not known: no other fidelity could be run to check it")
         }
-        _ => return None,
+        Reason::Sufficient | Reason::Kept => match choice.drifting {
+            Some(bounces) => format!(
+                "the estimated error of values at equal times on the foundation {chosen} holds for 100 bounces of the \
+                 wheels; this run has {bounces:.0} that no damper reduces, and their phases drift. Extremes are not \
+                 affected: \"measure\": \"extremes\""
+            ),
+            None => return None,
+        },
+        Reason::NoMass | Reason::QuasiStatic => return None,
     };
     let failed: Vec<String> = choice.failed.iter().map(|fidelity| fidelity_name(*fidelity)).collect();
     let list =

@@ -26,6 +26,8 @@ const FEW_DIGITS: f64 = 1e-4;
 const POLISH_STEPS: usize = 2;
 /// Growth of the basis after which its Ritz pairs are computed again.
 const GROWTH: f64 = 1.1;
+/// Size of the basis, for each pair asked for, from which its Ritz pairs are computed.
+const LEAST_BASIS: f64 = 2.0;
 
 /// K x = lambda M x, K positive definite and factored, M positive semi-definite.
 #[derive(Clone, Copy)]
@@ -79,23 +81,29 @@ impl Pencil<'_> {
 /// Each step takes the next block into the basis, computes K^-1 M times the block, orthogonalises it twice
 /// against all vectors (full reorthogonalisation) and normalises what is left as the block after it. The
 /// eigenvalues of T approximate 1 / lambda, largest first, and the part of the next block in K^-1 M x is the
-/// residual. A block that loses rank is completed with random vectors, so that all copies of multiple
-/// eigenvalues are found. A basis that is full is restarted with its best Ritz vectors. The iteration stops
-/// when enough pairs have converged or when no further vector exists.
+/// residual. Beside its diagonal block a new column of T has the coupling of the new block with the basis, known from
+/// the step before, and zeros: the products of the basis with K^-1 M times the block would add the rounding of the
+/// solve, which is of the size of the largest 1 / lambda and keeps pairs of small 1 / lambda from converging. A block that loses rank is completed with random vectors, so that all copies of multiple
+/// eigenvalues are found. A basis that is full is restarted with its best Ritz vectors, of which those that have
+/// converged are locked: they leave T, whose largest eigenvalue then sets a lower level of rounding for the others. The
+/// iteration stops when enough pairs have converged or when no further vector exists.
 ///
 /// # Source
 /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15; Wu and Simon (2000), SIAM J. Matrix
 /// Anal. Appl. 22; Ericsson and Ruhe (1980), Math. Comp. 35.
 pub(super) struct Lanczos<'a> {
     pencil: Pencil<'a>,
-    /// The basis V, a column for each vector.
+    /// The basis V, a column for each vector: the locked ones first.
     vectors: DMatrix<f64>,
+    /// 1 / lambda of the locked vectors.
+    locked: Vec<f64>,
+    /// T, over the vectors that are not locked.
     projection: DMatrix<f64>,
     /// The block that the next step takes into the basis, and M times it.
     next_block: Vec<DVector<f64>>,
     next_momenta: Vec<DVector<f64>>,
-    /// Coefficients of the next block in K^-1 M times the last one: the residual of a pair is next_block *
-    /// coupling * the last part of its coefficients.
+    /// Coefficients of the next block in K^-1 M times the vectors that are not locked: the residual of a pair is
+    /// next_block * coupling * its coefficients.
     coupling: DMatrix<f64>,
     /// Largest 1 / lambda seen so far.
     largest: f64,
@@ -123,10 +131,11 @@ impl<'a> Lanczos<'a> {
         let mut out = Lanczos {
             pencil,
             vectors: DMatrix::zeros(pencil.len(), 0),
+            locked: Vec::new(),
             projection: DMatrix::zeros(0, 0),
             next_block: Vec::new(),
             next_momenta: Vec::new(),
-            coupling: DMatrix::zeros(0, 0),
+            coupling: DMatrix::zeros(BLOCK, 0),
             largest: 0.0,
             random: 0x6a09_e667_f3bc_c908,
             pairs: RitzPairs::default(),
@@ -139,11 +148,12 @@ impl<'a> Lanczos<'a> {
     pub fn converge(&mut self, count: usize) -> bool {
         let limit = 3 * count + 8 * BLOCK;
         // Size of the basis at which the Ritz pairs are computed next.
-        let mut due = self.vectors.ncols() + 1;
+        let mut due = (self.vectors.ncols() + 1).max((LEAST_BASIS * count as f64) as usize);
         for _ in 0..(80 + 4 * count) {
             // No next block: the basis holds the whole range of K^-1 M.
             let full = self.next_block.is_empty();
-            if full || self.vectors.ncols() >= due {
+            let is_at_limit = self.vectors.ncols() + BLOCK > limit && limit < self.pencil.len();
+            if full || is_at_limit || self.vectors.ncols() >= due {
                 self.update_pairs();
                 self.pairs.exhausted = full;
                 if self.pairs.converged >= count || full {
@@ -152,8 +162,7 @@ impl<'a> Lanczos<'a> {
                 due = (GROWTH * self.vectors.ncols() as f64) as usize + 1;
             }
             // Restart before the basis exceeds its limit, with the wanted pairs and a third of the others.
-            if self.vectors.ncols() + BLOCK > limit && limit < self.pencil.len() {
-                self.update_pairs();
+            if is_at_limit {
                 self.restart(count + (limit - count) / 3);
                 due = 0;
             }
@@ -167,6 +176,7 @@ impl<'a> Lanczos<'a> {
         self.restart(self.pairs.converged);
         self.next_block.clear();
         self.next_momenta.clear();
+        self.coupling.fill(0.0);
         self.complete_block();
     }
 
@@ -224,7 +234,8 @@ impl<'a> Lanczos<'a> {
 
     /// Takes the next block into the basis and computes the one after it.
     fn step(&mut self) {
-        let old = self.vectors.ncols();
+        let first = self.vectors.ncols();
+        let old = self.projection.ncols();
         let width = self.next_block.len();
         let momenta = DMatrix::from_columns(&std::mem::take(&mut self.next_momenta));
         let mut images = self.pencil.solve(momenta);
@@ -233,8 +244,10 @@ impl<'a> Lanczos<'a> {
         let mut projection = std::mem::replace(&mut self.projection, DMatrix::zeros(0, 0));
         projection = projection.resize(size, size, 0.0);
         let coefficients = self.orthogonalise(&mut images);
-        projection.columns_mut(old, width).copy_from(&coefficients);
-        projection.view_mut((old, 0), (width, old)).copy_from(&coefficients.rows(0, old).transpose());
+        let coupling = self.coupling.rows(0, width);
+        projection.view_mut((old, 0), (width, old)).copy_from(&coupling);
+        projection.view_mut((0, old), (old, width)).copy_from(&coupling.transpose());
+        projection.view_mut((old, old), (width, width)).copy_from(&coefficients.rows(first, width));
         // Rounding leaves the diagonal block of the projection slightly asymmetric.
         for i in old..size {
             for j in old..i {
@@ -245,9 +258,9 @@ impl<'a> Lanczos<'a> {
             self.largest = self.largest.max(projection[(i, i)]);
         }
         self.projection = projection;
-        self.coupling = DMatrix::zeros(BLOCK.max(width), width);
+        self.coupling = DMatrix::zeros(BLOCK, size);
         for (j, image) in images.column_iter().enumerate() {
-            self.append(image.clone_owned(), Some(j));
+            self.append(image.clone_owned(), Some(old + j));
         }
         self.complete_block();
     }
@@ -346,29 +359,44 @@ impl<'a> Lanczos<'a> {
 
     /// Computes the Ritz pairs of the basis, and how many have converged.
     fn update_pairs(&mut self) {
-        let size = self.vectors.ncols();
-        let (inverse, coefficients) = spectrum(&self.projection);
-        let width = self.coupling.ncols().min(size);
-        let last = coefficients.rows(size - width, width);
-        let residual = self.coupling.columns(0, width) * last;
-        let converged = (0..size)
-            .take_while(|&k| {
-                let enough = (TOLERANCE * inverse[k]).max(NOISE * self.largest);
-                inverse[k] > NOISE * self.largest && residual.column(k).norm() <= enough
-            })
-            .count();
-        self.pairs = RitzPairs { inverse, converged, exhausted: false, coefficients };
+        let (locked, size) = (self.locked.len(), self.vectors.ncols());
+        let (own, coefficients) = spectrum(&self.projection);
+        let residual = block::combine(&self.coupling, &coefficients);
+        let noise = NOISE * own.first().copied().unwrap_or(0.0);
+        let is_converged =
+            |k: usize| own[k] > noise && residual.column(k).norm() <= (TOLERANCE * own[k]).max(noise);
+        // lowest lambda first; of equal ones those that are locked
+        let all: Vec<f64> = self.locked.iter().chain(&own).copied().collect();
+        let mut order: Vec<usize> = (0..size).collect();
+        order.sort_by(|&a, &b| all[b].total_cmp(&all[a]));
+        let mut over_basis = DMatrix::zeros(size, size);
+        for (column, &pair) in order.iter().enumerate() {
+            if pair < locked {
+                over_basis[(pair, column)] = 1.0;
+            } else {
+                let own = coefficients.column(pair - locked);
+                over_basis.view_mut((locked, column), (size - locked, 1)).copy_from(&own);
+            }
+        }
+        let converged =
+            order.iter().take_while(|&&pair| pair < locked || is_converged(pair - locked)).count();
+        let inverse = order.iter().map(|&pair| all[pair]).collect();
+        self.pairs = RitzPairs { inverse, converged, exhausted: false, coefficients: over_basis };
     }
 
-    /// Replaces the basis by its first `keep` Ritz vectors.
+    /// Replaces the basis by its first `keep` Ritz vectors, and locks those that have converged.
     fn restart(&mut self, keep: usize) {
         let keep = keep.min(self.vectors.ncols());
         let kept = self.pairs.coefficients.columns(0, keep).clone_owned();
         self.vectors = block::combine(&self.vectors, &kept);
+        let converged = self.pairs.converged.min(keep);
+        let active = kept.view((self.locked.len(), converged), (self.projection.ncols(), keep - converged));
+        self.coupling = block::combine(&self.coupling, &active.clone_owned());
         self.pairs.inverse.truncate(keep);
-        self.projection = DMatrix::from_diagonal(&DVector::from_column_slice(&self.pairs.inverse));
+        self.locked = self.pairs.inverse[..converged].to_vec();
+        self.projection =
+            DMatrix::from_diagonal(&DVector::from_column_slice(&self.pairs.inverse[converged..]));
         self.pairs.coefficients = DMatrix::identity(keep, keep);
-        self.coupling = DMatrix::zeros(0, 0);
     }
 
     /// A random number from -1 to 1 (splitmix64).

@@ -68,8 +68,20 @@ impl FactoredFrame {
     /// # Source
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
     pub fn excited_modes(&self, m: &Model, forces: &ExcitingForces, count: usize) -> Result<Modes, Error> {
+        self.lowest_excited(m, forces, count, 0.0)
+    }
+
+    /// [`FactoredFrame::excited_modes`], whose frequencies may have the relative error `error` by rounding if that is
+    /// more than 1e-6.
+    pub(super) fn lowest_excited(
+        &self,
+        m: &Model,
+        forces: &ExcitingForces,
+        count: usize,
+        error: f64,
+    ) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count, DOUBLES_SUFFICE[1])
+        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count, error.max(DOUBLES_SUFFICE[1]))
     }
 
     /// The lowest modes of `part`; its frequencies may have the relative error `error`.

@@ -12,14 +12,17 @@ use crate::modes::mode::{Mode, Modes};
 
 /// Most parts of a member.
 const MOST_PARTS: usize = 128;
-/// Least parts of each member while no frequency is known.
+/// Parts of each member in the mesh that shows which deformations of it forces can cause.
 const FIRST_PARTS: usize = 3;
-/// Least number of parts for each mode while no frequency is known: the highest frequency asked for then errs by a few
-/// per cent.
-const PARTS_PER_MODE: f64 = 1.5;
+/// Factor on the asymptotic estimate of the highest frequency, from which it differs by the supports.
+const FREQUENCY_MARGIN: f64 = 1.1;
+/// Relative error bound of the compliances of a mesh: its frequencies and the effects of its inertia need no more.
+const MESH_ACCURACY: f64 = 1e-9;
 
 /// Largest estimated error of a frequency, relative, up to which a mesh is taken to resolve the shape of the mode.
 const RESOLVED: f64 = 2e-3;
+/// Steps of the iteration for the asymptotic frequency.
+const FREQUENCY_STEPS: usize = 40;
 /// Fraction of the modes of a mesh that is kept whatever their errors: on a uniform girder, those up to this estimate.
 const LEAST_RESOLVED: f64 = 1.0 / 8.0;
 /// Factor on the leading errors of a part that deflects under its own inertia, which leave out their coupling.
@@ -101,9 +104,10 @@ impl RefinedModes {
 /// In a part that is flexible in shear and deflects under its own inertia too, the fractions are those of the parts of
 /// the inertia that this deflection leaves out: m omega^2 k^2 h^4 / (1440 G As) + m omega^2 k^2 h^6 / (201600 EI) for
 /// the linear part of the load, with k the wavenumber of the beam, and m omega^2 r^4 k^2 h^2 / (24 EI) for the moment of
-/// the rotation, with r the radius of gyration. Starting from a coarse mesh, whose frequencies are too high,
-/// members are cut until each term is below `accuracy` at the highest frequency asked for. Trusses and rods are
-/// not cut, nor are beams without an axial or bending stiffness that others have: their mass acts at their ends.
+/// the rotation, with r the radius of gyration. The first mesh is made for an estimate of the highest frequency asked
+/// for ([`asymptotic_frequency`]); members are cut further until each term is below `accuracy` at the frequency found.
+/// Trusses and rods are not cut, nor are beams without an axial or bending stiffness that others have: their mass acts
+/// at their ends.
 ///
 /// # Errors
 /// As [`FactoredFrame::modes`].
@@ -137,18 +141,26 @@ fn refine(
     count: usize,
     accuracy: f64,
 ) -> Result<RefinedModes, Error> {
-    let each = (PARTS_PER_MODE * count as f64 / m.members.len().max(1) as f64).ceil();
-    let mut parts = first_parts(m, rails, FIRST_PARTS.max((each as usize).min(MOST_PARTS)))?;
-    let mut directions = None;
+    let mut parts = first_parts(m, rails, FIRST_PARTS)?;
+    let directions = match forces {
+        Some(_) => {
+            let (model, rails) = cut_members(m, rails, &parts);
+            let frame = FactoredFrame::with_accuracy(&model, &rails, MESH_ACCURACY)?;
+            member_directions(&frame, &model, forces, &parts)?
+        }
+        None => vec![Directions::ALL; parts.len()],
+    };
+    if let Some(omega) = asymptotic_frequency(m, &directions, count) {
+        let cut = m.members.iter().zip(&directions).zip(&mut parts);
+        for ((member, &directions), parts) in cut.filter(|((member, _), _)| divisible(m, member)) {
+            *parts = parts_needed(m, member, directions, FREQUENCY_MARGIN * omega, accuracy);
+        }
+    }
     loop {
         let (model, rails) = cut_members(m, rails, &parts);
-        let frame = FactoredFrame::new(&model, &rails)?;
-        let directions = match &directions {
-            Some(known) => known,
-            None => directions.insert(member_directions(&frame, &model, forces, &parts)?),
-        };
+        let frame = FactoredFrame::with_accuracy(&model, &rails, MESH_ACCURACY)?;
         let found = match forces {
-            Some(forces) => frame.excited_modes(&model, forces, count)?,
+            Some(forces) => frame.lowest_excited(&model, forces, count, accuracy)?,
             None => frame.modes(&model, count)?,
         };
         let highest = found.modes.last().map_or(0.0, |mode| mode.omega);
@@ -157,7 +169,7 @@ fn refine(
         let next: Vec<usize> = m
             .members
             .iter()
-            .zip(directions)
+            .zip(&directions)
             .zip(&parts)
             .map(|((member, &directions), &now)| match divisible(m, member) {
                 true if short && directions != Directions::NONE => (2 * now).min(MOST_PARTS),
@@ -166,7 +178,7 @@ fn refine(
             })
             .collect();
         if next == parts {
-            let error = Some(largest_error(m, &parts, directions, highest));
+            let error = Some(largest_error(m, &parts, &directions, highest));
             return Ok(RefinedModes { model, rails, parts, error, frame: Arc::new(frame), modes: found });
         }
         parts = next;
@@ -229,32 +241,94 @@ fn divisible(m: &Model, member: &Member) -> bool {
         && (0..3).all(|k| own[k] > 0.0 || beams().all(|other| sizes(&m.sections[other.section])[k] == 0.0))
 }
 
+/// The frequency below which the members that may be cut have `count` modes for the deformations `directions`.
+///
+/// Weyl's law: for high frequencies each deformation of a member of length L and wavenumber k contributes k L / pi
+/// modes below omega, with k^4 = m omega^2 / EI in bending (see [`errors_of_one_part`] for flexibility in shear),
+/// k^2 = m omega^2 / EA along the axis, and the like for twist. The number grows with a power of omega between 1/2 and
+/// 1, so that the iteration omega := omega (count / number)^(3/2) at least halves the error of log omega.
+///
+/// `None` where no such member has mass.
+///
+/// # Source
+/// Courant and Hilbert, Methods of Mathematical Physics I (1953), chapter VI, section 4.
+fn asymptotic_frequency(m: &Model, directions: &[Directions], count: usize) -> Option<f64> {
+    let number = |omega: f64| -> f64 {
+        let cut = m.members.iter().zip(directions).filter(|(member, _)| divisible(m, member));
+        cut.map(|(member, &directions)| phase(m, member, directions, omega)).sum::<f64>()
+            / std::f64::consts::PI
+    };
+    let mut omega = 1.0_f64;
+    for _ in 0..FREQUENCY_STEPS {
+        let ratio = count as f64 / number(omega);
+        omega *= ratio.powf(1.5);
+        if !(omega.is_finite() && omega > 0.0) {
+            return None;
+        }
+    }
+    Some(omega)
+}
+
+/// Sum of wavenumber times length over the deformations `directions` of a member at the frequency `omega`.
+fn phase(m: &Model, member: &Member, directions: Directions, omega: f64) -> f64 {
+    let section = &m.sections[member.section];
+    let inertia = section.mass * omega * omega;
+    let f = section.flexibility(m.theory);
+    let polar = section.gyration_squared(section.iy + section.iz);
+    let along = [(f.axial, directions.axial), (f.torsion * polar, directions.torsion)];
+    let straight = along.map(|(flexibility, moves)| if moves { (inertia * flexibility).sqrt() } else { 0.0 });
+    let bent = bent_planes(m, section, directions).map(|(c, g, _)| wave_squared(inertia, c, g).sqrt());
+    let all = straight.into_iter().chain(bent).filter(|wavenumber| wavenumber.is_finite());
+    length_squared(m, member).sqrt() * all.sum::<f64>()
+}
+
+/// Bending and shear flexibility, and second moment, of the planes in which a member bends. Without flexibility in
+/// shear in the theory of `m` the second is 0.
+fn bent_planes(
+    m: &Model,
+    section: &CrossSection,
+    directions: Directions,
+) -> impl Iterator<Item = (f64, f64, f64)> {
+    let f = section.flexibility(m.theory);
+    let sheared = |g: f64| if m.theory == BeamTheory::Timoshenko { g } else { 0.0 };
+    let planes =
+        [(f.bending_z, sheared(f.shear_y), section.iz), (f.bending_y, sheared(f.shear_z), section.iy)];
+    planes.into_iter().zip(directions.bending).filter(|(_, moves)| *moves).map(|(plane, _)| plane)
+}
+
+/// Square of the wavenumber k of bending, with `inertia` = m omega^2, `c` = 1/EI and `g` = 1/(G As):
+/// EI k^4 = m omega^2 (1 + k^2 EI/(G As)).
+fn wave_squared(inertia: f64, c: f64, g: f64) -> f64 {
+    let sheared = 0.5 * inertia * g;
+    sheared + (sheared * sheared + inertia * c).sqrt()
+}
+
+/// Square of the length of a member between its flexible ends.
+fn length_squared(m: &Model, member: &Member) -> f64 {
+    let ends = flexible_ends(member.points.map(|point| m.points[point]), member.offsets).map(Vector3::from);
+    (ends[1] - ends[0]).norm_squared()
+}
+
 /// Relative errors of a frequency with a member in one part, for the deformations `directions`; each with the power
 /// of the number of parts by which it falls.
 fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega: f64) -> Vec<(f64, i32)> {
     let section = &m.sections[member.section];
-    let ends = flexible_ends(member.points.map(|point| m.points[point]), member.offsets).map(Vector3::from);
-    let square = (ends[1] - ends[0]).norm_squared();
+    let square = length_squared(m, member);
     let inertia = section.mass * omega * omega;
     let f = section.flexibility(m.theory);
     let polar = section.gyration_squared(section.iy + section.iz);
     let second = |flexibility: f64| (inertia * flexibility * square / 24.0, 2);
-    let Directions { axial, torsion, bending } = directions;
     let mut all = Vec::new();
-    if axial {
+    if directions.axial {
         all.push(second(f.axial));
     }
-    if torsion {
+    if directions.torsion {
         all.push(second(f.torsion * polar));
     }
-    let planes = [(f.bending_z, f.shear_y, section.iz), (f.bending_y, f.shear_z, section.iy)];
-    for ((c, g, area), _) in planes.into_iter().zip(bending).filter(|(_, moves)| *moves) {
-        if m.theory == BeamTheory::Timoshenko && g > 0.0 {
-            // EI k^4 = m omega^2 (1 + k^2 EI/(G As))
-            let sheared = 0.5 * inertia * g;
-            let wave = sheared + (sheared * sheared + inertia * c).sqrt();
+    for (c, g, area) in bent_planes(m, section, directions) {
+        if g > 0.0 {
             let gyration = section.gyration_squared(area);
-            let leading = COUPLING * inertia * wave * square;
+            let leading = COUPLING * inertia * wave_squared(inertia, c, g) * square;
             all.push((leading * g * square / 1440.0, 4));
             all.push((leading * c * square * square / 201_600.0, 6));
             all.push((leading * c * gyration * gyration / 24.0, 2));

@@ -21,8 +21,8 @@
 
 use std::ops::ControlFlow;
 
-use super::fidelity::{Fidelity, fastest_bounce, slowest_bounce};
-use super::measure::{Bounces, Measure, Record, difference};
+use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, slowest_bounce};
+use super::measure::{Bounces, MANY, Measure, Record, difference};
 use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
 use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
@@ -30,9 +30,7 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 /// Number of modes that are computed first, and at the most.
 const MODES: [usize; 2] = [24, 96];
 /// Least ratio of the number of known modes to the number for which an estimate is used.
-const BEYOND: usize = 3;
-/// Ratio of the estimate for the highest known modes to the limit from which four times as many are computed, not twice.
-const FAR: f64 = 4.0;
+const BEYOND: f64 = 1.5;
 /// Estimate for which a number of modes is chosen, relative to the tolerance.
 const AIM: f64 = 0.1;
 /// Fraction of the tolerance that an estimated error may reach.
@@ -258,10 +256,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
         let bounces = Bounces {
             slowest: slowest_bounce(&self.scene, &first.run.history),
-            fastest: fastest_bounce(&self.scene),
+            remembered: remembered_bounces(&self.scene),
         };
         let compliances = std::mem::take(&mut first.foundations);
-        let frequency = 2.0 * std::f64::consts::PI / bounces.fastest;
+        let frequency = 2.0 * std::f64::consts::PI / fastest_bounce(&self.scene);
         let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, frequency);
         self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
         if counts.iter().any(|count| *count > 0) {
@@ -451,7 +449,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
-    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is a third of them.
+    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is two thirds of them.
     fn estimate(
         &mut self,
         own: &mut Open,
@@ -471,13 +469,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
             let known = own.basis.structure.dynamics.dofs();
             let found = own.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
-            let is_known = found.is_some_and(|tail| BEYOND * tail.kept <= known);
+            let is_known = found.is_some_and(|tail| BEYOND * tail.kept as f64 <= known as f64);
             if is_known || own.basis.is_whole || known >= MODES[1] {
                 return;
             }
-            let is_far = own.tails.last().is_none_or(|tail| tail.error > FAR * limit);
-            let count = if is_far { 4 * known } else { 2 * known };
-            match self.provider.modes(own.structure, count.min(MODES[1])) {
+            match self.provider.modes(own.structure, (2 * known).min(MODES[1])) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > known => own.basis = basis,
                 _ => return,
             }
@@ -547,10 +543,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         Ok(trial)
     }
 
-    fn finish(self, chosen: Trial) -> Selection {
+    fn finish(mut self, chosen: Trial) -> Selection {
         let mut run = chosen.run;
         let is_ended = matches!(run.status, Status::Ended(_));
         run.history = run.history.every(self.scene.output_parts, is_ended);
+        let remembered = remembered_bounces(&self.scene);
+        for choice in &mut self.choices {
+            let asks_for_phases =
+                self.tolerances[choice.structure].is_some_and(|own| own.measure == Measure::History);
+            choice.drifting = (asks_for_phases && remembered > MANY).then_some(remembered);
+        }
         Selection { choices: self.choices, run, runs: self.runs }
     }
 }

@@ -17,8 +17,8 @@
 //!    vice versa; minima likewise;
 //! 3. the mean over each window.
 //!
-//! Windows keep an error late in a run from hiding behind an early peak. In a run of more than [`MANY`] bounces the
-//! phases of bounces that nothing damps cannot be known: which wheel of a body is the more heavily loaded one at a
+//! Windows keep an error late in a run from hiding behind an early peak. In a run of more than [`MANY`] bounces that
+//! dampers of the wheels do not reduce, their phases cannot be known: which wheel of a body is the more heavily loaded one at a
 //! given time is then a matter of chance. There the window is the whole run, and the extremes of a quantity are taken
 //! over all wheels of a body.
 
@@ -29,7 +29,7 @@ const FLOOR: f64 = 1e-3;
 /// Length of a window, in periods of the slowest bounce.
 const PERIODS: f64 = 3.0;
 /// Number of bounces up to which their phases count.
-const MANY: f64 = 100.0;
+pub(super) const MANY: f64 = 100.0;
 
 /// Measure of the error of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -133,13 +133,13 @@ pub struct Difference {
     pub quantity: String,
 }
 
-/// Periods of the bounces of wheels.
+/// Bounces of bodies on their wheels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Bounces {
     /// Period of the slowest bounce, on flexible rails.
     pub slowest: f64,
-    /// Period of the fastest bounce, on rigid rails.
-    pub fastest: f64,
+    /// Number of bounces after which the run still depends on the phase of the first one.
+    pub remembered: f64,
 }
 
 /// Difference of record `a` from record `b` of the same scene. Where the runs were ended by a rule at different times,
@@ -158,7 +158,7 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
     if a.time.len() != b.time.len() && duration > 0.0 {
         found = Difference { largest: duration, quantity: "time of the end".to_owned() };
     }
-    let is_long = ends[0] > MANY * bounces.fastest;
+    let is_long = bounces.remembered > MANY;
     let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
     for (index, scale) in b.scales().into_iter().enumerate() {
         let [one, other] = [a, b].map(|record| &record.quantities[index]);

@@ -14,12 +14,14 @@
 //! ```text
 //! delta = sum over r > m of phi_r (q_r - sum of phi_r F / omega_r^2)       at wheels and gauges,
 //! delta = sum over r > m of s_r q_r''                                      for reactions and internal forces,
-//! dF = sum over r > m of phi_r (...) / (G_r + 1 / |k + i omega_r c|)       for a wheel force,
+//! dF = sum over r > m of (k delta_r + c delta_r') / (1 + |k + i omega_r c| G_r)   for a wheel force,
 //! ```
 //!
-//! where s_r is the effect of a unit acceleration of the mode, G_r the residual flexibility of the modes above r under
-//! the wheel, and k and c are stiffness and damping of its contact. The last line neglects the motion of the body. It is the first iterate
-//! of a staggered solution: sharp where delta hardly changes the forces, and too large where it would.
+//! where s_r is the effect of a unit acceleration of the mode, delta_r the term of mode r under the wheel, delta_r' its
+//! rate as the wheel moves, G_r the residual flexibility of the modes above r under the wheel, and k and c are stiffness
+//! and damping of its contact, c = 0 where the damper acts between wheel and ground. The last line neglects the motion of
+//! the body. It is the first iterate of a staggered solution: sharp where delta hardly changes the forces, and too large
+//! where it would. The rate counts at the start of a motion, where the mode is at rest, but not its static deflection.
 
 use std::collections::BTreeMap;
 
@@ -27,7 +29,7 @@ use splines::{Axis, Influence, Probe};
 
 use super::measure::Record;
 use crate::mechanics::wheels::Wheels;
-use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
+use crate::{BodyDof, Channel, Damper, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
 pub(super) const COUNTS: [usize; 20] =
@@ -79,7 +81,7 @@ struct Wheel {
     rail: usize,
     /// First of four consecutive channels: position, vertical, lateral, traction.
     first: usize,
-    /// Stiffness and damping of its contact at rest.
+    /// Stiffness and damping of its contact at rest, the damping only of a damper between wheel and rail.
     contact: [f64; 2],
 }
 
@@ -167,6 +169,8 @@ struct Replay<'a> {
     /// First channels of the speeds of the carrying body.
     carrier: Option<usize>,
     length: f64,
+    /// Loads on the modes by the wheels at the last sample.
+    by_wheels: Vec<f64>,
     /// Vertical shapes of the modes under the wheels and their slopes, wheel by wheel.
     shapes: Vec<f64>,
     slopes: Vec<f64>,
@@ -195,7 +199,8 @@ impl<'a> Replay<'a> {
                 let law = &scene.wheels[contact.wheel].normal;
                 let rest = history.sample(0)[first + 1].max(0.0);
                 let at = law.at(law.penetration(rest), 0.0);
-                let contact_law = [at.by_penetration, at.by_rate];
+                let damping = if law.damper == Damper::Rail { at.by_rate } else { 0.0 };
+                let contact_law = [at.by_penetration, damping];
                 wheels.push(Wheel { body: contact.body, rail: contact.rail, first, contact: contact_law });
                 by_wheel.push([slot(deflection), slot(force)]);
             }
@@ -234,6 +239,7 @@ impl<'a> Replay<'a> {
             effects,
             carrier,
             length: 0.0,
+            by_wheels: Vec::new(),
             shapes: Vec::new(),
             slopes: Vec::new(),
             gains: Vec::new(),
@@ -245,13 +251,13 @@ impl<'a> Replay<'a> {
     fn sample(&mut self, i: usize) -> Result<(), Error> {
         let (history, n) = (self.loaded.history, self.oscillators.len());
         let sample = history.sample(i);
-        let [mut by_wheels, mut total] = [vec![0.0; n], vec![0.0; n]];
-        self.shapes.resize(n * self.wheels.len(), 0.0);
-        self.slopes.resize(n * self.wheels.len(), 0.0);
-        for w in 0..self.wheels.len() {
-            self.add_loads(w, sample, &mut by_wheels)?;
-        }
-        total.copy_from_slice(&by_wheels);
+        // the rate of the loads at the first sample is that of the first interval
+        let beside = if i == 0 { 1.min(history.len() - 1) } else { i - 1 };
+        let other = if i == 0 { self.loads(beside)? } else { std::mem::take(&mut self.by_wheels) };
+        let span = sample[0] - history.sample(beside)[0];
+        let by_wheels = self.loads(i)?;
+        let per_time = if span == 0.0 { 0.0 } else { span.recip() };
+        let mut total = by_wheels.clone();
         if let Some(first) = self.carrier {
             let acceleration = acceleration(history, i, first);
             for (load, coupling) in total.iter_mut().zip(&self.basis.coupling) {
@@ -268,15 +274,19 @@ impl<'a> Replay<'a> {
             }
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.advance(h, *load));
         }
-        let lag: Vec<f64> = self
-            .oscillators
-            .iter()
-            .zip(&by_wheels)
-            .map(|(mode, load)| mode.state[0] - load / (mode.omega * mode.omega))
-            .collect();
+        let modes = || self.oscillators.iter().zip(&by_wheels).zip(&other);
+        let flexibility = |mode: &Oscillator| (mode.omega * mode.omega).recip();
+        let lag: Vec<f64> =
+            modes().map(|((mode, load), _)| mode.state[0] - load * flexibility(mode)).collect();
+        let rates = modes()
+            .map(|((mode, load), other)| mode.state[1] - (load - other) * per_time * flexibility(mode));
+        let rates: Vec<f64> = rates.collect();
         for w in 0..self.wheels.len() {
-            self.note_wheel(w, sample, &lag)?;
+            let x = self.wheels[w].first;
+            let speed = (sample[x] - history.sample(beside)[x]) * per_time;
+            self.note_wheel(w, sample, speed, [&lag, &rates])?;
         }
+        self.by_wheels = by_wheels;
         for (wheels, slot) in &mut self.drives {
             let resistance = |r: usize| {
                 let of = |w: &usize| self.slopes[n * w + r] * sample[self.wheels[*w].first + 1];
@@ -291,6 +301,18 @@ impl<'a> Replay<'a> {
             note(&self.counts, &mut slot.largest, |r| by_mode[r] * self.oscillators[r].state[2], n);
         }
         Ok(())
+    }
+
+    /// Loads on the modes by the wheels in sample `i`. Keeps the vertical shapes under them.
+    fn loads(&mut self, i: usize) -> Result<Vec<f64>, Error> {
+        let (n, sample) = (self.oscillators.len(), self.loaded.history.sample(i));
+        self.shapes.resize(n * self.wheels.len(), 0.0);
+        self.slopes.resize(n * self.wheels.len(), 0.0);
+        let mut loads = vec![0.0; n];
+        for w in 0..self.wheels.len() {
+            self.add_loads(w, sample, &mut loads)?;
+        }
+        Ok(loads)
     }
 
     /// Adds the forces of wheel `w` to the loads on the modes, and keeps the vertical shapes under it.
@@ -314,11 +336,18 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Notes the deflection and the force that wheel `w` lacks.
-    fn note_wheel(&mut self, w: usize, sample: &[f64], lag: &[f64]) -> Result<(), Error> {
+    /// Notes the deflection and the force that wheel `w` lacks, which moves with `speed`. `lag` is the difference of each
+    /// mode from its static deflection, and the rate of this difference.
+    fn note_wheel(
+        &mut self,
+        w: usize,
+        sample: &[f64],
+        speed: f64,
+        [lag, rates]: [&[f64]; 2],
+    ) -> Result<(), Error> {
         let (n, s) = (lag.len(), self.loaded.structure);
         let Wheel { rail, first, contact: [k, c], .. } = self.wheels[w];
-        let shape = &self.shapes[n * w..n * (w + 1)];
+        let [shape, slope] = [&self.shapes, &self.slopes].map(|all| &all[n * w..n * (w + 1)]);
         let [deflection, force] = &mut self.by_wheel[w];
         note(&self.counts, &mut deflection.largest, |r| shape[r] * lag[r], n);
         if sample[first + 1] == 0.0 {
@@ -336,9 +365,8 @@ impl<'a> Replay<'a> {
         for (r, gain) in self.gains.iter_mut().enumerate() {
             let mode = &self.oscillators[r];
             flexibility -= (shape[r] / mode.omega).powi(2);
-            let damper = mode.omega * c;
-            let give = 1.0 / (k * k + damper * damper).sqrt();
-            *gain = shape[r] * lag[r] / (flexibility.max(0.0) + give);
+            let (lacking, rate) = (shape[r] * lag[r], shape[r] * rates[r] + slope[r] * speed * lag[r]);
+            *gain = (k * lacking + c * rate) / (1.0 + k.hypot(mode.omega * c) * flexibility.max(0.0));
         }
         note(&self.counts, &mut force.largest, |r| self.gains[r], n);
         Ok(())

@@ -136,6 +136,9 @@ pub struct Choice {
     pub tried: Vec<FidelityTrial>,
     /// Fidelities that could not be built, started or run to the end, in order.
     pub failed: Vec<Fidelity>,
+    /// Number of bounces that no damper of a wheel reduces, where values at equal times are asked for and the phases of
+    /// the bounces cannot be known: the estimate holds up to 100 of them.
+    pub drifting: Option<f64>,
 }
 
 /// The chosen foundations and the run with them.
@@ -152,6 +155,15 @@ pub struct Selection {
 impl Choice {
     pub(super) fn new(structure: usize, fidelity: Fidelity, reason: Reason) -> Choice {
         let (tried, failed) = (Vec::new(), Vec::new());
-        Choice { structure, fidelity, reason, estimate: None, quantity: String::new(), tried, failed }
+        Choice {
+            structure,
+            fidelity,
+            reason,
+            estimate: None,
+            quantity: String::new(),
+            tried,
+            failed,
+            drifting: None,
+        }
     }
 }

@@ -4,6 +4,10 @@ use sprs::TriMat;
 
 use super::*;
 use crate::factor::Factor;
+use crate::influence::FactoredFrame;
+use crate::model::{BeamTheory, Girder, cut_members};
+use crate::modes::decoupled::ExcitingForces;
+use crate::modes::mass::ScaledMass;
 
 /// Upper triangle of a matrix.
 fn upper(dense: &DMatrix<f64>) -> CsMat<f64> {
@@ -86,5 +90,43 @@ fn after_a_refresh_known_pairs_remain_and_others_follow() {
     assert!(lanczos.converge(before.len() + 3));
     for (a, b) in before.iter().zip(lanczos.converged_values()) {
         assert!((a / b - 1.0).abs() < 1e-12);
+    }
+}
+
+/// A deep girder of two spans, flexible in shear, in 128 parts: frequencies of bending, of shear and along the axis lie
+/// over three decades.
+#[test]
+fn converged_pairs_stay_converged_after_a_restart() {
+    let girder = Girder {
+        spans: vec![4.2, 4.8],
+        e: 210e9,
+        g: Some(81e9),
+        area: Some(0.08),
+        i_vertical: 2.85e-3,
+        ka_vertical: Some(0.032),
+        mass_per_length: Some(629.0),
+        theory: BeamTheory::Timoshenko,
+        stations: vec![0.0, 9.0],
+        ..Girder::default()
+    };
+    let (model, rail) = girder.model_and_rail().expect("a girder on three supports");
+    let parts = vec![128 / model.members.len(); model.members.len()];
+    let (model, rails) = cut_members(&model, &[rail], &parts);
+    let frame = FactoredFrame::new(&model, &rails).expect("it stands");
+    let mass =
+        ScaledMass::new(&model, &frame.elements, &frame.bodies, frame.stiffness()).expect("it has mass");
+    let part = Part::moved_by(&ExcitingForces::vertical(), &frame, &mass);
+    let factor = factor_of(&part.stiffness);
+    let (stiffness, mass) = (&part.stiffness, &part.mass);
+    let mut lanczos = Lanczos::new(Pencil { stiffness, mass, factor: PencilFactor::Own(&factor) });
+    assert!(lanczos.converge(97));
+    for _ in 0..2 {
+        let before = lanczos.pairs.converged;
+        lanczos.restart(before + 90);
+        for _ in 0..16 {
+            lanczos.step();
+            lanczos.update_pairs();
+            assert!(lanczos.pairs.converged >= before, "{} of {before}", lanczos.pairs.converged);
+        }
     }
 }
