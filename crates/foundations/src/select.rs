@@ -44,7 +44,7 @@ pub trait TrialObserver {
     /// An effect that cannot be computed.
     fn effects(&mut self, structure: usize, basis: &MotionBasis) -> Result<Vec<(String, Vec<f64>)>, Error>;
 
-    /// Receives the description of each run before it starts.
+    /// Receives the foundations of each run of a choice before it starts.
     fn begin(&mut self, trial: &str);
 }
 
@@ -199,6 +199,9 @@ impl FoundationProvider for SceneFoundations<'_> {
     }
 
     fn begin(&mut self, fidelities: &[(usize, Fidelity)]) {
+        if fidelities.is_empty() {
+            return;
+        }
         let is_single = self.scene.structures.len() == 1;
         let words = fidelities.iter().map(|(structure, fidelity)| {
             let name = &self.scene.structures[*structure].name;

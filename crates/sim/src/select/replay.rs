@@ -27,7 +27,7 @@ use std::collections::BTreeMap;
 
 use splines::{Axis, Influence, Probe};
 
-use super::measure::Record;
+use super::measure::{Record, RecordedQuantity};
 use crate::mechanics::wheels::Wheels;
 use crate::{BodyDof, Channel, Damper, Dynamics, Error, Foundation, History, Scene, Structure};
 
@@ -75,14 +75,41 @@ pub(super) struct Loaded<'a> {
     pub record: &'a Record,
 }
 
+impl Loaded<'_> {
+    /// The wheels on the structure that the samples contain.
+    fn wheels(&self, basis: &ModalBasis) -> Result<Vec<Wheel>, Error> {
+        let frequencies = basis.structure.dynamics.frequencies();
+        let mut wheels = Vec::new();
+        for (index, point) in Wheels::new(self.scene, self.foundations, || 0)?.points.iter().enumerate() {
+            let contact = &self.scene.contacts[point.contact];
+            let Some(first) = self.history.position(Channel::Position(index)) else { continue };
+            if contact.structure != self.structure {
+                continue;
+            }
+            let law = &self.scene.wheels[contact.wheel].normal;
+            let rest = self.history.sample(0)[first + 1].max(0.0);
+            let at = law.at(law.penetration(rest), 0.0);
+            let (k, c) = (at.by_penetration, if law.damper == Damper::Rail { at.by_rate } else { 0.0 });
+            let at_modes = frequencies.iter().map(|omega| k.hypot(omega * c)).collect();
+            let (body, rail) = (contact.body, contact.rail);
+            wheels.push(Wheel { index, body, rail, first, contact: [k, c], at_modes });
+        }
+        Ok(wheels)
+    }
+}
+
 /// A wheel on the structure, with the positions of its values in a sample.
 struct Wheel {
+    /// Its number in the scene.
+    index: usize,
     body: usize,
     rail: usize,
     /// First of four consecutive channels: position, vertical, lateral, traction.
     first: usize,
     /// Stiffness and damping of its contact at rest, the damping only of a damper between wheel and rail.
     contact: [f64; 2],
+    /// |k + i omega c| for the frequency omega of each mode.
+    at_modes: Vec<f64>,
 }
 
 /// One oscillator and the coefficients of its step.
@@ -182,43 +209,32 @@ impl<'a> Replay<'a> {
     fn new(loaded: &'a Loaded<'a>, basis: &'a ModalBasis, counts: Vec<usize>) -> Result<Self, Error> {
         let Loaded { scene, structure, foundations, history, record } = *loaded;
         let n = basis.structure.dynamics.dofs();
-        let by_channel = |channel: Channel| {
-            record.quantities.iter().position(|quantity| quantity.channel == Some(channel))
-        };
         let slot = |quantity: usize| Slot { quantity, largest: vec![0.0; counts.len()] };
-        let (mut wheels, mut by_wheel) = (Vec::new(), Vec::new());
-        for (w, point) in Wheels::new(scene, foundations, || 0)?.points.iter().enumerate() {
-            let contact = &scene.contacts[point.contact];
-            let found = [Channel::Deflection(w), Channel::Vertical(w)].map(by_channel);
-            let (Some(first), [Some(deflection), Some(force)]) =
-                (history.position(Channel::Position(w)), found)
-            else {
-                continue;
+        let of_channel = |channel: Channel| {
+            let has = |quantity: &RecordedQuantity| quantity.channel == Some(channel);
+            record.quantities.iter().position(has).map(slot)
+        };
+        let mut wheels = loaded.wheels(basis)?;
+        let mut by_wheel = Vec::new();
+        wheels.retain(|wheel| {
+            let slots = (Channel::Deflection(wheel.index), Channel::Vertical(wheel.index));
+            let (Some(deflection), Some(force)) = (of_channel(slots.0), of_channel(slots.1)) else {
+                return false;
             };
-            if contact.structure == structure {
-                let law = &scene.wheels[contact.wheel].normal;
-                let rest = history.sample(0)[first + 1].max(0.0);
-                let at = law.at(law.penetration(rest), 0.0);
-                let damping = if law.damper == Damper::Rail { at.by_rate } else { 0.0 };
-                let contact_law = [at.by_penetration, damping];
-                wheels.push(Wheel { body: contact.body, rail: contact.rail, first, contact: contact_law });
-                by_wheel.push([slot(deflection), slot(force)]);
-            }
-        }
+            by_wheel.push([deflection, force]);
+            true
+        });
         let (mut shape, mut slope) = (vec![0.0; n], vec![0.0; n]);
         let mut gauges = Vec::new();
         for (g, gauge) in scene.gauges.iter().enumerate().filter(|(_, gauge)| gauge.structure == structure) {
-            if let (Some(at), Ok(())) = (
-                by_channel(Channel::Gauge(g)),
-                basis.structure.shapes.row(gauge.probe, &mut shape, &mut slope),
-            ) {
-                gauges.push((shape.clone(), slot(at)));
+            let row = basis.structure.shapes.row(gauge.probe, &mut shape, &mut slope);
+            if let (Some(slot), Ok(())) = (of_channel(Channel::Gauge(g)), row) {
+                gauges.push((shape.clone(), slot));
             }
         }
         let drives = (0..scene.bodies.len()).filter_map(|b| {
             let own: Vec<usize> = (0..wheels.len()).filter(|w| wheels[*w].body == b).collect();
-            let drive = by_channel(Channel::Drive(b)).filter(|_| !own.is_empty());
-            drive.map(|quantity| (own, slot(quantity)))
+            of_channel(Channel::Drive(b)).filter(|_| !own.is_empty()).map(|slot| (own, slot))
         });
         let drives = drives.collect();
         let names: BTreeMap<&str, usize> =
@@ -346,7 +362,7 @@ impl<'a> Replay<'a> {
         [lag, rates]: [&[f64]; 2],
     ) -> Result<(), Error> {
         let (n, s) = (lag.len(), self.loaded.structure);
-        let Wheel { rail, first, contact: [k, c], .. } = self.wheels[w];
+        let Wheel { rail, first, contact: [k, c], ref at_modes, .. } = self.wheels[w];
         let [shape, slope] = [&self.shapes, &self.slopes].map(|all| &all[n * w..n * (w + 1)]);
         let [deflection, force] = &mut self.by_wheel[w];
         note(&self.counts, &mut deflection.largest, |r| shape[r] * lag[r], n);
@@ -366,7 +382,7 @@ impl<'a> Replay<'a> {
             let mode = &self.oscillators[r];
             flexibility -= (shape[r] / mode.omega).powi(2);
             let (lacking, rate) = (shape[r] * lag[r], shape[r] * rates[r] + slope[r] * speed * lag[r]);
-            *gain = (k * lacking + c * rate) / (1.0 + k.hypot(mode.omega * c) * flexibility.max(0.0));
+            *gain = (k * lacking + c * rate) / (1.0 + at_modes[r] * flexibility.max(0.0));
         }
         note(&self.counts, &mut force.largest, |r| self.gains[r], n);
         Ok(())
