@@ -145,7 +145,7 @@ fn errors(run: &Run, reference: &Run, (scene, rail): (&Scene, &Foundation), accu
 }
 
 /// Steps of a run by SDIRK4 above which the next smaller accuracy is not judged.
-const MANY: usize = 200_000;
+const MANY: usize = 4_000_000;
 
 /// Judges every method that suits the scene at each of `accuracies` against [`Method::Auto`] at `fine`. Prints a row of
 /// the table for each method; returns the largest error by the accuracy, and how closely SDIRK4 at the smallest accuracy
