@@ -10,6 +10,7 @@ mod full;
 mod grids;
 mod init;
 mod modes;
+mod notes;
 mod rides;
 mod ropes;
 mod schema;

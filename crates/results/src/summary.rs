@@ -71,6 +71,10 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
     }
+    let notes = warning::accuracy_notes(scene, outcome);
+    if !notes.is_empty() {
+        result["notes"] = json!(notes);
+    }
     if scene.analysis == Analysis::Dynamic {
         let lost = &run.audit.exchanged;
         result["energy"] = json!({

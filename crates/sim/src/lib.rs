@@ -101,3 +101,4 @@ pub use select::selection::{
     Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck,
 };
 pub use time::counts::Counts;
+pub use time::strike::{Strike, StruckBy};

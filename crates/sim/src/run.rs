@@ -16,7 +16,9 @@ use crate::record::recorder::Recorder;
 use crate::time::counts::Counts;
 use crate::time::passage::crossing;
 use crate::time::samples::Samples;
+use crate::time::step::BOUNCES;
 use crate::time::stepper::{Failure, Stepper};
+use crate::time::strike::Strike;
 use crate::{Action, Analysis, Body, Error, Fired, Foundation, Method, Scene, Stepping};
 
 /// Relative error allowed in a step, per unit of the accuracy required of the run. In crossings of the girder in the
@@ -92,8 +94,20 @@ pub struct Run {
     pub counts: Counts,
     /// The method of integration; `None` for a quasi-static sweep.
     pub method: Option<Method>,
+    /// Number of bounces of the wheels over which the errors of steps add up: those of the least damped wheel, of which
+    /// damping forgets all but the last 1/(2 pi zeta). `accuracy` holds up to [`Run::BOUNCES`] of them; zero for a
+    /// quasi-static sweep and for steps of a fixed length.
+    pub bounces: f64,
+    /// The first strike of a flange or a stop. Runs of different accuracy part there.
+    pub strike: Option<Strike>,
     /// The method that could not continue, and the time at which it stopped, if the run was repeated with another.
     pub abandoned: Option<(Method, f64)>,
+}
+
+impl Run {
+    /// Number of bounces up to which the error of a run stays below the accuracy of its scene. In longer runs the error per
+    /// bounce is at most the accuracy divided by this number.
+    pub const BOUNCES: f64 = BOUNCES;
 }
 
 /// Runs `scene` on `foundations`, one for each structure. `watch` receives the time reached and may stop the run.
@@ -178,6 +192,8 @@ fn attempt(
                 audit: crossed.audit,
                 counts: crossed.counts,
                 method: Some(Method::Series),
+                bounces: crossed.bounces,
+                strike: None,
                 abandoned: None,
             });
         }
@@ -234,6 +250,8 @@ fn integrate(
         audit: stepper.audit(),
         counts: stepper.counts(),
         method: Some(stepping.method),
+        bounces: stepper.bounces(),
+        strike: stepper.strike(),
         abandoned: None,
     })
 }
@@ -345,5 +363,15 @@ fn sweep(
         }
     }
     let (history, audit) = (recorder.into_history(), Audit::default());
-    Ok(Run { status, history, fired: Vec::new(), audit, counts, method: None, abandoned: None })
+    Ok(Run {
+        status,
+        history,
+        fired: Vec::new(),
+        audit,
+        counts,
+        method: None,
+        bounces: 0.0,
+        strike: None,
+        abandoned: None,
+    })
 }

@@ -9,11 +9,15 @@ use std::ops::ControlFlow;
 use common::modes::beam;
 use common::{WEIGHT, bogie, girder, give, single};
 use sim::{
-    BodyDof, Channel, Damper, Foundation, Irregularity, MotionKind, NormalLaw, Profile, Run, Scene, Status,
+    BodyDof, Channel, Contact, Damper, Foundation, Irregularity, MotionKind, NormalLaw, Profile, Run, Scene,
+    Status,
 };
 
 /// Compression of a wheel of the bogie at rest by the linear law of the paper.
 const REST: f64 = 0.024;
+
+/// Distance between the wheels of a train.
+const NEAR: f64 = 0.8;
 
 #[derive(Debug)]
 struct Case {
@@ -33,8 +37,14 @@ fn scene(case: &Case, accuracy: f64) -> Scene {
         body.mass *= 0.5;
         body.free = [false, true, false, false, false, false];
         scene.contacts = vec![single()];
+    } else if case.wheels > 2 {
+        let wheel = scene.contacts[0].clone();
+        let place = |i: usize| NEAR * (i as f64 - 0.5 * (case.wheels - 1) as f64);
+        let all = (0..case.wheels).map(|i| Contact { offsets: vec![place(i)], ..wheel.clone() });
+        scene.contacts = all.collect();
     }
-    let stiffness = 0.5 * WEIGHT / REST.powf(case.exponent);
+    let load = if case.wheels > 2 { WEIGHT / case.wheels as f64 } else { 0.5 * WEIGHT };
+    let stiffness = load / REST.powf(case.exponent);
     scene.wheels[0].normal = NormalLaw {
         exponent: case.exponent,
         depth: 0.3 * REST,
@@ -108,6 +118,37 @@ fn no_wheel_is_stopped_by_a_step_of_its_rail() {
     println!("{} of {all} refused, {repeated} by another method", refused.len());
     assert!(refused.is_empty(), "{refused:#?}");
     assert!(repeated <= all / 50, "{repeated} of {all}");
+}
+
+/// Trains of wheels at 0.8 ft: a step below one of them throws the others off the rail for a hundredth of a microsecond.
+/// Newton's method ended at laws that are not monotone, rates were rounding errors over the length of a step, and contacts
+/// opened and closed without end. Of these 32 trains, 10 of the 16 on a massless girder were refused.
+///
+/// Convergence: their deflections are those of runs at a third of the accuracy.
+#[test]
+fn no_train_of_near_wheels_is_stopped_by_a_step_of_its_rail() {
+    let (mut refused, mut largest) = (Vec::new(), 0.0_f64);
+    for (name, foundation) in &FOUNDATIONS[..2] {
+        for (wheels, exponent) in [(3, 1.0), (3, 2.0), (8, 1.0), (8, 2.0)] {
+            for (damping, height) in [(2e3, 0.5), (2e3, -2.0), (1e5, 0.5), (1e5, -2.0)] {
+                let case = Case { exponent, damping, height: height * REST, bilateral: false, wheels };
+                let both = [1e-3, 3e-4].map(|accuracy| run(&case, accuracy, foundation()));
+                let is_done = |run: &Run| run.status == Status::Done;
+                if !both.iter().all(is_done) {
+                    refused.push(format!("{name}, {case:?}: {:?}", both.each_ref().map(|run| &run.status)));
+                    continue;
+                }
+                let [found, fine] = both.map(|run| run.history.column(Channel::Displacement(0, BodyDof::Y)));
+                let size = fine.iter().fold(0.0_f64, |max, y| max.max(y.abs()));
+                let apart = found.iter().zip(&fine).fold(0.0_f64, |max, (a, b)| max.max((a - b).abs()));
+                println!("{name}, {case:?}: {:.1e}", apart / size);
+                largest = largest.max(apart / size);
+            }
+        }
+    }
+    println!("{} refused, deflections agree to {largest:.1e}", refused.len());
+    assert!(refused.is_empty(), "{refused:#?}");
+    assert!(largest < 2e-3, "{largest}");
 }
 
 #[test]

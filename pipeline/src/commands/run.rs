@@ -156,6 +156,9 @@ fn finish(
         for warning in warning::case_warnings(&case.scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
+        for note in warning::accuracy_notes(&case.scene, outcome) {
+            progress.say(&format!("note: {}: {note}", outcome.label));
+        }
     }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {

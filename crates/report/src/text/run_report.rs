@@ -259,6 +259,9 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         for warning in warning::case_warnings(&case.scene, outcome) {
             section = section.paragraph(format!("Warning, {}: {warning}.", outcome.label));
         }
+        for note in warning::accuracy_notes(&case.scene, outcome) {
+            section = section.paragraph(format!("Note, {}: {note}.", outcome.label));
+        }
     }
     if table.rows.is_empty() {
         section.paragraph("No dynamic run reached its end, so there is no energy audit.")

@@ -1,13 +1,15 @@
 //! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
-//! Files, lowest first: tension, spec, scene, this one.
+//! Files, lowest first: tension, spec, scene, scope, this one.
 
 mod scene;
+mod scope;
 mod spec;
 mod tension;
 
 use std::f64::consts::PI;
 
+pub use scope::accuracy_notes;
 pub use spec::spec_warnings;
 
 use sim::{GapCause, Run};

@@ -16,6 +16,8 @@ use crate::numerics::dense::{along, factor_general, solve_factored, solve_genera
 
 /// Relative change of the forces at which Newton's method ends.
 const TOLERANCE: f64 = 1e-13;
+/// Relative change of the forces, or residual, at which Newton's method ends where rounding prevents a smaller one.
+const STAGNANT: f64 = 1e-9;
 const ITERATIONS: usize = 60;
 /// Damping factor of the Newton step below which the step is not halved again. A brake on
 /// a compliant rail sticks only within 1e-6 of the forces on either side, and within less in short steps.
@@ -31,6 +33,9 @@ pub(crate) enum RowKind {
     /// The force follows from the law, with the rate of the penetration: the row of Y is the row of W times this
     /// number.
     Memory(f64),
+    /// The force follows from the law, with the rate of the penetration of a wheel that passes over a sloping rail: the row
+    /// of Y is no multiple of that of W, and the problem is not symmetric.
+    Passing,
     /// The force is prescribed.
     Given,
     /// The force keeps the displacement of the rail at this value, within the limits of the law.
@@ -166,6 +171,39 @@ impl Problem {
             return self.solve_linear(system, local, active, force);
         }
         self.solve_newton(system, local, active, force)
+            || self.hold_penetrations(active, force) && self.solve_newton(system, local, active, force)
+    }
+
+    /// Sets `force` to the forces at which the penetrations that are states keep the values p* they had, W F = e - p*, and
+    /// to zero in all other active elements. The law of a damper whose coefficient grows with the penetration is not monotone in
+    /// it, so that Newton's method may end at p = 0 where it begins far from p*; in a short step the solution is near p*.
+    /// Returns false if there are no such penetrations, or W is singular.
+    fn hold_penetrations(&mut self, active: &[bool], force: &mut [f64]) -> bool {
+        let m = force.len();
+        let Effects { w, rate, kind, .. } = &self.effects;
+        self.unknown.clear();
+        self.unknown.extend((0..m).filter(|&i| active[i] && matches!(kind[i], RowKind::Memory(_))));
+        let count = self.unknown.len();
+        if count == 0 {
+            return false;
+        }
+        for (row, &i) in self.unknown.iter().enumerate() {
+            let RowKind::Memory(per_step) = kind[i] else { continue };
+            // e - p* = g r_0.
+            self.residuals.value[row] = rate[i] / per_step;
+            for (column, &j) in self.unknown.iter().enumerate() {
+                self.matrix[row * count + column] = w[i * m + j];
+            }
+        }
+        let (matrix, held) = (&mut self.matrix[..count * count], &mut self.residuals.value[..count]);
+        if !solve_general(matrix, held) {
+            return false;
+        }
+        force.fill(0.0);
+        for (&i, held) in self.unknown.iter().zip(held) {
+            force[i] = *held;
+        }
+        true
     }
 
     /// Solves the linear system F/k + W F + (c/k) Y F = e + (c/k) r, with k and c multiplied by the number of wheels
@@ -197,8 +235,9 @@ impl Problem {
             self.residuals.value[row] = rhs;
         }
         let (matrix, rhs) = (&mut self.matrix[..count * count], &mut self.residuals.value[..count]);
-        let is_solved =
-            if system.traits.is_symmetric { solve_spd(matrix, rhs) } else { solve_general(matrix, rhs) };
+        let is_symmetric =
+            system.traits.is_symmetric && !self.unknown.iter().any(|&i| kind[i] == RowKind::Passing);
+        let is_solved = if is_symmetric { solve_spd(matrix, rhs) } else { solve_general(matrix, rhs) };
         for i in (0..m).filter(|&i| kind[i] != RowKind::Given) {
             force[i] = 0.0;
         }
@@ -233,6 +272,11 @@ impl Problem {
                     size = now;
                     break;
                 }
+                // In very short steps, c times the rounding error of a rate exceeds the residual that is allowed, but the
+                // forces change by far less.
+                if damping == 1.0 && change <= STAGNANT * scale {
+                    return true;
+                }
                 damping *= 0.5;
             }
             let done = TOLERANCE * scale.max(f64::MIN_POSITIVE);
@@ -241,7 +285,7 @@ impl Problem {
             }
         }
         // The residual may stagnate at rounding; it is accepted if it is small relative to the forces.
-        size <= 1e-9 * largest(force)
+        size <= STAGNANT * largest(force)
     }
 
     /// Evaluates the residuals of the laws under `force` with W and Y; returns the largest absolute residual.

@@ -118,6 +118,12 @@ impl Geometry {
         along(&self.shapes.all, i, q.as_slice())
     }
 
+    /// Slopes of the shapes of structures at element `i`, over the degrees of freedom.
+    pub fn shape_row(&self, i: usize) -> &[f64] {
+        let n = self.shapes.slope.len();
+        &self.shapes.all[i * n..(i + 1) * n]
+    }
+
     /// Approach of element `i` at the degrees of freedom `q`, without the deflection of the rails.
     pub fn approach(&self, i: usize, q: &DVector<f64>) -> f64 {
         self.rows.approach_at(i, q)

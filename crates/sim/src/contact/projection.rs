@@ -20,8 +20,9 @@ pub(crate) struct Projection {
     rate: Vec<f64>,
     /// Whether the products are constant because rows and mobility are constant.
     is_constant: bool,
-    /// Scratch: forces of the columns, and a product with the mobility.
+    /// Scratch: forces of the columns, the product of another row, and a product with the mobility.
     force: Vec<f64>,
+    other: Vec<f64>,
     answer: DVector<f64>,
 }
 
@@ -35,6 +36,7 @@ impl Projection {
             rate: vec![0.0; m * m],
             is_constant: false,
             force: Vec::with_capacity(m),
+            other: Vec::with_capacity(m),
             answer: DVector::zeros(n),
         }
     }
@@ -54,6 +56,13 @@ impl Projection {
     pub fn rate_row(&self, i: usize) -> &[f64] {
         let count = self.columns.len();
         &self.rate[i * count..(i + 1) * count]
+    }
+
+    /// Elements of the columns, with the entries of `row` Z B^T.
+    pub fn product(&mut self, row: &[f64]) -> impl Iterator<Item = (&usize, &f64)> {
+        self.other.resize(self.columns.len(), 0.0);
+        product(row, &self.spread[..self.answer.len() * self.columns.len()], &mut self.other);
+        self.columns.iter().zip(&self.other)
     }
 
     /// Computes the products for the elements that are not `idle`.

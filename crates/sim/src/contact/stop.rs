@@ -20,6 +20,11 @@ pub(crate) struct StopForce<'a> {
 }
 
 impl<'a> StopForce<'a> {
+    /// Index of the stop in the scene.
+    pub fn index(&self) -> usize {
+        self.index
+    }
+
     /// All stops of a scene.
     pub fn all(mechanics: &Mechanics<'a>) -> Vec<Self> {
         let stops = mechanics.scene.actuators.stops.iter().enumerate();

@@ -21,6 +21,9 @@ pub(crate) struct System<'a> {
     pub elements: Vec<ForceElement<'a>>,
     /// Properties of each element that are the same at every state.
     pub fixed: Vec<Fixed>,
+    /// Whether the rail below each vertical contact moves with degrees of freedom alone, without a compliance of its own,
+    /// so that the rate of the penetration is a function of the motion.
+    pub follows_motion: Vec<bool>,
     pub probes: Probes,
     pub traits: Traits,
     /// Elements that guide wheels laterally, and springs between two points (ropes and stops).
@@ -74,12 +77,14 @@ impl<'a> System<'a> {
         let probes = find_probes(&mechanics, &elements);
         let traits = find_traits(&mechanics, &elements);
         let fixed = elements.iter().map(|element| Fixed::of(&**element)).collect();
+        let follows_motion = find_moved_rails(&mechanics);
         Ok(System {
             scene,
             foundations,
             mechanics,
             elements,
             fixed,
+            follows_motion,
             probes,
             traits,
             guides,
@@ -139,6 +144,14 @@ impl<'a> System<'a> {
         let element = *self.ropes.get(index)?;
         match &self.elements[element] {
             ForceElement::Rope(rope) => Some((element, rope)),
+            _ => None,
+        }
+    }
+
+    /// Index in the scene of the stop whose element is `i`; `None` for other elements.
+    pub fn stop(&self, i: usize) -> Option<usize> {
+        match &self.elements[i] {
+            ForceElement::Stop(stop) => Some(stop.index()),
             _ => None,
         }
     }
@@ -227,6 +240,17 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
     };
     let is_direct = entries.iter().map(is_direct).collect();
     Probes { entries, is_direct, tangential, slots, sliding }
+}
+
+/// Whether the rail below each vertical contact has no compliance of its own, and is neither carried nor divided into
+/// parts.
+fn find_moved_rails(mechanics: &Mechanics) -> Vec<bool> {
+    let is_grounded = mechanics.carried.is_empty() && mechanics.couplings.is_empty();
+    let follows = |contact: usize| {
+        let own = &mechanics.foundations[mechanics.scene.contacts[contact].structure];
+        is_grounded && own.compliance.is_none() && own.parts.is_none() && own.carrier.is_none()
+    };
+    mechanics.groups.iter().map(|group| follows(group.contact)).collect()
 }
 
 /// Determines which simplifications apply.

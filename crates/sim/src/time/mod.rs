@@ -15,6 +15,7 @@ pub(crate) mod sdirk;
 pub(crate) mod step;
 pub(crate) mod step_size;
 pub(crate) mod stepper;
+pub(crate) mod strike;
 pub(crate) mod suitability;
 pub(crate) mod tableau;
 pub(crate) mod triggers;

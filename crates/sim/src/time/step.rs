@@ -14,7 +14,7 @@ use crate::{Error, Exchanged, Method};
 const PATH: f64 = 4.0;
 
 /// Number of bounces of a wheel up to which the errors of their forces may add up.
-const BOUNCES: f64 = 100.0;
+pub(crate) const BOUNCES: f64 = 100.0;
 
 /// Time in which a penetration under a damper between wheel and rail follows its force, per step, below which it has no
 /// error of its own.
@@ -41,6 +41,8 @@ pub(crate) struct Step<'a, 'b> {
     integrator: Integrator,
     /// Time of the geometry of the solver after the step.
     geometry_time: f64,
+    /// Number of bounces in the whole run over which errors would add up if all were as in the step just taken.
+    pub bounces: f64,
     /// Working memory for the end of a path.
     beyond: State,
     errors: Errors,
@@ -85,6 +87,7 @@ impl<'a, 'b> Step<'a, 'b> {
         };
         Step {
             errors,
+            bounces: 0.0,
             last_jump: start.t,
             shortest_delay: 0.0,
             begins_smoothly: false,
@@ -181,7 +184,7 @@ impl<'a, 'b> Step<'a, 'b> {
     /// those of natural modes for every period.
     pub fn force_errors(&mut self) -> &[f64] {
         let (h, end) = (self.length(), self.system().scene.end);
-        let Step { solver, from, to, integrator, errors, .. } = self;
+        let Step { solver, from, to, integrator, errors, bounces: total, .. } = self;
         let Errors { q, v, rate, force, frequency, ringing } = errors;
         let of = |k: usize| match &*integrator {
             Integrator::Collocation(collocation) => collocation.error(k),
@@ -197,9 +200,10 @@ impl<'a, 'b> Step<'a, 'b> {
                 _ => 0.0,
             };
         }
-        let bounces = solver.bounces(to, end, frequency).min(BOUNCES);
-        solver.ringing([&*from, &*to], end, ringing);
+        *total = solver.bounces(to, end, frequency);
+        let bounces = total.min(BOUNCES);
         let is_staged = matches!(integrator, Integrator::Sdirk(_));
+        solver.ringing([&*from, &*to], end, is_staged, ringing);
         let errors = StateErrors { at: to, h, is_staged, q, v, rate, frequency, bounces, ringing };
         if !solver.force_errors(&errors, force) {
             force.fill(f64::INFINITY);

@@ -15,6 +15,7 @@ use super::events::{
 };
 use super::step::Step;
 use super::step_size::StepSize;
+use super::strike::{Strike, StruckBy};
 use super::triggers::Triggers;
 use super::wheel_forces::WheelForces;
 use crate::contact::element::{Guard, GuardKind};
@@ -48,6 +49,13 @@ const CHATTER: usize = 1000;
 /// If a trial ends far beyond an event, the secant always underestimates the time of the event.
 const SHORT: usize = 2;
 const WIDER: f64 = 16.0;
+
+/// Number of consecutive steps that end at events from which on these lie within [`INSTANT`] of the window of an event.
+const RATTLE: usize = 8;
+
+/// Part of the time around an event in which forces need not keep the accuracy in which they are not judged. Wheels near to each
+/// other that a step of the rail throws off and back again settle in a time that no other quantity resolves.
+const INSTANT: f64 = 1e-3;
 
 /// Accuracy of the run, per unit of the tolerance of its steps.
 const ASKED: f64 = 1.0 / 3.0;
@@ -131,6 +139,12 @@ pub(crate) struct Stepper<'a, 'b> {
     /// Number of consecutive steps near the smallest length, and of consecutive steps that ended at an event.
     stalled: usize,
     chatter: usize,
+    /// Shortest period 2 pi sqrt(m/k) of a wheel at the start, with its load m g; zero if none presses.
+    period: f64,
+    /// Number of bounces so far over which errors add up.
+    bounces: f64,
+    /// The first strike of a flange or a stop.
+    strike: Option<Strike>,
     /// Sizes of the wheel forces, to which their errors are relative.
     wheel_forces: WheelForces,
     /// Whether the last step ended neither at a break nor at an event.
@@ -156,7 +170,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
     ) -> Result<Self, Error> {
         let scene = solver.system().scene;
         solver.store_open(&start);
+        let period = period(solver, &start);
         Ok(Stepper {
+            period: if period.is_finite() { period } else { 0.0 },
             triggers: Triggers::new(solver.system())?,
             books: Books::new(solver, &start),
             touches: guards(solver, GuardKind::Touch, &start),
@@ -167,6 +183,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             counts: Counts::default(),
             limit: f64::INFINITY,
             force_scale: scene.bodies.iter().map(|body| body.mass * scene.gravity).sum(),
+            bounces: 0.0,
+            strike: None,
             stalled: 0,
             chatter: 0,
             meets: None,
@@ -191,6 +209,16 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// Counts of the work done so far.
     pub fn counts(&self) -> Counts {
         self.counts
+    }
+
+    /// Number of bounces so far over which errors add up.
+    pub fn bounces(&self) -> f64 {
+        self.bounces
+    }
+
+    /// The first strike of a flange or a stop so far.
+    pub fn strike(&self) -> Option<Strike> {
+        self.strike
     }
 
     /// Tries steps until one is accepted; the step ends at `limit` at the latest.
@@ -256,11 +284,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         self.meets = None;
         let smallest = 1e-13 * limit.abs().max(1e-3);
-        let planned = self.size.planned(widest);
+        let instant = if self.chatter >= RATTLE { self.instant() } else { 0.0 };
+        let planned = self.size.planned(widest.max(instant));
         let mut trial = Trial {
             h: self.size.within(planned, limit - self.step.from.t),
             smallest,
-            shortest: (NOW * planned).max(2.0 * smallest),
+            shortest: (NOW * planned).max(2.0 * smallest).max(instant),
             error: f64::INFINITY,
             ends_at_event: false,
             breaks: 0,
@@ -294,6 +323,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         let (step, length) = (&self.step, self.step.length());
         let error = step.error(|k, errors| self.size.weigh(&step.to, length, k, errors));
+        if length <= self.instant()
+            && self.step.to.t - self.step.last_jump <= INSTANT.recip() * self.instant()
+        {
+            return Ok(error / self.size.tolerance);
+        }
         let forces = self.wheel_forces.relative(self.step.force_errors());
         let allowed = self.size.tolerance.min(LOOSEST);
         let forces = FORCE_SHARE * forces * self.size.tolerance / allowed;
@@ -382,13 +416,19 @@ impl<'a, 'b> Stepper<'a, 'b> {
         gap.abs() > ENERGY * self.size.tolerance * self.books.audit().peak_stored
     }
 
-    /// The wheel of the first flange that is on another side of its clearance at the end of the step than at its start.
-    fn touched(&self) -> Option<usize> {
+    /// The wheel of the first flange that is on another side of its clearance at the end of the step than at its start, and
+    /// whether it touches there.
+    fn touched(&self) -> Option<(usize, bool)> {
         let now = guards(self.step.solver, GuardKind::Touch, &self.step.to);
         let index = self.touches.iter().zip(&now).position(|(old, new)| old.value * new.value < 0.0)?;
         let system = self.step.system();
         let element = system.guarded(GuardKind::Touch)[index];
-        system.wheel_of(element)
+        Some((system.wheel_of(element)?, now[index].value > 0.0))
+    }
+
+    /// Notes a strike at the end of the step if it is the first.
+    fn note_strike(&mut self, by: StruckBy) {
+        self.strike.get_or_insert(Strike { time: self.step.to.t, by });
     }
 
     /// Fraction of the step at which a freely rolling wheel meets a break; stores the wheel in `meets`.
@@ -408,10 +448,15 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// switch. Finally the audit of the step is completed.
     fn accept(&mut self, h: f64) -> Result<(), Error> {
         self.counts.steps += 1;
+        self.bounces += self.step.bounces * h / self.step.system().scene.end;
         self.step.arrived.copy_from(&self.step.to);
         self.force_scale = self.largest_force();
         self.wheel_forces.grow(&self.step.to.force);
-        let mut cause = self.touched().map_or(GapCause::Step, GapCause::Flange);
+        let touched = self.touched();
+        let mut cause = touched.map_or(GapCause::Step, |(wheel, _)| GapCause::Flange(wheel));
+        if let Some((wheel, true)) = touched {
+            self.note_strike(StruckBy::Flange(wheel));
+        }
         let exchanged = self.step.exchanged(h);
         self.books.book_step(self.step.solver, &exchanged, &self.step.to);
         self.step.reach_end()?;
@@ -437,6 +482,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 let now = self.step.solver.active().flags();
                 self.counts.events += usize::from(active != now);
                 let switched = (0..now.len()).find(|&i| active[i] != now[i]);
+                let met = (0..now.len()).filter(|&i| now[i] && !active[i]).find_map(|i| system.stop(i));
+                if let Some(stop) = met {
+                    self.note_strike(StruckBy::Stop(stop));
+                }
                 cause = switched.and_then(|i| system.wheel_of(i)).map_or(cause, GapCause::Contact);
                 after = self.stored();
                 let gained = after.total() - before.total();
@@ -464,14 +513,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// Time around an event in which forces need not keep the accuracy, accuracy x 2 pi sqrt(m/k), for the contact for
     /// which it is shortest.
     fn window(&self) -> f64 {
-        let system = self.step.system();
-        let weight = |i: usize| self.step.to.force[i] / system.scene.gravity.max(f64::MIN_POSITIVE);
-        let period = |i: usize| {
-            let [_, stiffness, _] = self.step.solver.law_of(i, self.step.to.p[i], 0.0);
-            (weight(i).max(0.0) / stiffness).sqrt()
-        };
-        let pressed = (0..system.verticals()).filter(|&i| self.step.to.force[i] > 0.0).map(period);
-        ASKED * self.size.tolerance * TAU * pressed.fold(f64::INFINITY, f64::min)
+        ASKED * self.size.tolerance * period(self.step.solver, &self.step.to)
+    }
+
+    /// Time after an event in which the errors of forces are not judged.
+    fn instant(&self) -> f64 {
+        INSTANT * ASKED * self.size.tolerance * self.period
     }
 
     /// Passes a break of the prescribed motions. The change of kinetic energy by a jump of speed is the work of these
@@ -558,4 +605,17 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         Ok((fired, ends))
     }
+}
+
+/// Shortest period 2 pi sqrt(m/k) of the wheels that press at `at`, with m g the force of a wheel and k the slope of its law;
+/// infinite if none presses.
+fn period(solver: &Solver, at: &State) -> f64 {
+    let system = solver.system();
+    let weight = |i: usize| at.force[i] / system.scene.gravity.max(f64::MIN_POSITIVE);
+    let period = |i: usize| {
+        let [_, stiffness, _] = solver.law_of(i, at.p[i], 0.0);
+        (weight(i).max(0.0) / stiffness).sqrt()
+    };
+    let pressed = (0..system.verticals()).filter(|&i| at.force[i] > 0.0).map(period);
+    TAU * pressed.fold(f64::INFINITY, f64::min)
 }

@@ -16,6 +16,7 @@ use super::Solver;
 use crate::Error;
 use crate::contact::element::passing;
 use crate::mechanics::state::{Known, State};
+use crate::numerics::dense::along;
 
 impl Solver<'_> {
     /// Whether a stage with coefficient `g` may be corrected: the matrices for `g` are factored, and the scene has
@@ -67,7 +68,11 @@ impl Solver<'_> {
             let deflection = self.geometry.deflection(i, &at.force);
             let penetration = self.geometry.approach(i, &self.free.q) - deflection;
             let mut rate = 0.0;
-            if self.remembers(i) {
+            if self.follows_motion(i) {
+                let slope = self.geometry.rows().rise[i];
+                rate = along(&self.geometry.rows().approach, i, self.free.v.as_slice())
+                    + slope * system.contact_speed(i, at);
+            } else if self.remembers(i) {
                 rate = (penetration - known[i]) / g;
             } else if fixed.feels_rates {
                 rate = self.geometry.rate(i, &self.free.v);

@@ -9,9 +9,9 @@ use crate::numerics::dense::{along, dot};
 /// Least number of periods of a natural mode over which the errors of a Runge-Kutta method in it add up.
 const OWN: f64 = 4.0;
 
-/// Number of periods of a natural mode up to which its errors add up one by one; those of N more periods add up as those
-/// of sqrt(PERIODS N).
-const PERIODS: f64 = 400.0;
+/// Number of periods of a natural mode up to which its errors add up one by one, by collocation and by Runge-Kutta stages;
+/// those of N more periods add up as those of sqrt(PERIODS N).
+const PERIODS: [f64; 2] = [400.0, 6400.0];
 
 /// Part of the error of a period that collocation, with its exact propagators of the free modes, repeats in the next.
 const REPEATED: f64 = 0.1;
@@ -81,7 +81,12 @@ impl Solver<'_> {
                 let next = if frequency[k] > 0.0 { place[k] * v[k] / frequency[k] } else { 0.0 };
                 if omega.is_some() {
                     let error = add_up(by[0].abs() + next.abs(), k, place[k]);
-                    own[i] = [own[i][0] + error, own[i][1] + least * by[1]];
+                    let rate_error = if is_staged {
+                        add_up(by[1].abs(), k, rates[k] * frequency[k])
+                    } else {
+                        least * by[1]
+                    };
+                    own[i] = [own[i][0] + error, own[i][1] + rate_error];
                 } else {
                     now[i] = [now[i][0] + by[0], now[i][1] + by[1]];
                     later[i][0] += next;
@@ -134,8 +139,10 @@ impl Solver<'_> {
     /// the springs of the wheels the mode phi has the frequency omega_w^2 = omega^2 + sum k_i phi_i^2, and the damping
     /// 2 zeta_w omega_w = 2 zeta omega + sum c_i phi_i^2 by wheels with dampers to the rail, which limits the number of
     /// periods to 1 + 1/(2 pi zeta_w). Its free vibration is the part of its motion that inertia takes part in, of
-    /// amplitude ((q''/omega^2)^2 + (q'/omega)^2)^(1/2). The geometry must belong to the end.
-    pub fn ringing(&self, ends: [&State; 2], end: f64, out: &mut [Ringing]) {
+    /// amplitude ((q''/omega^2)^2 + (q'/omega)^2)^(1/2). The geometry must belong to the end. `is_staged` says that the step
+    /// has stages.
+    pub fn ringing(&self, ends: [&State; 2], end: f64, is_staged: bool, out: &mut [Ringing]) {
+        let most = PERIODS[usize::from(is_staged)];
         let (mechanics, n, at) = (&self.system.mechanics, out.len(), ends[1]);
         let wheels: Vec<(&[f64], f64, f64)> = (0..self.system.verticals())
             .filter(|&i| self.active.has(i))
@@ -158,7 +165,7 @@ impl Solver<'_> {
             let periods = (end * together / TAU).min(decay);
             let amplitude = |state: &State| (state.a[k] / (omega * omega)).hypot(state.v[k] / omega);
             *out = Ringing {
-                periods: if periods > PERIODS { (PERIODS * periods).sqrt() } else { periods },
+                periods: if periods > most { (most * periods).sqrt() } else { periods },
                 amplitude: if omega > 0.0 { amplitude(ends[0]).max(amplitude(at)) } else { f64::INFINITY },
             };
         }

@@ -20,6 +20,7 @@ use nalgebra::DVector;
 use super::{PASSES, RowKind, Solver};
 use crate::Error;
 use crate::mechanics::state::{Known, State};
+use crate::numerics::dense::along;
 
 /// Allowed relative residual of the forces, per unit of the allowed error of the passes.
 const SLACK: f64 = 0.1;
@@ -142,6 +143,9 @@ impl Solver<'_> {
         self.projection.fill(system, self.geometry.rows(), self.free.mobility(), &self.problem.idle);
         for i in 0..at.force.len() {
             self.fill_row(i, g, &known.p);
+            if self.follows_motion(i) {
+                self.fill_passing(i, g, at);
+            }
         }
         for (i, slot) in self.sliding() {
             self.fill_sliding(i, g, known.p[slot], at);
@@ -211,6 +215,30 @@ impl Solver<'_> {
         }
     }
 
+    /// Whether the rate of penetration `i` is a function of the motion. It is then not formed from differences of
+    /// penetrations, whose order in a Runge-Kutta method is two.
+    pub(super) fn follows_motion(&self, i: usize) -> bool {
+        self.remembers(i) && self.system.follows_motion[i]
+    }
+
+    /// Replaces the rate of vertical contact `i` by that of the motion, r = R v + x' (h' - w'), with the slopes h' of the
+    /// unloaded rail and w' = S q of the structure at the speed x' of `at`: r_0 is that without forces, and Y = g R Z B^T -
+    /// g^2 x' S Z B^T.
+    fn fill_passing(&mut self, i: usize, g: f64, at: &State) {
+        let m = at.force.len();
+        let (rows, speed) = (self.geometry.rows(), self.system.contact_speed(i, at));
+        let slope = rows.rise[i] - self.geometry.shape_slope(i, &self.free.q);
+        let effects = &mut self.problem.effects;
+        effects.rate[i] = along(&rows.approach, i, self.free.v.as_slice()) + speed * slope;
+        if self.system.mechanics.has_structures() && speed != 0.0 {
+            let own = &mut effects.y[i * m..(i + 1) * m];
+            for (&j, by_slope) in self.projection.product(self.geometry.shape_row(i)) {
+                own[j] -= g * g * speed * by_slope;
+            }
+            effects.kind[i] = RowKind::Passing;
+        }
+    }
+
     /// Adds the motion of the massless rail to the rate of tangential element `i`: s = x' + h omega - du/dt at a
     /// fixed point of the rail, where du/dt = (G F - u*)/g is taken along the path of the wheel, minus x' dG/dx F for
     /// the motion along that path. `known` is the constant term u* of the displacement.
@@ -237,7 +265,8 @@ impl Solver<'_> {
         let changes = self.follow_accelerations(g, known, at);
         for i in 0..self.system.verticals() {
             at.p[i] = penetration(self, i, at);
-            at.p_rate[i] = (at.p[i] - known.p[i]) / g;
+            at.p_rate[i] =
+                if self.follows_motion(i) { self.approach_rate(i, at) } else { (at.p[i] - known.p[i]) / g };
         }
         for (i, slot) in self.sliding() {
             let moved = self.geometry.deflection(i, &at.force);

@@ -38,6 +38,9 @@ const COARSEST: f64 = 1e-3;
 /// steps are more accurate by N times the reciprocal.
 const BOUNCES: f64 = 10.0;
 
+/// Number of bounces up to which the steps are shortened.
+const MOST_BOUNCES: f64 = 100.0;
+
 /// Largest ratio of the squares of the highest frequency of a contact and of the bounce frequency of the bodies on
 /// their wheels for which a series is used; stiffer scenes are left to another method.
 const STIFF: f64 = 20.0;
@@ -90,6 +93,8 @@ pub(crate) struct Crossed {
     pub history: History,
     pub audit: Audit,
     pub counts: Counts,
+    /// Number of bounces over which errors add up.
+    pub bounces: f64,
 }
 
 /// Runs a scene for which nothing is [`missing`]. Returns `None` if a contact opens, if the wheels are too stiff, or
@@ -245,7 +250,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         if carried * softness > STIFF * quickest {
             return Ok(None);
         }
-        let allowed = LAST * scene.accuracy.min(COARSEST) / (self.bounces(quickest) / BOUNCES).max(1.0);
+        let allowed = LAST * scene.accuracy.min(COARSEST)
+            / (self.bounces(quickest).min(MOST_BOUNCES) / BOUNCES).max(1.0);
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
         for end in self.breaks() {
             let path =
@@ -292,20 +298,22 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 counts.stages += self.series.order;
                 (t, scale) = (to, h);
                 if watch(t).is_break() {
-                    return self.finish(true, t, recorder, counts).map(Some);
+                    let bounces = self.bounces(quickest);
+                    return self.finish(true, t, recorder, (counts, bounces)).map(Some);
                 }
             }
         }
-        self.finish(false, t, recorder, counts).map(Some)
+        let bounces = self.bounces(quickest);
+        self.finish(false, t, recorder, (counts, bounces)).map(Some)
     }
 
-    /// Number of bounces in the run over which errors add up, of at most 100, with `quickest` the reciprocal square of the
+    /// Number of bounces in the run over which errors add up, with `quickest` the reciprocal square of the
     /// highest frequency of a contact, whose damping limits it to 1 + 1/(2 pi zeta).
     fn bounces(&self, quickest: f64) -> f64 {
         let omega = quickest.sqrt().recip();
         let ratio =
             self.contacts.ratio[..self.system.elements.len()].iter().fold(f64::INFINITY, |a, b| a.min(*b));
-        (self.system.scene.end * omega / TAU).min(1.0 + 2.0 / (TAU * ratio * omega)).min(100.0)
+        (self.system.scene.end * omega / TAU).min(1.0 + 2.0 / (TAU * ratio * omega))
     }
 
     /// Completes the run after a step that ended at `t`.
@@ -314,7 +322,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         is_stopped: bool,
         t: f64,
         recorder: Recorder,
-        counts: Counts,
+        (counts, bounces): (Counts, f64),
     ) -> Result<Crossed, Error> {
         let [at] = self.series.at([self.length / self.series.scale]);
         let (q, v) = (self.q, self.v);
@@ -322,7 +330,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
         self.audit.end = stored(self.system, &self.geometry, &self.state);
         let (history, audit) = (recorder.into_history(), self.audit);
-        Ok(Crossed { is_stopped, history, audit, counts })
+        Ok(Crossed { is_stopped, history, audit, counts, bounces })
     }
 
     /// Approach of the stiffest contact under the largest force on each contact: the smallest row sum of G + 1/k, times

@@ -1,0 +1,54 @@
+//! Notes on the scope of `accuracy`: it is the error of values at equal times up to 100 bounces of the wheels, and up to the
+//! first strike of a flange or a stop.
+
+use formats::scene::Scene;
+use formats::scene::motion::SimulationInput;
+use formats::text::number::{number, rounded};
+use sim::{Run, StruckBy};
+
+use crate::case_result::CaseResult;
+
+/// Notes of a case on what its `accuracy` holds for; none where it holds for the whole run.
+#[must_use]
+pub fn accuracy_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
+    let CaseResult { run, input, .. } = outcome;
+    many_bounces(scene, run).into_iter().chain(after_strike(scene, input, run)).collect()
+}
+
+/// A run of more bounces than those up to which errors keep the accuracy. Their sum grows with the number of bounces.
+fn many_bounces(scene: &Scene, run: &Run) -> Option<String> {
+    (run.bounces > Run::BOUNCES).then(|| {
+        let each = scene.accuracy / Run::BOUNCES;
+        format!(
+            "the wheels bounce about {:.0} times without much damping, and the errors of all bounces add up: beyond {:.0} \
+             bounces `accuracy` is that of {:.0} bounces, an error of {} for each, {} in all",
+            run.bounces,
+            Run::BOUNCES,
+            Run::BOUNCES,
+            number(rounded(each, 2)),
+            number(rounded(each * run.bounces, 2))
+        )
+    })
+}
+
+/// A run in which a flange or a stop strikes.
+fn after_strike(scene: &Scene, input: &SimulationInput, run: &Run) -> Option<String> {
+    let strike = run.strike?;
+    let what = match strike.by {
+        StruckBy::Flange(wheel) => {
+            format!(
+                "the flange of {}",
+                input.wheels.get(wheel).map_or("a wheel", |wheel| wheel.name.as_str())
+            )
+        }
+        StruckBy::Stop(index) => {
+            let names = scene.stops.iter().flat_map(|stop| stop.points.iter().map(|_| stop.name.as_str()));
+            format!("the stop {}", names.into_iter().nth(index).unwrap_or("of a body"))
+        }
+    };
+    Some(format!(
+        "{what} strikes at t = {:.6} s: from then on small differences grow, and `accuracy` holds for the extremes of the run, \
+         not for values at equal times",
+        strike.time
+    ))
+}

@@ -1,0 +1,21 @@
+//! The first strike of a flange or a stop, after which runs part.
+
+/// What struck.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StruckBy {
+    /// The flange of this wheel met its rail.
+    Flange(usize),
+    /// This stop of the scene was met.
+    Stop(usize),
+}
+
+/// The first strike of a flange or a stop in a run. A flange or a stop turns a small difference of speeds into one of
+/// times, and each further strike multiplies it: from this time on, values of runs with different accuracies differ at equal
+/// times, while their extremes agree.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Strike {
+    /// Time of the strike.
+    pub time: f64,
+    /// What struck.
+    pub by: StruckBy,
+}
