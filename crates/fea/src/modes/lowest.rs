@@ -69,7 +69,12 @@ impl FactoredFrame {
     /// Grimes, Lewis and Simon (1994), SIAM J. Matrix Anal. Appl. 15.
     pub fn excited_modes(&self, m: &Model, forces: &ExcitingForces, count: usize) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count, DOUBLES_SUFFICE[1])
+        self.lowest_of(
+            &Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass),
+            &mass,
+            count,
+            DOUBLES_SUFFICE[1],
+        )
     }
 
     /// The lowest modes of `part`; its frequencies may have the relative error `error`.
