@@ -22,6 +22,10 @@ QUANTITIES = {
     "vertical_longitudinal": (1, 0),
     "lateral_longitudinal": (2, 0),
 }
+# Members without bending, and the local freedoms that they resist.
+BARS = {"truss": [0], "rod": [0, 3]}
+# Size of a rotation's part in every member, relative to its largest, at which nothing resists the rotation.
+IDLE = 1e-9
 # Most stations: a member cut into many short ones costs digits and time.
 MOST = 96
 # Least distance of a station from its neighbours, by the length of its member.
@@ -112,10 +116,11 @@ class Member:
 
     def active(self):
         """Local freedoms with stiffness, at both ends: 2 x 6."""
-        if self.kind == "truss":
+        if self.kind in BARS:
             held = np.zeros((2, 6), dtype=bool)
-            held[:, 0] = True
-            return held & ~np.any(self.releases[:, 0])
+            for freedom in BARS[self.kind]:
+                held[:, freedom] = not np.any(self.releases[:, freedom])
+            return held
         held = ~self.releases
         for axial in (0, 3):
             held[:, axial] = np.all(held[:, axial])
@@ -135,6 +140,7 @@ class Frame:
     root              node of each body about which it turns
     members           Member
     fixed             (node, freedom): motions held at zero, none of them following from others
+    idle              (body, axis): rotations about axes that are not global and that nothing resists
     springs           (node, freedom, stiffness)
     heads             (number of the station, node, axes of the rail): where loads act and deflections are read
     known             directions of the rail that may be compared
@@ -215,8 +221,9 @@ class Frame:
                     ends.append(self.position[points[end]] + offset)
                     nodes.append(self.node(self.body[points[end]], ends[end]))
                 x = unit(ends[1] - ends[0])
-                y = np.array(get("orientation", up), dtype=float)
-                if kind == "truss" and np.linalg.norm(np.cross(x, y)) <= 1e-6 * np.linalg.norm(y):
+                y = get("orientation", None)
+                y = up if y is None else np.array(y, dtype=float)
+                if kind in BARS and np.linalg.norm(np.cross(x, y)) <= 1e-6 * np.linalg.norm(y):
                     y = np.eye(3)[np.argmin(np.abs(x))]
                 releases = np.zeros((2, 6), dtype=bool)
                 for end in (0, 1):
@@ -227,7 +234,7 @@ class Frame:
                 parts = get("parts", None) or self.spec.get("parts", 1)
                 if other is None:
                     parts = parts if get("parts", None) else 1
-                if kind == "truss":
+                if kind in BARS:
                     parts = 1
                 end = section if other is None else self.spec["sections"][other]
                 self.cells[block, index] = range(len(self.members), len(self.members) + parts)
@@ -344,19 +351,25 @@ class Frame:
             (s["point"], FREEDOMS.index(s["dof"]), s["k"]) for s in self.spec.get("springs", []) if s["k"] > 0.0
         ]
         stiff = np.zeros((len(self.root), 6))
+        turns = [[] for _ in self.root]
         for member in self.members:
             for node, active in zip(member.nodes, member.active()):
                 motion = np.kron(np.eye(2), member.axes) @ self.arm(node)
                 motion[np.abs(motion) <= 1e-12 * max(1.0, self.reach_of(node))] = 0.0
                 stiff[self.body[node]] += np.abs(motion[active]).sum(axis=0)
+                turns[self.body[node]].append(motion[active][:, 3:])
         for node, freedom, _ in self.springs:
             stiff[self.body[node]] += np.abs(self.arm(node)[freedom])
+            turns[self.body[node]].append(self.arm(node)[[freedom], 3:])
         rows = [
             (support["point"], FREEDOMS.index(word))
             for support in self.spec.get("supports", [])
             for word in support["fix"]
         ]
         rows += [(self.root[b], k) for b in range(len(self.root)) for k in range(6) if stiff[b, k] == 0.0]
+        self.idle = [
+            (body, axis) for body in range(len(self.root)) for axis in self.idle_axes(body, turns[body], stiff[body], rows)
+        ]
         rows.sort(key=lambda row: row[0] != self.root[self.body[row[0]]])
         # Rows of one body that follow from others would make a singular system of multipliers.
         self.fixed, kept = [], {}
@@ -377,6 +390,19 @@ class Frame:
             if len(whole) == len(rows):
                 self.fixed = [(n, f) for n, f in self.fixed if self.body[n] != body]
                 self.fixed += [(root, k) for k in whole]
+
+    def idle_axes(self, body, turns, stiff, rows):
+        """Axes, not global, about which neither a member nor a spring nor a support resists the rotation of a body."""
+        held = {freedom for node, freedom in rows if self.body[node] == body}
+        free = [k for k in range(3) if stiff[3 + k] > 0.0 and 3 + k not in held]
+        if not free or any(node != self.root[body] for node, _ in rows if self.body[node] == body):
+            return []
+        parts = np.vstack(turns)[:, free]
+        sizes = np.abs(parts).max(axis=0)
+        _, values, axes = np.linalg.svd(parts / sizes)
+        values = np.append(values, np.zeros(len(free) - len(values)))
+        found = [axis / sizes for axis, value in zip(axes, values) if value <= IDLE * values[0]]
+        return [unit(np.array([axis[free.index(k)] if k in free else 0.0 for k in range(3)])) for axis in found]
 
     def reach_of(self, node):
         return np.linalg.norm(self.position[node] - self.position[self.root[self.body[node]]])

@@ -3,6 +3,7 @@
 
     beams       elasticBeamColumn; ElasticTimoshenkoBeam where they shear
     trusses     Truss with an elastic material
+    rods        twoNodeLink with E A / L and G J / L; springs about axes of rotation that nothing else resists
     rigid       rigidLink beam from the root of a body to each of its other nodes
     supports    fix;  springs  zeroLength to a fixed node
     constraints by transformation, exact; as Lagrange multipliers, exact too, where a body is supported at a node
@@ -78,6 +79,13 @@ class Model:
             held.setdefault(node, [0] * 6)[freedom] = 1
         for node, fix in held.items():
             ops.fix(node + 1, *fix)
+        for body, axis in frame.idle:
+            # No load turns the body about this axis: any stiffness will do.
+            root = frame.root[body]
+            ground = self.node(frame.position[root])
+            ops.fix(ground, *[1] * 6)
+            across = np.eye(3)[np.argmin(np.abs(axis))]
+            self.spring(ground, root + 1, {3: self.turning()}, frame_model.triad(axis, across))
 
     def node(self, position):
         self.nodes += 1
@@ -134,6 +142,11 @@ class Model:
             for node, fix in held.items()
         )
 
+    def turning(self):
+        """A stiffness of rotation of the size that members have."""
+        rods = [m for m in self.frame.members if m.kind == "rod"]
+        return max((m.section["G"] * m.section["J"] / m.whole for m in rods), default=1.0)
+
     def move_roots(self):
         """Roots at released ends, where nothing else needs them: ties there are exact."""
         frame = self.frame
@@ -147,6 +160,9 @@ class Model:
 
     def member(self, member):
         ops, s = self.ops, member.section
+        if member.kind == "rod":
+            self.rod(member)
+            return
         a, b = self.end(member, 0), self.end(member, 1)
         self.elements += 1
         tag = self.elements
@@ -163,6 +179,22 @@ class Model:
             ops.element("ElasticTimoshenkoBeam", tag, a, b, e, g, area, j, iy, iz, *shear, tag)
         else:
             ops.element("elasticBeamColumn", tag, a, b, *numbers, tag)
+
+    def rod(self, member):
+        """Springs along and about the axis between its nodes."""
+        s = member.section
+        stiffness = {0: s["E"] * s["A"] / member.whole, 3: s["G"] * s["J"] / member.whole}
+        tags, directions = [], []
+        for freedom in np.flatnonzero(member.active()[0]):
+            self.materials += 1
+            self.ops.uniaxialMaterial("Elastic", self.materials, float(stiffness[freedom]))
+            tags.append(self.materials)
+            directions.append(int(freedom) + 1)
+        if tags:
+            self.elements += 1
+            a, b = (node + 1 for node in member.nodes)
+            orient = [float(v) for v in member.axes[:2].ravel()]
+            self.ops.element("twoNodeLink", self.elements, a, b, "-mat", *tags, "-dir", *directions, "-orient", *orient)
 
     def solve(self):
         """Displacements of the heads: unit load (3 head + direction) x head x 3."""

@@ -31,13 +31,15 @@ def stiffness(frame):
         model.add_node(f"N{k}", *(float(x) for x in position))
     for k, member in enumerate(frame.members):
         s, name = member.section, f"M{k}"
-        truss = member.kind == "truss"
+        beam, held = member.kind == "beam", member.active()[0]
         e, g = s["E"], s["G"] or s["E"]
         model.add_material(name, e, g, 0.3, 0.0)
-        model.add_section(name, s["A"], *(0.0 if truss else s[key] for key in ("Iy", "Iz", "J")))
+        area = s["A"] if beam or held[0] else 0.0
+        bending = (s["Iy"], s["Iz"]) if beam else (0.0, 0.0)
+        model.add_section(name, area, *bending, s["J"] if beam or held[3] else 0.0)
         model.add_member(name, *(f"N{node}" for node in member.nodes), name, name)
         model.members[name].rotation = rotation(model, name, member.axes)
-        if member.releases.any() and not truss:
+        if member.releases.any() and beam:
             model.def_releases(name, *(bool(r) for r in member.releases.ravel()))
     for node, freedom, k in frame.springs:
         dof = ["DX", "DY", "DZ", "RX", "RY", "RZ"][freedom]
@@ -59,6 +61,8 @@ def kinematics(frame):
     rows = {}
     for node, freedom in frame.fixed:
         rows.setdefault(frame.body[node], []).append(frame.arm(node)[freedom])
+    for body, axis in frame.idle:
+        rows.setdefault(body, []).append(np.concatenate([np.zeros(3), axis]))
     free, start = [], [0]
     for body in range(len(frame.root)):
         basis = np.eye(6)

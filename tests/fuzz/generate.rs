@@ -59,16 +59,16 @@ fn theory(draw: &mut Draw<'_>) -> &'static str {
     draw.one(&["timoshenko", "euler-bernoulli"])
 }
 
-/// A straight girder over one to four spans, sometimes with numbers of extreme sizes.
+/// A straight girder over one to three spans, sometimes with numbers of extreme sizes.
 fn girder(draw: &mut Draw<'_>) -> Value {
     let extreme = if draw.rarely(4) { 1e12 } else { 1e2 };
     let mut spans = Vec::new();
-    for _ in 0..=draw.below(4) {
+    for _ in 0..=draw.below(3) {
         spans.push(draw.size(0.1, 0.1 * extreme));
     }
     let overhangs = if draw.rarely(3) { [draw.size(1e-3, 10.0), draw.size(1e-3, 10.0)] } else { [0.0; 2] };
     let end = spans.iter().sum::<f64>() + overhangs[1];
-    let count = 2 + draw.below(12);
+    let count = 2 + draw.below(4);
     let station = |k: usize| -overhangs[0] + (end + overhangs[0]) * k as f64 / (count - 1) as f64;
     let mut stations: Vec<f64> = (0..count).map(station).collect();
     if let Some(last) = stations.last_mut() {
@@ -98,9 +98,9 @@ fn girder(draw: &mut Draw<'_>) -> Value {
 
 /// A frame of points on a coarse grid, with members between any of them and a rail along the first few.
 fn frame(draw: &mut Draw<'_>) -> Value {
-    let along = 2 + draw.below(4);
+    let along = 2 + draw.below(3);
     let mut points: Vec<[f64; 3]> = (0..along).map(|k| [2.0 * k as f64, 0.0, 0.0]).collect();
-    for _ in 0..draw.below(6) {
+    for _ in 0..draw.below(4) {
         points.push([
             draw.below(9) as f64,
             draw.one(&[-4.0, -2.0, -1e-3, 2.0]),
@@ -108,7 +108,7 @@ fn frame(draw: &mut Draw<'_>) -> Value {
         ]);
     }
     let mut cells: Vec<[usize; 2]> = (1..along).map(|k| [k - 1, k]).collect();
-    for _ in 0..draw.below(10) {
+    for _ in 0..draw.below(7) {
         cells.push([draw.below(points.len()), draw.below(points.len())]);
     }
     cells.retain(|[a, b]| a != b && points[*a] != points[*b]);
@@ -143,7 +143,7 @@ fn frame(draw: &mut Draw<'_>) -> Value {
                        "orientation": [orientations] },
         "materials": [{ "name": "steel", "E": 2.1e8, "G": 8.1e7, "density": 7.85 }],
         "sections": [section], "supports": supports,
-        "rails": { "rail": { "axis": [1, 0, 0], "segments": segments, "stations": [0, 0.3 * end, 0.6 * end, end] } }
+        "rails": { "rail": { "axis": [1, 0, 0], "segments": segments, "stations": [0, 0.3 * end, end] } }
     });
     if draw.rarely(3) {
         let k = draw.size(1e-3, 1e12);
@@ -166,8 +166,14 @@ pub fn scene(bytes: &[u8]) -> (String, String) {
     let foundation = draw.one(&["rigid", "influence", "modal", "full", "parts", "auto"]);
     let mut structure = json!({ "spec": "generated.json", "foundation": foundation });
     if foundation == "modal" || foundation == "full" {
-        structure["elements"] = json!(1 + draw.below(4));
+        structure["elements"] = json!(1 + draw.below(2));
         structure["damping"] = json!(draw.between(0.0, 0.2));
+    }
+    if foundation == "modal" {
+        structure["modes"] = json!(1 + draw.below(2));
+    }
+    if foundation == "auto" {
+        structure["tolerance"] = json!(draw.one(&[0.3, 0.1, 0.01]));
     }
     let lateral = draw.rarely(3);
     let mut dof = vec!["x", "y", "pitch"];
@@ -178,19 +184,19 @@ pub fn scene(bytes: &[u8]) -> (String, String) {
     let inertia = [mass, mass, mass * draw.size(0.1, 10.0)];
     let x0 = draw.between(2.0, 4.0);
     let body = json!({ "mass": mass, "inertia": inertia, "dof": dof, "x0": x0 });
-    let end = draw.between(0.01, 0.3);
+    let end = draw.size(1e-3, 0.1);
     let mut scene = json!({
         "format": "girderway-scene/1", "name": "generated", "units": units(), "gravity": 9.81,
         "structures": { "girder": structure }, "bodies": { "car": body }, "wheels": { "wheel": wheel(&mut draw, lateral) },
         "trucks": [{ "body": "car", "rail": "girder.rail", "tree": tree(&mut draw), "wheel": "wheel" }],
-        "motions": [motion(&mut draw)], "end": { "time": end }, "output": { "dt": end / 20.0 },
+        "motions": [motion(&mut draw)], "end": { "time": end }, "output": { "dt": end / 8.0 },
         "accuracy": draw.one(&[1e-2, 1e-4])
     });
     if draw.rarely(3) {
         scene["analysis"] = json!("quasi-static");
     } else if draw.rarely(3) {
         scene["stepper"] = json!(draw.one(&["sdirk4", "radau", "gauss2", "gauss3", "auto"]));
-        scene["step"] = json!(end / 50.0);
+        scene["step"] = json!(end / 16.0);
     }
     if draw.rarely(3) {
         let k = draw.size(1.0, 1e6);

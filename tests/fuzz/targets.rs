@@ -432,6 +432,7 @@ fn generated_scene(bytes: &[u8]) -> u64 {
         Ok(document) => document,
         Err(told) => return told,
     };
+    let before = results::before::check(&document);
     let mut known = Vec::new();
     for (_, _, spec) in distinct_specs(&document) {
         match foundations::solve(spec) {
@@ -441,6 +442,7 @@ fn generated_scene(bytes: &[u8]) -> u64 {
     }
     match results::cases::simulate(&document, &known, Some(1), &|_| ()) {
         Ok(cases) => {
+            assert!(before.is_ok(), "refused before the run, which succeeds: {before:?}: {scene}\n{spec}");
             for case in &cases {
                 let finite =
                     case.columns.columns.iter().all(|one| one.values.iter().all(|value| value.is_finite()));

@@ -1,5 +1,7 @@
 //! NASTRAN bulk data: published displacements, formats that mean the same, cards by hand.
 
+use std::process::Command;
+
 use fea::MemberKind;
 use formats::units::{Force, Length};
 use import::ImportOptions;
@@ -513,6 +515,64 @@ fn rods_with_and_without_j_have_the_same_frequencies() {
             assert!((a / b - 1.0).abs() < tolerance, "{with:?} {without:?}");
         }
     }
+}
+
+/// A mass on three rods: 20.4687 Hz ([`rod_tripod`], analytic). Its rail lies on a
+/// rod, which carries no load across its axis.
+#[test]
+fn modes_of_imported_rods_need_no_rail_that_carries_wheels() {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let path = |name: &str| folder.path().join(name);
+    for (name, j) in [("with", ",1.-7"), ("without", "")] {
+        let cards = format!(
+            "GRID,1,,0.,0.,0.,,123456\nGRID,2,,0.,0.,3.,,456\nGRID,3,,4.,0.,0.,,123456\n\
+             GRID,4,,0.,4.,0.,,123456\nCROD,1,1,1,2\nCROD,2,1,3,2\nCROD,3,1,4,2\nPROD,1,1,.001{j}\n\
+             MAT1,1,2.1+11,,.3,7850.\nCONM2,9,2,,1000.\n"
+        );
+        std::fs::write(path("rods.bdf"), cards).expect("a writable folder");
+        let program = |arguments: &str| {
+            let mut command = Command::new(env!("CARGO_BIN_EXE_girderway"));
+            command
+                .current_dir(folder.path())
+                .args(arguments.split(' '))
+                .output()
+                .expect("the program starts")
+        };
+        let import = "import rods.bdf --length m --force N --up 0,0,1 -o rods.json --rail";
+        let refused = program(&format!("{import} r=1,2"));
+        assert_eq!(refused.status.code(), Some(2));
+        assert!(String::from_utf8_lossy(&refused.stderr).contains("leave out elements along which no wheel"));
+        assert!(program(&format!("{import} r=2")).status.success());
+        assert_eq!(program("fea rods.json").status.code(), Some(3), "no direction has a grid");
+        let found = program("fea rods.json --modes 3 -o grid.json");
+        let words = String::from_utf8_lossy(&found.stderr);
+        assert!(found.status.success(), "{words}");
+        assert!(words.contains("modes: 20.4687") && words.contains("no vertical grids"), "{name} J: {words}");
+        let grid: serde_json::Value =
+            serde_json::from_slice(&std::fs::read(path("grid.json")).expect("the file written"))
+                .expect("JSON");
+        let lowest = grid["modes"]["modes"][0]["hz"].as_f64().expect("a number");
+        assert!((lowest - rod_tripod()).abs() < 1e-9 * lowest, "{lowest}");
+        let read = program("splines grid.json -o tables.adm");
+        assert_eq!(read.status.code(), Some(2), "{}", String::from_utf8_lossy(&read.stderr));
+    }
+}
+
+/// Lowest frequency of the mass on three rods: K = sum EA/L n n^T at the joint, M = 1000 kg and a third of the mass of
+/// each rod (analytic).
+fn rod_tripod() -> f64 {
+    let (ea, line) = (2.1e11 * 0.001, 7850.0 * 0.001);
+    let mut stiffness = nalgebra::Matrix3::<f64>::zeros();
+    let mut mass = 1000.0;
+    for foot in [[0.0, 0.0, 0.0], [4.0, 0.0, 0.0], [0.0, 4.0, 0.0]] {
+        let way: nalgebra::Vector3<f64> =
+            nalgebra::Vector3::new(0.0, 0.0, 3.0) - nalgebra::Vector3::from(foot);
+        let length = way.norm();
+        let axis: nalgebra::Vector3<f64> = way / length;
+        stiffness += axis * axis.transpose() * (ea / length);
+        mass += line * length / 3.0;
+    }
+    (stiffness.symmetric_eigen().eigenvalues.min() / mass).sqrt() / std::f64::consts::TAU
 }
 
 #[test]

@@ -94,6 +94,14 @@ pub enum Error {
         /// Largest number allowed.
         most: usize,
     },
+    /// All modes were asked for, of a mesh of too many elements.
+    #[error("a mesh of {elements} elements: at most {most} have all their modes found together")]
+    Elements {
+        /// Number of elements.
+        elements: usize,
+        /// Largest number allowed.
+        most: usize,
+    },
     /// A rail was asked for, but none was given.
     #[error("no rail was given")]
     NoRails,

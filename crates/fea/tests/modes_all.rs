@@ -3,7 +3,7 @@
 mod common;
 
 use common::{mill, paper, probes};
-use fea::{BeamTheory, Error, ExcitingForces, FactoredFrame, full_modes, modes};
+use fea::{BeamTheory, Error, ExcitingForces, FactoredFrame, check_full_modes, full_modes, modes};
 use splines::Axis;
 
 /// Two algorithms that share only the matrices: dense eigenvalues, and block Lanczos with a count.
@@ -54,6 +54,12 @@ fn too_many_unknowns_are_refused_before_they_are_solved() {
     let mut girder = paper();
     girder.mass_per_length = Some(15.2);
     let (model, rail) = girder.model_and_rail().expect("a girder on two supports");
-    let refused = full_modes(&model, &[rail], &ExcitingForces::vertical(), 1000).expect_err("6,000 unknowns");
+    let rails = [rail];
+    let refused = full_modes(&model, &rails, &ExcitingForces::vertical(), 1000).expect_err("6,000 unknowns");
     assert!(matches!(refused, Error::TooManyModes { unknowns, most: 3000 } if unknowns > 3000), "{refused}");
+    // the check without a factor counts the same unknowns
+    let check = |elements: usize| check_full_modes(&model, &rails, &ExcitingForces::vertical(), elements);
+    assert_eq!(check(1000), Err(refused));
+    assert_eq!(check(500), Ok(()));
+    assert!(matches!(check(1_000_000), Err(Error::Elements { most: 100_000, .. })));
 }

@@ -80,7 +80,7 @@ pub enum Error {
 fn hint(error: &fea::Error) -> &'static str {
     match error {
         fea::Error::NoMass => "  hint: give its materials a density, or the girder `mass_per_length`",
-        fea::Error::TooManyModes { .. } => {
+        fea::Error::TooManyModes { .. } | fea::Error::Elements { .. } => {
             "  hint: use \"modal\", or `modes` of \"ties\", to compute only the lowest modes, or use fewer `elements`"
         }
         _ => "",

@@ -24,10 +24,11 @@
 //! assert!((influence.value[(0, 0)] - expected).abs() < 1e-12 * expected);
 //! ```
 //!
-//! Wings, lowest first: error, solved, tables, mount, built, modal, parts, build, select
+//! Wings, lowest first: error, solved, tables, mount, built, modal, parts, build, check, select
 
 mod build;
 mod built;
+mod check;
 mod error;
 mod modal;
 mod mount;
@@ -38,6 +39,7 @@ mod tables;
 
 pub use build::{build, full_mesh_foundation, rigid_parts_foundation};
 pub use built::{BuiltFoundation, MotionBasis, RigidParts};
+pub use check::check_scene;
 pub use error::Error;
 pub use modal::ModeCache;
 pub use mount::mount;

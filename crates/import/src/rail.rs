@@ -115,7 +115,7 @@ pub fn rail_along_members(
             let id = structure.members[member].id;
             return Err([
                 format!("must not contain element {id}, which is perpendicular to it"),
-                hint.to_owned(),
+                format!("leave out elements along which no wheel can run, or {hint}"),
             ]);
         }
         ends.extend([a, b]);

@@ -102,7 +102,12 @@ fn run_case(
     let foundations::AutoRun { choices, run, built } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {
             let why = crate::run_error::in_scene_names(&error, &case.scene);
-            Error::Run { label: label.clone(), why }
+            let at_fault = match error {
+                sim::Error::NoEquilibrium { body, .. } => body,
+                _ => None,
+            };
+            let body = at_fault.map(|body| case.scene.bodies[body].name.clone());
+            Error::Run { label: label.clone(), why, body }
         }
         other => Error::Foundation(other),
     })?;

@@ -23,9 +23,10 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, warning,
+//! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, before, warning,
 //! summary, observe, cases
 
+pub mod before;
 pub mod case_result;
 pub mod cases;
 pub mod codes;

@@ -31,6 +31,19 @@ pub fn reason_incomplete(status: &Status, scene: &Scene) -> Option<String> {
     }
 }
 
+/// Hint for a scene without a static equilibrium.
+pub(crate) fn equilibrium_hint(scene: &Scene) -> String {
+    let carried = if scene.structures.iter().any(|one| one.carrier.is_some()) {
+        ", and `at` of the structures on bodies"
+    } else {
+        ""
+    };
+    format!(
+        "the centre of mass of each body (`cg`), including loads that hang or stand on it, must lie between its \
+         wheels: check `at` and `tree` of the trucks{carried}, or give the body a `start`"
+    )
+}
+
 /// The message of a simulation error with the names of `scene` in place of indices, and a hint where one is known.
 #[must_use]
 pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
@@ -60,17 +73,9 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
             body(*b),
             DOFS[*dof as usize]
         ),
-        Error::NoEquilibrium { .. } => {
-            let carried = if scene.structures.iter().any(|one| one.carrier.is_some()) {
-                ", and `at` of the structures on bodies"
-            } else {
-                ""
-            };
-            format!(
-                "{error}  hint: the centre of mass of each body (`cg`), including loads that hang or stand on it, \
-                 must lie between its wheels: check `at` and `tree` of the trucks{carried}, or give the body a \
-                 `start`"
-            )
+        Error::NoEquilibrium { body: unbalanced, .. } => {
+            let of = unbalanced.map_or_else(String::new, |b| format!(" of {}", body(b)));
+            format!("{error}{of}  hint: {}", equilibrium_hint(scene))
         }
         _ => error.to_string(),
     }

@@ -75,7 +75,7 @@ pub use instant::natural::{NaturalMode, natural_modes};
 pub use numerics::step::step;
 pub use record::energy::{Audit, EnergyGap, EnergyGaps, GapCause};
 pub use record::history::History;
-pub use run::{Run, Status, run, run_by};
+pub use run::{Run, Status, check_equilibrium, run, run_by};
 pub use scene::actuators::{Actuators, Brake, Drive, Load, PrescribedSpin};
 pub use scene::body::{Body, Contact, Pin};
 pub use scene::carrier::{CarriedRail, Carrier};

@@ -209,6 +209,44 @@ fn attempt(
     }
 }
 
+/// Checks that `scene` has a static equilibrium at its start on `foundations`, without integrating it. A scene with a
+/// body that starts at a given displacement needs none.
+///
+/// Whether forces of one-sided contacts can balance the weights does not depend on the stiffness of rails, except
+/// through the slopes of rails and the forces of flanges and springs. On [`Foundation::rigid`] the check needs the
+/// scene alone.
+///
+/// ```
+/// use sim::{Body, Contact, Damper, Error, Foundation, NormalLaw, Scene, Wheel};
+///
+/// // Both wheels are on one side of the centre of mass.
+/// let mut scene = Scene {
+///     bodies: vec![Body::new(1000.0, [1.0; 3])],
+///     wheels: vec![Wheel::new(0.5, NormalLaw::linear(1e7, 0.0, Damper::Rail))],
+///     contacts: vec![Contact::new(0, [1.0, 0.0, 0.0]), Contact::new(0, [2.0, 0.0, 0.0])],
+///     ..Scene::default()
+/// };
+/// scene.bodies[0].free = [false, true, false, false, false, true];
+/// scene.gravity = 9.81;
+/// let found = sim::check_equilibrium(&scene, &[Foundation::rigid()]);
+/// assert_eq!(found, Err(Error::NoEquilibrium { time: 0.0, body: Some(0) }));
+/// ```
+///
+/// # Errors
+/// [`Error::NoEquilibrium`], and those of a scene that cannot be set up.
+pub fn check_equilibrium(scene: &Scene, foundations: &[Foundation]) -> Result<(), Error> {
+    let system = System::new(scene, foundations)?;
+    if scene.analysis == Analysis::Dynamic && placed(&system) {
+        return Ok(());
+    }
+    let mut state = system.state();
+    set(&system, &mut state.q, |body| body.start);
+    let mut solver = Solver::new(&system, RailMemory::Known)?;
+    locate_wheels(&mut solver, &state)?;
+    place_below_ropes(&mut solver, &mut state)?;
+    equilibrate(&mut solver, &mut state)
+}
+
 /// Sets the entries of every body's degrees of freedom to the six values that `of` returns for the body.
 fn set(system: &System, values: &mut DVector<f64>, of: impl Fn(&Body) -> [f64; 6]) {
     for (body, numbers) in system.scene.bodies.iter().zip(&system.mechanics.kinematics.numbers) {
@@ -268,7 +306,7 @@ fn begin(system: &System, solver: &mut Solver, state: &mut State) -> Result<(), 
         follow_rigid_rails(solver, state);
     }
     let is_settled = if is_placed { settle(solver, state)? } else { settle_start(solver, state)? };
-    if is_settled { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0 }) }
+    if is_settled { Ok(()) } else { Err(Error::NoEquilibrium { time: 0.0, body: None }) }
 }
 
 /// Takes steps to the end of the scene, recording samples at the output times and executing rules; returns how the

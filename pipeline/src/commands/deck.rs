@@ -39,6 +39,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         return Err(document.inputs.all()[0].source()?.diagnose(&unsupported).into());
     }
     let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
+    results::before::check(&only)?;
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
         DeckForm::of_readings(scene.structures.iter().map(|structure| structure.interpolation))

@@ -32,7 +32,8 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     let solved = foundations::solve_to(&spec, args.accuracy, MAX_DOFS);
     drop(stage);
     let solved = solved.map_err(|error| spec.locate_error(&source, &error))?;
-    if solved.grid.blocks.is_empty() {
+    // natural modes need no rail that resists loads
+    if solved.grid.blocks.is_empty() && args.modes.is_none() {
         let notes = solved.grid.notes.join("; ");
         return Err(Failure::untrusted(format_args!("{}: {notes}", source.name)));
     }

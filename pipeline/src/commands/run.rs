@@ -22,6 +22,7 @@ use formats::text::place::Place;
 use foundations::{SolvedModel, SolvedStructure, distinct_specs, solution_of, solve_specs};
 use report::figures::run::{OmittedFigure, figures};
 use report::text::run_report;
+use results::before;
 use results::case_result::CaseResult;
 use results::cases::{SimulationProgress, simulate};
 use results::columns::peak;
@@ -46,6 +47,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let progress = Progress::new(global);
     let mut clock = StageClock::new();
     let document = Document::open(&args.scene)?;
+    before::check(&document)?;
     let scene = document.scene();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&scene.name));
     check_names(&document, &path)?;
@@ -109,25 +111,23 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     finish(&outcomes, &summary, &written, &document, global, &progress)
 }
 
-/// Converts an error of the simulation. Elements that are too many for all modes to be found, and a structure whose
-/// mass cannot move, are located in the scene.
+/// Converts an error of the simulation. Faults of the scene that only its solved structures show, and bodies without a
+/// static equilibrium on them, are located in the scene.
 fn located(document: &Document, error: results::Error) -> Failure {
-    let results::Error::Foundation(foundations::Error::Modes { structure, source }) = &error else {
-        return error.into();
+    let diagnosed = |fault: Fault| match document.inputs.all()[0].source() {
+        Ok(scene) => scene.diagnose(&Faults(vec![fault])),
+        Err(wrong) => vec![*wrong],
     };
-    let (key, hint) = match source {
-        fea::Error::TooManyModes { .. } => {
-            ("elements", "use fewer, or \"modal\", which computes only the lowest modes")
+    match &error {
+        results::Error::Foundation(found) => match before::of_error(found, document.scene()) {
+            Some(fault) => Failure::Input(diagnosed(fault)),
+            None => error.into(),
+        },
+        results::Error::Run { body: Some(body), .. } => {
+            let fault = Fault::new(&Place::root().key("bodies").key(body), error.to_string()).at_key();
+            Failure::Untrusted(diagnosed(fault).iter().map(ToString::to_string).collect())
         }
-        fea::Error::NoMass => ("foundation", "give its materials a density, or the girder `mass_per_length`"),
-        _ => return error.into(),
-    };
-    let root = Place::root();
-    let list = root.key("structures");
-    let fault = Fault::new(&list.key(structure).key(key), source.to_string());
-    match document.inputs.all()[0].source() {
-        Ok(scene) => Failure::Input(scene.diagnose(&Faults(vec![fault.hint(hint)]))),
-        Err(wrong) => wrong.into(),
+        _ => error.into(),
     }
 }
 

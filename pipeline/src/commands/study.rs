@@ -26,7 +26,13 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let mut document = Document::open(&args.scene)?;
     let name = document.scene().name.clone();
+    let label = args.case.clone();
+    let chosen = Document {
+        cases: document.cases.iter().filter(|case| case.label == label).cloned().collect(),
+        inputs: document.inputs.clone(),
+    };
     document.cases = vec![case(&document, args)?];
+    results::before::check(&chosen)?;
     let scene = document.scene().clone();
     let folder = || PathBuf::from("girderway-out").join(format!("{name}-study"));
     let path = args.output.clone().unwrap_or_else(folder);

@@ -1,15 +1,18 @@
 //! Items of a scene that decks do not support, with their places in the scene file.
 
+use adams::SplineValues;
 use formats::scene::{self, BodyMotion, Scene};
 use formats::text::fault::{Fault, Faults};
 use formats::text::place::Place;
 
 /// All items of a scene that decks do not support: ropes, stops, events, drives, brakes, loads, irregularities, pinned
-/// bodies, foundations with masses and similar items. They are known before any structure is solved.
+/// bodies, foundations with masses, rails with too few stations and similar items. They are known before any structure is
+/// solved.
 #[must_use]
 pub fn unsupported(scene: &Scene) -> Faults {
     let mut faults = Faults::default();
     structures(scene, &mut faults);
+    stations(scene, &mut faults);
     bodies(scene, &mut faults);
     actions(scene, &mut faults);
     faults
@@ -44,6 +47,28 @@ fn structures(scene: &Scene, faults: &mut Faults) {
                 let why = format!("structure \"{name}\": a deck cannot have the foundation \"{word}\"");
                 faults.add(Fault::new(&at.key("foundation"), why).hint("use \"influence\" or \"rigid\""));
             }
+        }
+    }
+}
+
+/// Refuses flexible rails under wheels with fewer stations than a SPLINE must have.
+fn stations(scene: &Scene, faults: &mut Faults) {
+    let root = Place::root();
+    let list = root.key("structures");
+    let least = SplineValues::MIN_POINTS;
+    for (index, on_scene) in scene.rails.iter().enumerate() {
+        let structure = &scene.structures[on_scene.structure];
+        let stations = structure.rails[on_scene.rail].stations.len();
+        let has_wheels = scene.trucks.iter().any(|truck| truck.rail == index);
+        let is_flexible = structure.foundation == scene::Foundation::Influence;
+        if is_flexible && has_wheels && stations < least {
+            let key = match structure.origin {
+                scene::Origin::Spec { .. } => "spec",
+                scene::Origin::Tables { .. } => "tables",
+            };
+            let why = format!("rail {} needs at least {least} stations for a deck", on_scene.name);
+            let fault = Fault::new(&list.key(&structure.name).key(key), why).got(stations);
+            faults.add(fault.hint("a SPLINE has four x values or more"));
         }
     }
 }

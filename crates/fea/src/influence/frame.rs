@@ -9,6 +9,7 @@ use crate::assembly::{Bodies, Combination, Element, Extended, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
 use crate::influence::layout::{ExactLayout, Layout};
+use crate::influence::load::RailLoads;
 use crate::model::{Model, Rail};
 
 /// Accuracy of [`FactoredFrame::new`]: largest relative error bound of a compliance.
@@ -145,6 +146,16 @@ impl FactoredFrame {
             })
     }
 
+    /// Loads of forces on the rails.
+    pub(crate) fn rail_loads(&self) -> RailLoads<'_> {
+        RailLoads {
+            line: self.line.as_deref(),
+            states: &self.states,
+            bodies: &self.bodies,
+            numbering: &self.stiffness.numbering,
+        }
+    }
+
     /// Displacements and rotations of all states over the motions of the bodies.
     pub(crate) fn states(&self) -> &[[Combination; 6]] {
         &self.states
@@ -187,12 +198,7 @@ impl FactoredFrame {
 
     /// Displacement at a probe over the motions of the bodies, and the rail element of the probe.
     pub(crate) fn row(&self, probe: Probe) -> Result<(Combination, usize), Error> {
-        let row = self.line()?.row(probe)?;
-        let mut sum = Combination::default();
-        for (&index, &value) in row.indices().iter().zip(row.values()) {
-            sum.add_scaled(&self.states[index / 6][index % 6], value);
-        }
-        Ok((sum, row.element))
+        self.rail_loads().row(probe)
     }
 
     /// Scaled load of a unit force at a probe, and the rail element of the probe.
@@ -206,23 +212,13 @@ impl FactoredFrame {
     /// A combination as a load on the scaled unknowns; `None` if it acts on a degree of freedom that nothing
     /// stiffens.
     pub(crate) fn scaled(&self, row: &Combination) -> Option<SparseLoad> {
-        let mut load = Vec::with_capacity(row.terms.len());
-        for (column, value) in self.bodies.supported(row).significant() {
-            let k = self.unknown(column)?;
-            load.push((k, value * self.scale(k)));
-        }
-        Some(load)
+        self.rail_loads().scaled(row)
     }
 
     /// A combination as a load on the scaled unknowns, without what acts on degrees of freedom that nothing
     /// stiffens.
     pub(crate) fn scaled_where_stiffened(&self, row: &Combination) -> SparseLoad {
-        let supported = self.bodies.supported(row);
-        let terms = supported.significant().filter_map(|(column, value)| {
-            let k = self.unknown(column)?;
-            Some((k, value * self.scale(k)))
-        });
-        terms.collect()
+        self.rail_loads().scaled_where_stiffened(row)
     }
 
     /// Motion of the references of all bodies under a scaled load.

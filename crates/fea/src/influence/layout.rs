@@ -106,6 +106,9 @@ impl Layout {
             builder.lay(m, index, rail)?;
         }
         let line = Rails::new(builder.exact.elements.iter().map(rounded).collect())?;
+        let rest = |x: Extended| (x - Extended::from(x.double())).double();
+        let rests = builder.exact.elements.iter().map(|element| element.x.map(rest)).collect();
+        let line = line.with_rests(rests);
         Ok(Layout { line, states: builder.states, exact: builder.exact })
     }
 }

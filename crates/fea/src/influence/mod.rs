@@ -9,7 +9,7 @@
 //! with the Green's function b of the member between fixed ends. `grid` evaluates it at chosen places,
 //! `surface` keeps the compliance of all states, `effects` does the same for reactions and internal forces.
 //!
-//! Order of the files: `layout`, `frame`, `rounding`, `extended`, `grid`, `surface`, `functional`, `effects`.
+//! Order of the files: `layout`, `load`, `frame`, `rounding`, `extended`, `grid`, `surface`, `functional`, `effects`.
 
 mod effects;
 mod extended;
@@ -17,6 +17,7 @@ mod frame;
 mod functional;
 mod grid;
 mod layout;
+mod load;
 mod rounding;
 mod surface;
 
@@ -25,4 +26,6 @@ pub use frame::{DEFAULT_ACCURACY, FactoredFrame};
 pub(crate) use functional::Functional;
 pub use functional::{Effect, Restraint};
 pub use grid::{InfluenceGrid, grid};
+pub(crate) use layout::Layout;
+pub(crate) use load::RailLoads;
 pub use surface::{CertifiedSurface, point_compliance, surface};

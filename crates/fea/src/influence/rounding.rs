@@ -24,8 +24,8 @@ pub(super) const SECTION: f64 = 4.0;
 const LANES: f64 = 8.0;
 /// Roundings in the compliance of the releases of a member, relative to those of Green's function.
 const RELEASE: f64 = 4.0;
-/// Roundings of double-doubles in loads, Green's function and products: more than there are, for they cost nothing.
-const EXTENDED: f64 = 1024.0;
+/// Roundings of double-doubles in loads, Green's function and products of two loads: 12, 16 and at most 24.
+const EXTENDED: f64 = 64.0;
 /// Rounding of coordinates in double-doubles, in roundings of their sizes.
 const COORDINATE: f64 = 1.0;
 

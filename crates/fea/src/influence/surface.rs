@@ -33,7 +33,9 @@ use crate::model::{Model, Rail};
 pub struct CertifiedSurface {
     /// Influence coefficients at any place of any rail.
     pub surface: ExactSurface,
-    /// Bound of the error of the compliance of its states; the evaluation adds a few roundings.
+    /// Bound of the error of the compliance of its states. The evaluation in doubles adds a few roundings of the terms
+    /// of N C N^T; where the coefficient is much smaller than they are, as beside an end that hardly moves, a grid
+    /// there has a bound of its own.
     pub certificate: Certificate,
 }
 

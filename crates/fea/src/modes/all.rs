@@ -35,14 +35,13 @@ impl FactoredFrame {
     /// As [`FactoredFrame::all_modes`], where only the unknowns that `forces` can move are counted.
     pub fn all_excited_modes(&self, m: &Model, forces: &ExcitingForces) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        self.all_of(&Part::moved_by(forces, self, &mass), &mass)
+        let part = Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass);
+        self.all_of(&part, &mass)
     }
 
     fn all_of(&self, part: &Part, mass: &ScaledMass) -> Result<Modes, Error> {
         let unknowns = part.len();
-        if unknowns > MOST_DENSE_UNKNOWNS {
-            return Err(Error::TooManyModes { unknowns, most: MOST_DENSE_UNKNOWNS });
-        }
+        few_enough(unknowns)?;
         let norms = self.norms(mass)?;
         let modes: Vec<Mode> = spectrum(&part.stiffness, &part.mass, usize::MAX)
             .ok_or(Error::Modes { asked: unknowns, found: 0 })?
@@ -53,6 +52,14 @@ impl FactoredFrame {
         let count = Count { shift, below: modes.len(), next: None };
         Ok(self.collect_modes(modes, count, mass))
     }
+}
+
+/// Refuses more unknowns than dense matrices can have.
+pub(super) fn few_enough(unknowns: usize) -> Result<(), Error> {
+    if unknowns > MOST_DENSE_UNKNOWNS {
+        return Err(Error::TooManyModes { unknowns, most: MOST_DENSE_UNKNOWNS });
+    }
+    Ok(())
 }
 
 /// The lowest `count` (lambda, phi) of K phi = lambda M phi with finite lambda, phi^T M phi = 1, lowest first; K and M

@@ -7,10 +7,10 @@ use nalgebra::{DMatrix, DVector};
 use splines::{Axis, Probe};
 use sprs::{CsMat, TriMat};
 
-use crate::assembly::{bending_planes, transformation};
+use crate::assembly::{ScaledStiffness, bending_planes, transformation};
 use crate::error::Error;
 use crate::factor::Solver;
-use crate::influence::FactoredFrame;
+use crate::influence::{FactoredFrame, RailLoads};
 use crate::model::Model;
 use crate::modes::mass::ScaledMass;
 
@@ -70,15 +70,20 @@ impl Part {
     /// The unknowns that `forces` can move: those that entries of stiffness or mass connect with an unknown on which
     /// a force acts. Their modes, with zeros for the other unknowns, are exactly the modes of the frame that the
     /// forces excite, because the matrices are block diagonal.
-    pub fn moved_by(forces: &ExcitingForces, frame: &FactoredFrame, mass: &ScaledMass) -> Part {
+    pub fn moved_by(
+        forces: &ExcitingForces,
+        loads: RailLoads<'_>,
+        stiffness: &ScaledStiffness,
+        mass: &ScaledMass,
+    ) -> Part {
         let interior = mass.interior.len();
-        let stiffness = with_interior(&frame.stiffness().upper, interior);
+        let stiffness = with_interior(&stiffness.upper, interior);
         let all = stiffness.cols();
         let mut blocks = Blocks::new(all);
         blocks.connect(&stiffness);
         blocks.connect(&mass.upper);
         let mut moved = vec![false; all];
-        for unknown in loaded_unknowns(forces, frame, mass) {
+        for unknown in loaded_unknowns(forces, loads, mass) {
             moved[blocks.root(unknown)] = true;
         }
         let unknowns: Vec<usize> = (0..all).filter(|&unknown| moved[blocks.root(unknown)]).collect();
@@ -164,7 +169,7 @@ impl FactoredFrame {
         forces: &ExcitingForces,
     ) -> Result<Vec<Directions>, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-        let part = Part::moved_by(forces, self, &mass);
+        let part = Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass);
         let mut moves = vec![false; self.unknowns()];
         let of_frame = part.unknowns.iter().filter_map(|unknown| unknown.checked_sub(part.interior));
         of_frame.for_each(|unknown| moves[unknown] = true);
@@ -191,17 +196,17 @@ impl FactoredFrame {
 }
 
 /// The coordinates on which `forces` act. Interior motions are connected with the ends of their members.
-fn loaded_unknowns(forces: &ExcitingForces, frame: &FactoredFrame, mass: &ScaledMass) -> Vec<usize> {
+fn loaded_unknowns(forces: &ExcitingForces, loads: RailLoads<'_>, mass: &ScaledMass) -> Vec<usize> {
     let mut loaded = Vec::new();
-    let elements = frame.line().map_or(&[][..], |line| line.elements());
+    let elements = loads.line.map_or(&[][..], |line| line.elements());
     for element in elements {
         let [a, b] = element.x;
         for at in [0.25, 0.5, 0.75] {
             for &axis in &forces.axes {
                 let probe = Probe { rail: element.rail, x: a + at * (b - a), axis };
                 // Nothing moves in a direction that nothing stiffens.
-                let Ok((row, _)) = frame.row(probe) else { continue };
-                let load = frame.scaled_where_stiffened(&row);
+                let Ok((row, _)) = loads.row(probe) else { continue };
+                let load = loads.scaled_where_stiffened(&row);
                 loaded.extend(load.into_iter().map(|(unknown, _)| mass.interior.len() + unknown));
             }
         }

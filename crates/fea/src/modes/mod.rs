@@ -29,4 +29,4 @@ pub use inertial::InertialEffects;
 pub use lowest::modes;
 pub use mass::rigid_mass;
 pub use mode::{Mode, Modes};
-pub use refined::{RefinedModes, excited_modes, full_modes, refined_modes};
+pub use refined::{RefinedModes, check_full_modes, excited_modes, full_modes, refined_modes};

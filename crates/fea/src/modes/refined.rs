@@ -4,12 +4,17 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use crate::assembly::{Bodies, Element, ScaledStiffness};
 use crate::error::Error;
-use crate::influence::{Effect, FactoredFrame};
+use crate::influence::{Effect, FactoredFrame, Layout, RailLoads};
 use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, Rail, cut_members, flexible_ends};
-use crate::modes::decoupled::{Directions, ExcitingForces};
+use crate::modes::all::few_enough;
+use crate::modes::decoupled::{Directions, ExcitingForces, Part};
+use crate::modes::mass::ScaledMass;
 use crate::modes::mode::{Mode, Modes};
 
+/// Most elements of a mesh of which all modes are asked for; its matrices are assembled to count the unknowns.
+const MOST_ELEMENTS: usize = 100_000;
 /// Most parts of a member.
 const MOST_PARTS: usize = 128;
 /// Parts of each member in the mesh that shows which deformations of it forces can cause.
@@ -223,12 +228,50 @@ pub fn full_modes(
     Ok(RefinedModes { model, rails, parts, error: None, frame: Arc::new(frame), modes })
 }
 
-/// `count` parts for each member that may be cut, 1 for the others.
+/// Parts of each member, for `count` parts of those that may be cut.
 ///
 /// The frame is factored as given, so that whatever is refused is named by the given indices.
 fn first_parts(m: &Model, rails: &[Rail], count: usize) -> Result<Vec<usize>, Error> {
     FactoredFrame::new(m, rails)?;
-    Ok(m.members.iter().map(|member| if divisible(m, member) { count } else { 1 }).collect())
+    Ok(parts_of_each(m, count))
+}
+
+/// `count` parts for each member that may be cut, 1 for the others.
+fn parts_of_each(m: &Model, count: usize) -> Vec<usize> {
+    m.members.iter().map(|member| if divisible(m, member) { count } else { 1 }).collect()
+}
+
+/// Checks that [`full_modes`] has no more unknowns than it accepts, before anything is factored. Time and memory grow
+/// in proportion to the number of elements.
+///
+/// # Errors
+/// [`Error::TooManyModes`]; [`Error::Elements`] for a mesh of more than 100,000 elements; an entry of model or
+/// rails that cannot be used; [`Error::Mechanism`] for a mass in a direction that nothing stiffens.
+pub fn check_full_modes(
+    m: &Model,
+    rails: &[Rail],
+    forces: &ExcitingForces,
+    parts: usize,
+) -> Result<(), Error> {
+    m.check()?;
+    let parts = parts_of_each(m, parts.max(1));
+    let elements = parts.iter().fold(0_usize, |sum, count| sum.saturating_add(*count));
+    if elements > MOST_ELEMENTS {
+        return Err(Error::Elements { elements, most: MOST_ELEMENTS });
+    }
+    let (model, rails) = cut_members(m, rails, &parts);
+    let elements = Element::all(&model)?;
+    let mut bodies = Bodies::new(&model);
+    let layout = Layout::new(&model, &rails, &elements, &bodies)?;
+    let stiffness = ScaledStiffness::new(&model, &elements, &mut bodies)?;
+    let mass = ScaledMass::new(&model, &elements, &bodies, &stiffness)?;
+    let loads = RailLoads {
+        line: Some(&layout.line),
+        states: &layout.states,
+        bodies: &bodies,
+        numbering: &stiffness.numbering,
+    };
+    few_enough(Part::moved_by(forces, loads, &stiffness, &mass).len())
 }
 
 /// Whether a member may be cut: a beam with every axial and bending stiffness that any beam has. Without torsional

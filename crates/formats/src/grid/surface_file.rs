@@ -36,6 +36,8 @@ struct RawCell {
     rail: usize,
     /// First and last coordinate along the rail, length.
     x: [f64; 2],
+    /// What rounding took from them, to be added; none where they are exact.
+    x_rest: Option<[f64; 2]>,
     /// Indices of the two end states.
     ends: [usize; 2],
     /// Length of the element.
@@ -60,7 +62,8 @@ pub(crate) fn to_json(surface: &ExactSurface) -> Value {
         .rails()
         .elements()
         .iter()
-        .map(|cell| {
+        .zip(surface.rails().rests())
+        .map(|(cell, rest)| {
             let f = &cell.flexibility;
             let mut object = json!({
                 "rail": cell.rail,
@@ -71,6 +74,9 @@ pub(crate) fn to_json(surface: &ExactSurface) -> Value {
                 "offset": cell.offset,
                 "flexibility": [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
             });
+            if *rest != [0.0; 2] {
+                object["x_rest"] = json!(rest);
+            }
             if let Some(carrier) = cell.member {
                 object["member"] = json!(carrier.id);
                 if carrier.reversed {
@@ -107,8 +113,18 @@ impl RawSurface {
                 }
             })
             .collect();
+        let rests: Vec<[f64; 2]> = self.cells.iter().map(|raw| raw.x_rest.unwrap_or_default()).collect();
+        for (index, (raw, rest)) in self.cells.iter().zip(&rests).enumerate() {
+            if raw.x.iter().zip(rest).any(|(x, rest)| x + rest != *x) {
+                let list = place.key("cells");
+                let fault =
+                    Fault::new(&list.index(index).key("x_rest"), "must be less than the rounding of `x`");
+                faults.add(fault.got(format!("{rest:?}")));
+                return None;
+            }
+        }
         let line = match Rails::new(cells) {
-            Ok(line) => Arc::new(line),
+            Ok(line) => Arc::new(line.with_rests(rests)),
             Err(error) => {
                 faults.add(Fault::new(&place.key("cells"), error.to_string()));
                 return None;

@@ -66,6 +66,7 @@ impl Spec {
             | Error::Rail(_)
             | Error::NoMass
             | Error::TooManyModes { .. }
+            | Error::Elements { .. }
             | Error::Modes { .. } => SolveError::NoSolution(format!("{}: {error}", source.name)),
         }
     }

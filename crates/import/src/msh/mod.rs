@@ -15,6 +15,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 pub use sections::{FORMAT, Sections};
 
+use fea::MemberKind;
+
 use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
@@ -60,7 +62,7 @@ pub fn read(
             findings.error(ImportFinding::new(at, about, "must have a positive length"));
             continue;
         }
-        if !group.truss && orientation.is_none_or(|vector| parallel(vector, along)) {
+        if group.kind == MemberKind::Beam && orientation.is_none_or(|vector| parallel(vector, along)) {
             if reported.insert(curve) {
                 let hint = format!("state the `orientation` of \"{name}\" in `members` of the sections file");
                 let expected = "must have an orientation that is not parallel to it";
@@ -74,10 +76,10 @@ pub fn read(
         structure.members.push(ImportedMember {
             id,
             points: [a, b],
-            kind: if group.truss { fea::MemberKind::Truss } else { fea::MemberKind::Beam },
+            kind: group.kind,
             section: group.section,
             section_b: None,
-            orientation: if group.truss { None } else { group.orientation },
+            orientation: group.orientation.filter(|_| group.kind == MemberKind::Beam),
             offsets: [[0.0; 3]; 2],
             releases: group.releases,
         });

@@ -1,10 +1,11 @@
 //! The sections file: materials, sections and the properties of members by physical group.
 //!
 //! A section that no entry of `members` uses applies to the physical group of the same name. A section of beams must
-//! have A, Iy, Iz and J, and a material with G; a section that only trusses use must have A.
+//! have A, Iy, Iz and J, and a material with G; one that only rods use A, J and G; one that only trusses use A.
 
 use std::collections::BTreeMap;
 
+use fea::MemberKind;
 use serde::Deserialize;
 
 use crate::structure::{ImportedMaterial, ImportedSection};
@@ -76,8 +77,8 @@ struct RawMember {
 pub struct SectionGroup {
     /// Index of the section.
     pub section: usize,
-    /// Whether the members have axial stiffness only.
-    pub truss: bool,
+    /// Kind of the members.
+    pub kind: MemberKind,
     /// Direction of the local y axis; `None` means upward.
     pub orientation: Option<[f64; 3]>,
     /// Released degrees of freedom at ends a and b.
@@ -203,9 +204,9 @@ fn named_groups(
         let mut group = SectionGroup { orientation: raw.orientation, ..SectionGroup::default() };
         let wanted = raw.section.as_ref().unwrap_or(name);
         let position = sections.iter().position(|section| section.name == *wanted);
-        let kinds = [("beam", false), ("truss", true)];
+        let kinds = [("beam", MemberKind::Beam), ("truss", MemberKind::Truss), ("rod", MemberKind::Rod)];
         if let Some(word) = &raw.kind {
-            group.truss = faults.one_of(word, &at.key("kind"), &kinds).unwrap_or_default();
+            group.kind = faults.one_of(word, &at.key("kind"), &kinds).unwrap_or_default();
         }
         for (end, (key, words)) in
             [("release_a", &raw.release_a), ("release_b", &raw.release_b)].into_iter().enumerate()
@@ -251,22 +252,22 @@ fn groups(
         if !groups.contains_key(&section.name) && groups.values().all(|group| group.section != index) {
             groups.insert(section.name.clone(), SectionGroup { section: index, ..SectionGroup::default() });
         }
-        // trusses require the area only
+        // trusses require the area only, rods the area and the torsion constant
         let used: Vec<&SectionGroup> = groups.values().filter(|group| group.section == index).collect();
-        let beams = used.iter().any(|group| !group.truss);
+        let beams = used.iter().any(|group| group.kind == MemberKind::Beam);
+        let twists = used.iter().any(|group| group.kind != MemberKind::Truss);
         let at = list.index(index);
         for (key, value) in [("A", section.area), ("Iy", section.iy), ("Iz", section.iz), ("J", section.j)] {
-            if value.is_none() && (beams || key == "A") {
-                let hint = "beams need A, Iy, Iz and J; trusses need the kind \"truss\" in `members`";
+            if value.is_none() && (beams || key == "A" || key == "J" && twists) {
+                let hint = "beams need A, Iy, Iz and J; rods and trusses need their `kind` in `members`";
                 faults.add(Fault::new(&at, format!("missing key `{key}`")).hint(hint));
             }
         }
         let stiff =
             materials.iter().any(|material| material.name == section.material && material.g.is_none());
-        if beams && stiff {
-            faults.add(
-                Fault::new(&at, "its material needs `G`").hint("torsion and shear of beams depend on it"),
-            );
+        if twists && stiff {
+            let hint = "torsion of beams and rods and shear of beams depend on it";
+            faults.add(Fault::new(&at, "its material needs `G`").hint(hint));
         }
     }
     groups

@@ -34,7 +34,7 @@ const BALANCE: f64 = 1e-6;
 /// [`Error::NoEquilibrium`] if the wheels cannot carry the bodies, and any error from evaluating the structures.
 pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
-    let none = Error::NoEquilibrium { time: at.t };
+    let none = Error::NoEquilibrium { time: at.t, body: None };
     at.v.fill(0.0);
     // The rope forces are kept at their values on entry: solving an instant during the iteration would find the ropes
     // slack.
@@ -83,12 +83,11 @@ pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
 /// Solves the equilibrium for the flange forces of `at`.
 fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
-    let none = Error::NoEquilibrium { time: at.t };
     solver.update(at)?;
     let moving = balancing(solver);
     let mut balance = Balance::new(solver, moving, at)?;
     if !balance.solve() {
-        return Err(none);
+        return Err(Error::NoEquilibrium { time: at.t, body: balance.least_balanced() });
     }
     for (&number, &q) in balance.moving.iter().zip(balance.q.iter()) {
         at.q[number] = q;
@@ -277,6 +276,32 @@ impl<'a> Balance<'a> {
             }
         }
         false
+    }
+
+    /// The body for which the forces of the active contacts are farthest from balancing weights and loads; `None`
+    /// where they balance all.
+    ///
+    /// The forces F minimise |R^T F - weight| by least squares. Each degree of freedom counts relative to its weight
+    /// and to the largest weight times its levers.
+    fn least_balanced(&self) -> Option<usize> {
+        let lever = self.rows.select_rows(&self.active).transpose();
+        let by_contacts = || {
+            let forces = lever.clone().svd(true, true).solve(&self.weight, BALANCE).ok()?;
+            Some(&lever * forces)
+        };
+        let none = || DVector::zeros(self.moving.len());
+        let carried = if lever.is_empty() { none() } else { by_contacts().unwrap_or_else(none) };
+        let largest = self.weight.amax();
+        let relative = |j: usize| {
+            let size = self.weight[j].abs() + largest * self.rows.column(j).amax();
+            (self.weight[j] - carried[j]).abs() / size.max(f64::MIN_POSITIVE)
+        };
+        let worst = (0..self.moving.len()).max_by(|&i, &j| relative(i).total_cmp(&relative(j)))?;
+        if relative(worst) <= BALANCE {
+            return None;
+        }
+        let numbers = &self.system.mechanics.kinematics.numbers;
+        numbers.iter().position(|own| own.contains(&Some(self.moving[worst])))
     }
 
     /// Newton's method with the active contacts. Returns `None` if they cannot carry the weight, otherwise whether

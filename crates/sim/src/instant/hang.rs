@@ -46,7 +46,7 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
         places.copy_from(&at.q);
         balance_wheels(solver, at)?;
     }
-    Err(Error::NoEquilibrium { time: at.t })
+    Err(Error::NoEquilibrium { time: at.t, body: None })
 }
 
 fn weight(solver: &Solver) -> f64 {

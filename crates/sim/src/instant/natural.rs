@@ -68,7 +68,7 @@ pub fn natural_modes(
     place_below_ropes(&mut solver, &mut state)?;
     equilibrate(&mut solver, &mut state)?;
     if !settle(&mut solver, &mut state)? {
-        return Err(Error::NoEquilibrium { time: t });
+        return Err(Error::NoEquilibrium { time: t, body: None });
     }
     let mass = mass(&solver, &state);
     let stiffness = stiffness(&mut solver, &state, &mass)?;
@@ -127,7 +127,7 @@ fn stiffness(solver: &mut Solver, at: &State, mass: &DMatrix<f64>) -> Result<DMa
     let n = solver.system().mechanics.dofs;
     let depth = at.p.iter().fold(0.0_f64, |most, p| most.max(*p));
     let step = MOVE * if depth > 0.0 { depth } else { MOVE };
-    let lost = Error::NoEquilibrium { time: at.t };
+    let lost = Error::NoEquilibrium { time: at.t, body: None };
     let mut probe = at.clone();
     let mut out = DMatrix::zeros(n, n);
     for j in 0..n {

@@ -45,6 +45,8 @@ pub enum Error {
     NoEquilibrium {
         /// Time of the attempt.
         time: f64,
+        /// The body whose weight and loads the wheels balance least, where one can be named.
+        body: Option<usize>,
     },
     /// A quasi-static sweep with a body whose position along the rail is not prescribed.
     #[error("body {body}: a quasi-static sweep needs its x prescribed")]

@@ -596,7 +596,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 }
             }
             if !settle(self.step.solver, &mut self.step.to)? {
-                return Err(Error::NoEquilibrium { time });
+                return Err(Error::NoEquilibrium { time, body: None });
             }
             let after = self.stored();
             self.books.book_switch(before.total() - after.total());

@@ -188,7 +188,13 @@ impl<T: RealNumber> LocalPlace<T> {
     /// The place of coordinate x in an element with the ends `ends` and 1/extent = `scale`.
     #[inline]
     pub fn of(x: T, ends: [T; 2], scale: T) -> LocalPlace<T> {
-        let [first, last] = [(x - ends[0]) * scale, (ends[1] - x) * scale];
+        LocalPlace::by_distances([x - ends[0], ends[1] - x], scale)
+    }
+
+    /// The place by its distances from both ends.
+    #[inline]
+    pub fn by_distances(distances: [T; 2], scale: T) -> LocalPlace<T> {
+        let [first, last] = distances.map(|distance| distance * scale);
         let inside = |r: T| if r > T::from(0.0) { r } else { T::from(0.0) };
         if first <= T::from(0.5) {
             LocalPlace { end: 0, r: inside(first) }

@@ -44,6 +44,8 @@ use crate::probe::{Axis, Probe};
 #[derive(Clone, Debug)]
 pub struct Rails {
     elements: Vec<RailElement>,
+    /// What rounding took from the coordinates of their ends.
+    rests: Vec<[f64; 2]>,
     prepared: Vec<Prepared>,
     tracks: Vec<Track>,
     states: usize,
@@ -123,7 +125,28 @@ impl Rails {
             });
         }
         let tracks = Track::all(&elements)?;
-        Ok(Rails { elements, prepared, tracks, states, shares_members })
+        let rests = vec![[0.0; 2]; elements.len()];
+        Ok(Rails { elements, rests, prepared, tracks, states, shares_members })
+    }
+
+    /// The same rails, the ends of whose elements are at `x` + `rests`: at coordinates that doubles do not hold. A place
+    /// near such an end keeps the digits of its distance from it.
+    ///
+    /// `rests` has an entry for each element, each less than the spacing of doubles at its coordinate; a list of another
+    /// length is ignored.
+    #[must_use]
+    pub fn with_rests(mut self, rests: Vec<[f64; 2]>) -> Rails {
+        if rests.len() == self.elements.len() {
+            self.tracks.iter_mut().for_each(|track| track.set_rests(&rests));
+            self.rests = rests;
+        }
+        self
+    }
+
+    /// What rounding took from the coordinates of the ends of each element ([`Rails::with_rests`]).
+    #[must_use]
+    pub fn rests(&self) -> &[[f64; 2]] {
+        &self.rests
     }
 
     /// The elements, in the order given.
@@ -288,8 +311,11 @@ impl Rails {
             return out;
         };
         let scale = 1.0 / (given.x[1] - given.x[0]);
-        let [s, t] =
-            [x, z].map(|x| LocalPlace::of(x, given.x, scale).on_member(given.length, given.is_reversed()));
+        let rest = self.rests[element];
+        let [s, t] = [x, z].map(|x| {
+            let distances = [(x - given.x[0]) - rest[0], (given.x[1] - x) + rest[1]];
+            LocalPlace::by_distances(distances, scale).on_member(given.length, given.is_reversed())
+        });
         for (a, row) in out.iter_mut().enumerate() {
             for (b, entry) in row.iter_mut().enumerate() {
                 *entry = if clamped.is_without_stiffness(a, b) {

@@ -21,6 +21,8 @@ pub(crate) struct Track {
 pub(crate) struct Span {
     /// First and last coordinate.
     pub x: [f64; 2],
+    /// What rounding took from them.
+    pub rest: [f64; 2],
     /// 1/(extent in x).
     pub scale: f64,
     /// Length of the member, and whether it runs against the rail.
@@ -36,7 +38,7 @@ impl Span {
     /// The place of x, taken within the element.
     #[inline]
     pub fn local(&self, x: f64) -> LocalPlace {
-        LocalPlace::of(x, self.x, self.scale)
+        LocalPlace::by_distances([(x - self.x[0]) - self.rest[0], (self.x[1] - x) + self.rest[1]], self.scale)
     }
 }
 
@@ -116,7 +118,7 @@ impl Track {
         let span = |element: usize, yields| {
             let RailElement { x, length, .. } = elements[element];
             let reversed = elements[element].is_reversed();
-            Span { x, scale: 1.0 / (x[1] - x[0]), length, reversed, element, yields }
+            Span { x, rest: [0.0; 2], scale: 1.0 / (x[1] - x[0]), length, reversed, element, yields }
         };
         let mut spans = vec![span(same[0], false)];
         for pair in same.windows(2) {
@@ -128,6 +130,13 @@ impl Track {
             spans.push(span(element, end >= start && before < element));
         }
         Ok(Track { rail, slack, index: BinIndex::new(&spans), spans })
+    }
+
+    /// Sets what rounding took from the coordinates of the ends of each element.
+    pub fn set_rests(&mut self, rests: &[[f64; 2]]) {
+        for span in &mut self.spans {
+            span.rest = rests[span.element];
+        }
     }
 
     /// The element that carries coordinate x.
