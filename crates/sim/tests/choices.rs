@@ -1,6 +1,8 @@
 //! What the selection of foundations asks of its provider, and the measures of the differences of runs, against the
 //! rules that their documentation states and closed forms.
 
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
 mod common;
 
 use std::f64::consts::PI;
@@ -8,8 +10,8 @@ use std::ops::ControlFlow;
 
 use common::modes::{beam, oscillator};
 use sim::{
-    Bounces, Choice, Dynamics, Error, Fidelity, Foundation, FoundationProvider, Measure, ModalBasis, Reason,
-    Record, RecordedQuantity, Run, Scene, Selection, Structure, Tolerance, choose, difference,
+    Bounces, Choice, Dynamics, Error, Fidelity, Foundation, FoundationProvider, History, Measure, ModalBasis,
+    Reason, Record, RecordedQuantity, Run, Scene, Selection, Structure, Tolerance, choose, difference,
 };
 
 /// The beam at every fidelity, with what was asked for.
@@ -22,6 +24,8 @@ struct Beam {
     /// Fidelity and accuracy of each run.
     runs: Vec<(Fidelity, f64)>,
     fidelity: Option<Fidelity>,
+    /// Factor on the forces that are observed in runs with influence functions.
+    exaggerated: Option<f64>,
 }
 
 impl FoundationProvider for Beam {
@@ -63,6 +67,15 @@ impl FoundationProvider for Beam {
     ) -> Result<Run, Error> {
         self.runs.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
         sim::run(scene, foundations, watch)
+    }
+
+    fn observe(&mut self, history: &History) -> Result<Record, Error> {
+        let mut record = Record::of(history);
+        if let (Some(factor), Some(Fidelity::Influence)) = (self.exaggerated, self.fidelity) {
+            let forces = record.quantities.iter_mut().filter(|quantity| quantity.kind == "force");
+            forces.for_each(|quantity| quantity.values.iter_mut().for_each(|value| *value *= factor));
+        }
+        Ok(record)
     }
 }
 
@@ -107,6 +120,52 @@ fn runs_that_only_check_are_coarse_and_the_run_of_the_result_is_not() {
             provider.runs
         );
     }
+}
+
+impl Beam {
+    /// Numbers of modes of the runs with modes, each once.
+    fn counts(&self) -> Vec<usize> {
+        let modal = self.runs.iter().filter_map(|(fidelity, _)| match fidelity {
+            Fidelity::Modal(count) => Some(*count),
+            _ => None,
+        });
+        let mut counts: Vec<usize> = modal.collect();
+        counts.dedup();
+        counts
+    }
+}
+
+/// Where two runs differ by about as much as the modes left out let expect, the first number of modes is the last one.
+/// Where they differ by far more, the wheels amplify what the rails lack, and the number is raised.
+#[test]
+fn the_number_of_modes_is_raised_where_runs_differ_by_more_than_was_estimated() {
+    let mut raised = 0;
+    for k in 0..24 {
+        let (alpha, value) = (0.02, 5e-3 / 1.1_f64.powi(k));
+        let tolerance = Tolerance { value, ..EXTREMES };
+        let mut provider = Beam::default();
+        let choice = chosen(alpha, tolerance, &mut provider);
+        let counts = provider.counts();
+        assert_eq!(counts.len(), 1, "{alpha}: {:?}", provider.runs);
+        assert_eq!(choice.fidelity, Fidelity::Modal(counts[0]));
+        let mut provider = Beam { exaggerated: Some(1.5), ..Beam::default() };
+        let choice = chosen(alpha, tolerance, &mut provider);
+        assert_eq!(choice.reason, Reason::Sufficient, "{choice:?}");
+        let all = provider.counts();
+        assert!(all.windows(2).all(|pair| pair[0] < pair[1]) && all.len() <= 3, "{alpha}: {all:?}");
+        raised += usize::from(all.len() > 1);
+    }
+    println!("{raised} of 24 raised");
+    assert!(raised > 0);
+}
+
+/// A tolerance below what 96 modes leave out is reported as such, after fewer runs than are allowed.
+#[test]
+fn a_tolerance_that_no_number_of_modes_meets_is_reported() {
+    let mut provider = Beam::default();
+    let choice = chosen(0.5, Tolerance { value: 1e-8, ..EXTREMES }, &mut provider);
+    assert_eq!(choice.reason, Reason::NoBetter, "{choice:?} {:?}", provider.runs);
+    assert!(choice.estimate.is_some_and(|estimate| estimate > 0.8e-8) && provider.counts().len() < 3);
 }
 
 /// Modes are computed until those that suffice are a third of them, or until there are 96.

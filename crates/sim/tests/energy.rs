@@ -7,11 +7,12 @@ mod common;
 
 use std::ops::ControlFlow;
 
+use common::kutta::Kernel;
 use common::parts::{CENTRES, STATES, arms, basis, chain, stiffness};
 use common::{GRAVITY, WEIGHT, bogie};
 use nalgebra::DMatrix;
 use sim::{Audit, BodyDof, Channel, Damper, Extent, Flange, Foundation, Load, Run, Scene, Schedule, Status};
-use splines::ExactSurface;
+use splines::{Axis, ExactSurface, Probe};
 
 fn run(scene: &Scene, foundation: Foundation) -> Run {
     let run = sim::run(scene, &[foundation], &mut |_| ControlFlow::Continue(())).expect("a valid scene");
@@ -127,4 +128,55 @@ fn gravity_is_measured_from_the_unloaded_rail() {
     let speed = found.history.column(Channel::Speed(0, BodyDof::Y));
     let v = speed[speed.len() - 1];
     assert!((end.kinetic - 0.5 * WEIGHT / GRAVITY * v * v).abs() < 1e-9 * WEIGHT, "{end:?} at {v}");
+}
+
+/// Identity: on a rail that gives to the side, the force of a flange acts on the slope of the deflected rail, and slows or
+/// drives its own body. Two bodies of different mass exchange energy through the rail alone, so that the balance closes.
+#[test]
+fn flanges_on_a_rail_that_gives_to_the_side_push_their_own_bodies_along() {
+    let give = [1e-6, 4e-4];
+    let kernel = Kernel(move |p: Probe, q: Probe| {
+        let g = match (p.axis, q.axis) {
+            (Axis::Vertical, Axis::Vertical) => give[0],
+            (Axis::Lateral, Axis::Lateral) => give[1],
+            _ => return [0.0; 2],
+        };
+        [g * (1.0 + 0.3 * p.x * q.x), 0.3 * g * q.x]
+    });
+    let mut scene = bogie(0.0, 1.0, Damper::Rail);
+    let wheel = &mut scene.wheels[0];
+    (wheel.normal.stiffness, wheel.normal.damping) = (2e5, 0.0);
+    wheel.flange = Some(Flange { stiffness: 4e4, clearance: 0.002, release: None });
+    let first = scene.bodies[0].clone();
+    let bodies = [(40.0, 1.0, 2.0, 150.0), (90.0, 3.0, -0.5, -80.0)];
+    scene.bodies = bodies
+        .iter()
+        .map(|&(mass, x, v, _)| sim::Body {
+            mass,
+            inertia: [mass; 3],
+            free: [true, true, true, false, false, false],
+            motion: None,
+            start: [x, 0.0, 0.0, 0.0, 0.0, 0.0],
+            start_speed: [v, 0.0, 0.0, 0.0, 0.0, 0.0],
+            ..first.clone()
+        })
+        .collect();
+    scene.contacts.iter_mut().enumerate().for_each(|(body, contact)| {
+        (contact.body, contact.offsets) = (body, vec![0.0]);
+    });
+    for (body, &(.., push)) in bodies.iter().enumerate() {
+        let value = Schedule::new(&[[0.0, push]]).expect("a row");
+        scene.actuators.loads.push(Load { body, dof: BodyDof::Z, value });
+    }
+    scene.accuracy = 1e-9;
+    let found = run(&scene, Foundation::massless(Box::new(kernel), 1));
+    let audit = &found.audit;
+    for (body, &(mass, _, v, _)) in bodies.iter().enumerate() {
+        let speed = found.history.column(Channel::Speed(body, BodyDof::X));
+        let gained = 0.5 * mass * (speed[speed.len() - 1].powi(2) - v * v);
+        println!("body {body}: {gained:.3e} of {:.3e}", audit.peak_stored);
+        assert!(gained.abs() > 1e-3 * audit.peak_stored, "{gained:e}");
+    }
+    println!("residual {:.1e}", audit.residual());
+    assert!(audit.residual() < 1e-6, "{:e}", audit.residual());
 }
