@@ -171,3 +171,43 @@ fn bound_is_never_below_the_roundings_that_every_grid_makes() {
     let middle = bound(0.8);
     assert!(middle > (3.0 + 5.0 * 10.0) * UNIT && middle < 5.0 * 40.0 * UNIT, "{:e}", middle / UNIT);
 }
+
+/// Identity: points that are numbered ahead of a structure and do not belong to it change no bound.
+#[test]
+fn bound_does_not_depend_on_the_numbers_of_the_points() {
+    let (model, rail) = arm(0.3, 1.7);
+    let mut later = model.clone();
+    let ahead = 6;
+    later.points = (0..ahead).map(|k| [f64::from(k), 5.0, 0.0]).chain(model.points.iter().copied()).collect();
+    let by = ahead as usize;
+    later.members.iter_mut().for_each(|member| member.points = member.points.map(|point| point + by));
+    later.supports.iter_mut().for_each(|support| support.point += by);
+    later.links.iter_mut().for_each(|link| (link.from, link.to) = (link.from + by, link.to + by));
+    later.supports.extend((0..by).map(|point| Support { point, fixed: [true; 6] }));
+    let at: Vec<f64> = (0..17).map(|k| -0.02 / (1.0 + f64::from(k) / 16.0)).collect();
+    let [first, second] = [&model, &later].map(|model| {
+        let frame = FactoredFrame::new(model, std::slice::from_ref(&rail)).expect("sound");
+        frame.grid(&probes(Axis::Vertical, &at)).expect("certified")
+    });
+    let bounds = [&first, &second].map(|grid| grid.certificate.error_bound);
+    assert!((bounds[0] / bounds[1] - 1.0).abs() < 1e-12, "{bounds:?}");
+    assert!((first.value - &second.value).amax() < 1e-12 * second.value.amax());
+}
+
+/// Identity: a place that cannot move has no error, and adds nothing to the bound of the others.
+#[test]
+fn a_place_on_a_clamped_end_adds_nothing_to_the_bound() {
+    let (model, rail) = arm(0.3, 1.7);
+    let clamped = model.points[0][0];
+    let frame = FactoredFrame::new(&model, &[rail]).expect("sound");
+    let mut at: Vec<f64> = (0..17).map(|k| -0.02 / (1.0 + f64::from(k) / 16.0)).collect();
+    let without = frame.grid(&probes(Axis::Vertical, &at)).expect("certified").certificate.error_bound;
+    at.push(clamped);
+    let with = frame.grid(&probes(Axis::Vertical, &at)).expect("certified");
+    assert_eq!(with.value[(17, 17)], 0.0);
+    assert!(
+        (with.certificate.error_bound / without - 1.0).abs() < 1e-12,
+        "{with:?}",
+        with = with.certificate
+    );
+}
