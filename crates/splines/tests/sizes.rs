@@ -27,7 +27,8 @@ fn sizes(rails: &Rails, axis: Axis, s: f64) -> RoundingSizes {
 #[test]
 fn sizes_of_bending_are_the_sums_of_the_terms_of_its_closed_form() {
     let (l, c) = (8.0, 0.3);
-    let rails = rails(l, [0.0; 3], Flexibility { bending_z: c, bending_y: 2.0 * c, ..Flexibility::default() });
+    let rails =
+        rails(l, [0.0; 3], Flexibility { bending_z: c, bending_y: 2.0 * c, ..Flexibility::default() });
     for s in [0.0, 0.1, 0.3, 0.5, 0.55, 0.8, 0.97] {
         let near = l * f64::min(s, 1.0 - s);
         let far = l - near;
@@ -177,7 +178,8 @@ fn green_functions_with_and_without_derivatives_agree() {
 /// not a number.
 #[test]
 fn nodal_compliance_acts_by_its_symmetric_part() {
-    let line = Arc::new(rails(10.0, [0.2, 1.0, -0.3], Flexibility { bending_z: 0.1, ..Flexibility::default() }));
+    let line =
+        Arc::new(rails(10.0, [0.2, 1.0, -0.3], Flexibility { bending_z: 0.1, ..Flexibility::default() }));
     let given = DMatrix::from_fn(12, 12, |i, j| (1 + 3 * i + 5 * j + i * j) as f64);
     let half = (&given + given.transpose()) * 0.5;
     let surface = ExactSurface::new(Arc::clone(&line), given.clone()).expect("numbers");
