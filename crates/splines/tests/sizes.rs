@@ -8,8 +8,9 @@ use std::sync::Arc;
 use beam::{Beam, chain, coupled, probe};
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, Couplings, ElementResidual, Error, ExactSurface, Flexibility, Influence, Probe,
-    RailElement, RailShapes, Rails, ResidualFlexibility, RoundingSizes, Uncoupled,
+    Axis, Compliance, Couplings, Differentiable, ElementResidual, Error, ExactSurface, Flexibility,
+    Influence, InfluenceLines, Probe, RailElement, RailShapes, Rails, ResidualFlexibility, RoundingSizes,
+    Uncoupled,
 };
 
 /// One element from 0 to `length`, its rail at `offset` from the axis.
@@ -253,4 +254,71 @@ fn clamped_member_without_its_deflection_under_uniform_load_has_its_closed_form(
     }
     let middle = c * l.powi(3) * (1.0 / 192.0 - 720.0 / 384_f64.powi(2));
     assert!((out.value[(1, 1)] / middle - 1.0).abs() < 1e-12, "{:e}", out.value[(1, 1)]);
+}
+
+/// Analytic: a bar between held ends, f a (l - b)/l for a <= b, along its rail; with its derivatives, whose jump under
+/// the load is given by the mean of both sides.
+#[test]
+fn bar_between_held_ends_has_its_closed_form_along_the_rail() {
+    let (l, f) = (7.0, 0.3);
+    let rails = Arc::new(rails(l, [0.0; 3], Flexibility { axial: f, ..Flexibility::default() }));
+    let bar = ExactSurface::new(rails, DMatrix::zeros(12, 12)).expect("both ends held");
+    let along = |x: f64| probe(Axis::Longitudinal, x);
+    for (x, z) in [(1.0, 2.5), (2.5, 1.0), (6.0, 0.5), (3.0, 3.0), (0.0, 4.0), (6.9, 6.95)] {
+        let mut out = Influence::zeros(2);
+        bar.fill(&[along(x), along(z)], &mut out).expect("on the rail");
+        let (a, b) = (f64::min(x, z), f64::max(x, z));
+        assert!((out.value[(0, 1)] - f * a * (l - b) / l).abs() < 1e-15, "{x} {z}");
+        let slope = |own: f64, other: f64| match own.total_cmp(&other) {
+            std::cmp::Ordering::Less => f * (l - other) / l,
+            std::cmp::Ordering::Greater => -f * other / l,
+            std::cmp::Ordering::Equal => 0.5 * f * (l - 2.0 * other) / l,
+        };
+        let found = bar.partials(along(x), along(z)).expect("on the rail");
+        for (found, expected) in [
+            (out.slope[(0, 1)], slope(x, z)),
+            (found.p, slope(x, z)),
+            (found.q, slope(z, x)),
+            (found.pq, -f / l),
+            (found.pp, 0.0),
+            (found.qq, 0.0),
+        ] {
+            assert!((found - expected).abs() < 1e-15, "{x} {z}: {found}, not {expected}");
+        }
+    }
+}
+
+/// A direction in which a node state has no stiffness is refused by values and by derivatives, beside a rail on the axis
+/// and above it.
+#[test]
+fn states_without_stiffness_are_refused_by_values_and_derivatives() {
+    let flexibility =
+        Flexibility { bending_z: 0.1, bending_y: 0.2, torsion: 0.3, axial: 0.4, ..Flexibility::default() };
+    for offset in [[0.0; 3], [0.3, 1.0, -0.5]] {
+        let mut nodal = DMatrix::identity(12, 12);
+        nodal[(7, 7)] = f64::INFINITY;
+        let line = Arc::new(rails(10.0, offset, flexibility));
+        let surface = ExactSurface::new(line, nodal).expect("an infinite diagonal entry is allowed");
+        let at = probe(Axis::Vertical, 4.0);
+        let refused = Error::NoStiffness { rail: 0, x: 4.0, axis: Axis::Vertical };
+        assert_eq!(surface.fill(&[at], &mut Influence::zeros(1)), Err(refused.clone()));
+        assert_eq!(surface.partials(at, at).err(), Some(refused));
+        let side = probe(Axis::Lateral, 4.0);
+        assert_eq!(surface.fill(&[side], &mut Influence::zeros(1)), Ok(()), "sideways it is held");
+    }
+}
+
+#[test]
+fn influence_lines_count_their_effects() {
+    let line = Arc::new(rails(8.0, [0.0; 3], Flexibility { bending_z: 1.0, ..Flexibility::default() }));
+    for count in [0, 1, 3] {
+        let lines = InfluenceLines::new(Arc::clone(&line), DMatrix::zeros(count, 12), vec![None; count]);
+        let lines = lines.expect("zeros");
+        assert_eq!((lines.len(), lines.is_empty()), (count, count == 0));
+        let mut out = vec![1.0; count];
+        lines.fill(probe(Axis::Vertical, 3.0), &mut out).expect("on the rail");
+        assert!(out.iter().all(|effect| *effect == 0.0));
+        let wrong = Error::EffectShape { rows: count + 1, columns: 1, expected: [count, 1] };
+        assert_eq!(lines.fill(probe(Axis::Vertical, 3.0), &mut vec![0.0; count + 1]), Err(wrong));
+    }
 }
