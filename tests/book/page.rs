@@ -158,9 +158,14 @@ fn the_files_of_the_tutorial_run() {
     assert!(page.contains("girderway splines mine/grid.json -o mine/runway.adm"));
 }
 
-/// Commands that are run by hand before an issue is closed.
-const SLOW: [&str; 2] =
-    ["cargo test --release -- --ignored", "cargo test --manifest-path tests/reference/Cargo.toml"];
+/// Commands that are run by hand: slow tests, and changes of the code that tests must find.
+const SLOW: [&str; 5] = [
+    "cargo test --release -- --ignored",
+    "cargo test --manifest-path tests/reference/Cargo.toml",
+    "cargo install cargo-mutants --version 27.1.0",
+    "cargo mutants --list -p splines",
+    "cargo mutants -p splines --baseline=skip --timeout 120 --shard 0/50",
+];
 
 /// A command of cargo without what does not change its meaning to a reader, up to the first variable of the shell.
 fn plain(words: &[&str]) -> String {

@@ -106,3 +106,50 @@ fn short_girders_are_certified_to_ten_digits() {
         assert!(certificate.error_bound < 1e-10, "{certificate:?}");
     }
 }
+
+/// Independent: the compliance of all free points is the inverse of the stiffness, whose condition follows from its
+/// entries. The estimate is a lower bound but for the scales, which are powers of two, and seldom below a third.
+#[test]
+fn condition_is_that_of_the_scaled_stiffness_within_a_factor_of_three() {
+    let mut stream = common::Stream::new(5);
+    let mut extremes = [f64::INFINITY, 0.0_f64];
+    for case in 0..60 {
+        let count = 3 + case % 4;
+        let mut place = |scale: f64| [0, 1, 2].map(|_| stream.between(-scale, scale));
+        let points: Vec<[f64; 3]> = (0..count).map(|_| place(4.0)).collect();
+        let section = CrossSection {
+            e: 10.0,
+            g: 4.0,
+            area: 10f64.powf(stream.between(-1.0, 2.0)),
+            iy: 10f64.powf(stream.between(-1.0, 1.0)),
+            iz: 1.0,
+            j: 0.7,
+            ..CrossSection::default()
+        };
+        let mut members: Vec<Member> =
+            (1..count).map(|k| Member::beam([k - 1, k], 0, [0.3, 1.0, 0.2])).collect();
+        members.push(Member::beam([0, count - 1], 0, [0.3, 1.0, 0.2]));
+        let supports = vec![Support { point: 0, fixed: [true; 6] }];
+        let model = Model {
+            points,
+            sections: vec![section],
+            members,
+            supports,
+            up: [0.0, 1.0, 0.0],
+            ..Model::default()
+        };
+        let free: Vec<usize> = (1..count).collect();
+        let (compliance, certificate) = fea::point_compliance(&model, &free).expect("sound");
+        let stiffness = compliance.clone().try_inverse().expect("positive");
+        let scale = |k: usize| stiffness[(k, k)].sqrt();
+        let norm = |of: &dyn Fn(usize, usize) -> f64| {
+            let n = stiffness.nrows();
+            (0..n).map(|j| (0..n).map(|i| of(i, j).abs()).sum::<f64>()).fold(0.0, f64::max)
+        };
+        let exact = norm(&|i, j| stiffness[(i, j)] / scale(i) / scale(j))
+            * norm(&|i, j| compliance[(i, j)] * scale(i) * scale(j));
+        let ratio = certificate.condition / exact;
+        extremes = [extremes[0].min(ratio), extremes[1].max(ratio)];
+    }
+    assert!(extremes[0] > 1.0 / 3.0 && extremes[1] < 3.0, "{extremes:?}");
+}

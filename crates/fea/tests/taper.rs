@@ -144,3 +144,40 @@ fn forces_of_a_statically_determined_taper_do_not_depend_on_it() {
         assert!((found[(i, j)] - exact).abs() < 1e-12 * LENGTH, "({i}, {j}): {}", found[(i, j)]);
     }
 }
+
+/// Identity: a member between arms in any direction is cut at equal distances along its own line; the arms and the
+/// releases stay at its ends, and every part has the section of its own stretch.
+#[test]
+fn parts_lie_evenly_on_the_line_of_a_member_between_its_arms() {
+    let root = CrossSection { e: 1.0, area: 1.0, iy: 1.0, iz: 1.0, mass: 1.0, ..CrossSection::default() };
+    let mut member = Member::beam([1, 0], 0, [0.0, 1.0, 0.3]);
+    member.offsets = [[0.1, -0.2, 0.4], [-0.3, 0.5, 0.25]];
+    member.releases = [[false, false, false, false, true, false], [false, false, false, true, false, false]];
+    let model = Model {
+        points: vec![[4.0, 7.0, -3.0], [1.0, -2.0, 5.0]],
+        sections: vec![root, CrossSection { mass: 3.0, ..root }],
+        members: vec![member],
+        ..Model::default()
+    };
+    let (from, to) = ([1.1, -2.2, 5.4], [3.7, 7.5, -2.75]);
+    let parts = 5;
+    let (cut, ranges) = model.tapered(&[Some(Taper { section: 1, parts })]);
+    assert_eq!((ranges.len(), ranges[0].clone(), cut.members.len()), (1, 0..parts, parts));
+    for (k, part) in cut.members.iter().enumerate() {
+        for end in [0, 1] {
+            let fraction = (k + end) as f64 / parts as f64;
+            let place = cut.points[part.points[end]];
+            for axis in 0..3 {
+                let expected = from[axis] + (to[axis] - from[axis]) * fraction;
+                let found = place[axis] + part.offsets[end][axis];
+                assert!((found - expected).abs() < 1e-14, "part {k}, end {end}: {found}, not {expected}");
+            }
+            let is_outer = k + end == 0 || k + end == parts;
+            let kept =
+                if is_outer { (member.offsets[end], member.releases[end]) } else { Default::default() };
+            assert_eq!((part.offsets[end], part.releases[end]), kept, "part {k}, end {end}");
+        }
+        let middle = 1.0 + 2.0 * (k as f64 + 0.5) / parts as f64;
+        assert!((cut.sections[part.section].mass - middle).abs() < 1e-15, "part {k}");
+    }
+}

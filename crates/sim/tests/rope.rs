@@ -94,6 +94,59 @@ fn a_load_thrown_upwards_flies_until_the_rope_catches_it() {
     println!("throw: {:?} {:e}", run.counts, run.audit.residual());
 }
 
+/// Analytic: a rope that hangs slack, whatever its damper and its hoist do, leaves a load in free flight: it stores
+/// nothing, dissipates nothing and does no work.
+#[test]
+fn a_slack_rope_stores_dissipates_and_supplies_nothing() {
+    let (m, l, v) = (500.0, 5.0, 6.0);
+    let mut line = rope(1e7, l, 0);
+    line.damping = 3e4;
+    line.speed = Schedule::new(&[[0.0, 0.4]]).expect("one row");
+    let actuators = Actuators { ropes: vec![line], ..Actuators::default() };
+    let run = go(&scene(vec![body(m, [0.3, -3.0, 0.0], [0.5, v, 0.0])], actuators, 0.6, 1e-7));
+    let (start, end, exchanged) = (run.audit.start, run.audit.end, run.audit.exchanged);
+    assert_eq!((start.ropes, end.ropes), (0.0, 0.0));
+    assert_eq!((exchanged.dampers, exchanged.hoists, exchanged.switches), (0.0, 0.0, 0.0));
+    assert!((end.total() / start.total() - 1.0).abs() < 1e-9, "{start:?} {end:?}");
+    assert!((last(&run, BodyDof::X) - 0.6).abs() < 1e-12);
+    // The same rope, taut: its damper takes what neither the load nor the hoist has in the end.
+    let mut line = rope(1e6, l, 0);
+    line.damping = 3e4;
+    line.speed = Schedule::new(&[[0.0, 0.4]]).expect("one row");
+    let actuators = Actuators { ropes: vec![line], ..Actuators::default() };
+    let run = go(&scene(vec![body(m, [0.0, -l, 0.0], [0.0, v, 0.0])], actuators, 2.5, 1e-8));
+    assert!(
+        run.audit.exchanged.dampers > 1e3 && run.audit.exchanged.hoists > 1e2,
+        "{:?}",
+        run.audit.exchanged
+    );
+    assert!(run.audit.residual() < 1e-6, "{:e}", run.audit.residual());
+}
+
+/// Analytic: v sqrt(m k) however far the stop is from the origin, for a push of a tenth of a newton at a kilometre.
+#[test]
+fn a_light_push_on_a_stop_far_from_the_origin_is_held() {
+    let (m, k, v) = (2.0, 50.0, 0.01);
+    let stop = Stop {
+        body: 0,
+        against: None,
+        at: [0.5, 0.0, 0.0],
+        axis: 0,
+        place: 1000.505,
+        side: 1.0,
+        stiffness: k,
+        damping: 0.0,
+    };
+    let mut own = body(m, [1000.0, 0.0, 0.0], [v, 0.0, 0.0]);
+    own.free[1] = false;
+    let run = go(&scene(vec![own], Actuators { stops: vec![stop], ..Actuators::default() }, 1.5, 1e-8));
+    let peak = v * (m * k).sqrt();
+    let most = run.history.column(Channel::Stop(0)).into_iter().fold(0.0, f64::max);
+    assert!((most / peak - 1.0).abs() < 1e-3, "{most} {peak}");
+    let speed = *run.history.column(Channel::Speed(0, BodyDof::X)).last().expect("samples");
+    assert!((speed + v).abs() < 1e-6 * v, "{speed}");
+}
+
 /// Analytic: at rest below its rope a load stays, its tension is its weight.
 #[test]
 fn a_hung_load_starts_at_rest_stretched_by_its_weight() {

@@ -77,3 +77,41 @@ impl Exchanged {
         self.rail_steps += weight * power.rail_steps;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Every term is a different power of two, so that sums show which terms they contain, and with what sign.
+    fn exchanged() -> Exchanged {
+        Exchanged {
+            dampers: 1.0,
+            friction: 2.0,
+            flanges: 4.0,
+            handover: 8.0,
+            structure: 16.0,
+            switches: 32.0,
+            drives: 64.0,
+            loads: 128.0,
+            hoists: 256.0,
+            rail_steps: 512.0,
+        }
+    }
+
+    #[test]
+    fn every_term_counts_once_as_a_loss_or_as_supplied() {
+        assert_eq!(exchanged().supplied(), 64.0 + 128.0 + 256.0 + 512.0);
+        assert_eq!(exchanged().net_loss(), 63.0 - 960.0);
+        let stored = Stored { kinetic: 1.0, gravity: 2.0, contact: 4.0, structure: 8.0, ropes: 16.0 };
+        assert_eq!(stored.total(), 31.0);
+    }
+
+    #[test]
+    fn every_power_is_added_with_its_weight() {
+        let mut sum = exchanged();
+        sum.add(&exchanged(), 0.5);
+        assert_eq!((sum.supplied(), sum.net_loss()), (1.5 * 960.0, 1.5 * (63.0 - 960.0)));
+        sum.add(&exchanged(), -1.5);
+        assert_eq!(sum, Exchanged::default());
+    }
+}

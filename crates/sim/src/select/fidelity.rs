@@ -70,3 +70,51 @@ pub(super) fn slowest_bounce(scene: &Scene, history: &History) -> f64 {
     let period = 2.0 * PI * (deepest / scene.gravity).sqrt();
     if period > 0.0 && period < scene.end { period } else { scene.end }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Body, Contact, Damper, NormalLaw, Wheel};
+
+    /// Analytic: 2 pi sqrt(m/(n k)) of a body on n wheels, and of an exponent e at rest 2 pi sqrt(m/(e W/p)).
+    #[test]
+    fn the_fastest_bounce_is_that_of_the_stiffest_body() {
+        let law = |stiffness: f64| NormalLaw::linear(stiffness, 0.0, Damper::Rail);
+        let hertz = NormalLaw { exponent: 1.5, ..law(4e6) };
+        let mut scene = Scene {
+            bodies: vec![Body::new(500.0, [1.0; 3]), Body::new(2000.0, [1.0; 3])],
+            wheels: vec![Wheel::new(0.5, law(2e5)), Wheel::new(0.5, hertz)],
+            contacts: vec![
+                Contact { offsets: vec![-1.0, 1.0], ..Contact::new(0, [0.0; 3]) },
+                Contact { wheel: 1, ..Contact::new(1, [0.0; 3]) },
+            ],
+            ..Scene::default()
+        };
+        let weight = 2000.0 * scene.gravity;
+        let depth = (weight / 4e6).powf(1.0 / 1.5);
+        let turn = 2.0 * std::f64::consts::PI;
+        let first = turn * (500.0 / 4e5_f64).sqrt();
+        let second = turn * (2000.0 / (1.5 * weight / depth)).sqrt();
+        assert!((fastest_bounce(&scene) / first.min(second) - 1.0).abs() < 1e-14);
+        scene.contacts.remove(1);
+        assert!((fastest_bounce(&scene) / first - 1.0).abs() < 1e-14);
+        scene.contacts.clear();
+        assert_eq!(fastest_bounce(&scene), f64::INFINITY);
+    }
+
+    /// Analytic: 2 pi sqrt(d/g) for the largest sum d of penetration and deflection at one time under one wheel; the
+    /// duration of the run where that is shorter or there is nothing to bounce.
+    #[test]
+    fn the_slowest_bounce_is_that_of_the_deepest_wheel() {
+        let scene = Scene { end: 30.0, ..Scene::default() };
+        let channels = [0, 1].iter().flat_map(|&w| [Channel::Penetration(w), Channel::Deflection(w)]);
+        let mut history = History::new(channels.collect());
+        history.put_values(vec![0.1, 0.3, 0.05, 0.0, 0.2, 0.25, 0.01, 0.7, 0.25, 0.1, 0.0, 0.0]);
+        let expected = 2.0 * std::f64::consts::PI * (0.71 / scene.gravity).sqrt();
+        assert!((slowest_bounce(&scene, &history) / expected - 1.0).abs() < 1e-14);
+        let short = Scene { end: 0.5 * expected, ..scene.clone() };
+        assert_eq!(slowest_bounce(&short, &history), 0.5 * expected);
+        assert_eq!(slowest_bounce(&scene, &History::default()), 30.0);
+        assert_eq!(slowest_bounce(&Scene { gravity: 0.0, ..scene }, &history), 30.0);
+    }
+}

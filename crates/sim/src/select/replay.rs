@@ -432,3 +432,6 @@ fn acceleration(history: &History, i: usize, first: usize) -> [f64; 6] {
     let span = b[0] - a[0];
     std::array::from_fn(|k| if span > 0.0 { (b[first + k] - a[first + k]) / span } else { 0.0 })
 }
+
+#[cfg(test)]
+mod tests;

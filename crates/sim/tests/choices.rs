@@ -1,0 +1,285 @@
+//! What the selection of foundations asks of its provider, and the measures of the differences of runs, against the
+//! rules that their documentation states and closed forms.
+
+#![allow(clippy::print_stdout, reason = "the figures measured belong beside the claims")]
+
+mod common;
+
+use std::f64::consts::PI;
+use std::ops::ControlFlow;
+
+use common::modes::{beam, oscillator};
+use sim::{
+    Bounces, Choice, Dynamics, Error, Fidelity, Foundation, FoundationProvider, History, Measure, ModalBasis,
+    Reason, Record, RecordedQuantity, Run, Scene, Selection, Structure, Tolerance, choose, difference,
+};
+
+/// The beam at every fidelity, with what was asked for.
+#[derive(Default)]
+struct Beam {
+    /// Without a mode that wheels excite.
+    is_still: bool,
+    /// Numbers of modes that were asked for.
+    asked: Vec<usize>,
+    /// Fidelity and accuracy of each run.
+    runs: Vec<(Fidelity, f64)>,
+    fidelity: Option<Fidelity>,
+    /// Factor on the forces that are observed in runs with influence functions.
+    exaggerated: Option<f64>,
+}
+
+impl FoundationProvider for Beam {
+    type Error = Error;
+
+    fn modes(&mut self, _: usize, count: usize) -> Result<Option<ModalBasis>, Error> {
+        self.asked.push(count);
+        let basis = |structure, is_whole| ModalBasis {
+            structure,
+            coupling: Vec::new(),
+            effects: Vec::new(),
+            is_whole,
+        };
+        let structure = beam(count, true).structure;
+        Ok(structure.map(|structure| {
+            if self.is_still {
+                let dynamics = Dynamics::Modes { omega: Vec::new(), ratio: Vec::new() };
+                basis(Structure { dynamics, ..structure }, true)
+            } else {
+                basis(structure, false)
+            }
+        }))
+    }
+
+    fn foundation(&mut self, _: usize, fidelity: Fidelity) -> Result<Foundation, Error> {
+        self.fidelity = Some(fidelity);
+        Ok(match fidelity {
+            Fidelity::Rigid => Foundation { rails: beam(0, true).rails, ..Foundation::rigid() },
+            Fidelity::Influence => beam(0, true),
+            Fidelity::Modal(modes) => beam(modes, true),
+        })
+    }
+
+    fn run(
+        &mut self,
+        scene: &Scene,
+        foundations: &[Foundation],
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Run, Error> {
+        self.runs.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
+        sim::run(scene, foundations, watch)
+    }
+
+    fn observe(&mut self, history: &History) -> Result<Record, Error> {
+        let mut record = Record::of(history);
+        if let (Some(factor), Some(Fidelity::Influence)) = (self.exaggerated, self.fidelity) {
+            let forces = record.quantities.iter_mut().filter(|quantity| quantity.kind == "force");
+            forces.for_each(|quantity| quantity.values.iter_mut().for_each(|value| *value *= factor));
+        }
+        Ok(record)
+    }
+}
+
+fn chosen(alpha: f64, tolerance: Tolerance, provider: &mut Beam) -> Choice {
+    let mut scene = oscillator(0.5, 0.5, alpha);
+    (scene.output_dt, scene.accuracy) = (scene.end / 200.0, 1e-3);
+    let watch = &mut |_| ControlFlow::Continue(());
+    let Selection { mut choices, runs, .. } =
+        choose(&scene, &[Some(tolerance)], provider, watch).expect("a valid scene");
+    assert_eq!(runs, provider.runs.len());
+    choices.remove(0)
+}
+
+const EXTREMES: Tolerance = Tolerance { value: 1e-2, measure: Measure::Extremes };
+
+#[test]
+fn runs_of_the_result_have_a_thousandth_or_two_of_the_tolerance() {
+    assert!((EXTREMES.run_accuracy() / 2e-5 - 1.0).abs() < 1e-15);
+    let history = Tolerance { measure: Measure::History, ..EXTREMES };
+    assert!((history.run_accuracy() / 1e-5 - 1.0).abs() < 1e-15);
+}
+
+/// The first run and the one that only checks it have a tenth of the tolerance, the run of the result its own accuracy.
+#[test]
+fn runs_that_only_check_are_coarse_and_the_run_of_the_result_is_not() {
+    for (alpha, measure) in [(0.003, Measure::Extremes), (0.03, Measure::Extremes), (0.25, Measure::History)]
+    {
+        let tolerance = Tolerance { measure, ..EXTREMES };
+        let mut provider = Beam::default();
+        let choice = chosen(alpha, tolerance, &mut provider);
+        assert!(choice.reason == Reason::Sufficient || choice.reason == Reason::Kept, "{choice:?}");
+        let coarse = 0.1 * tolerance.value;
+        assert_eq!(provider.runs[0], (Fidelity::Influence, coarse));
+        for &(fidelity, accuracy) in &provider.runs {
+            assert!(accuracy <= coarse, "{fidelity:?}: {accuracy}");
+            assert!(accuracy == coarse || accuracy == tolerance.run_accuracy(), "{fidelity:?}: {accuracy}");
+        }
+        let own = provider.runs.iter().filter(|(fidelity, _)| *fidelity == choice.fidelity);
+        assert!(
+            own.clone().any(|(_, accuracy)| *accuracy == tolerance.run_accuracy()),
+            "{:?}",
+            provider.runs
+        );
+    }
+}
+
+impl Beam {
+    /// Numbers of modes of the runs with modes, each once.
+    fn counts(&self) -> Vec<usize> {
+        let modal = self.runs.iter().filter_map(|(fidelity, _)| match fidelity {
+            Fidelity::Modal(count) => Some(*count),
+            _ => None,
+        });
+        let mut counts: Vec<usize> = modal.collect();
+        counts.dedup();
+        counts
+    }
+}
+
+/// Where two runs differ by about as much as the modes left out let expect, the first number of modes is the last one.
+/// Where they differ by far more, the wheels amplify what the rails lack, and the number is raised.
+#[test]
+fn the_number_of_modes_is_raised_where_runs_differ_by_more_than_was_estimated() {
+    let mut raised = 0;
+    for k in 0..24 {
+        let (alpha, value) = (0.02, 5e-3 / 1.1_f64.powi(k));
+        let tolerance = Tolerance { value, ..EXTREMES };
+        let mut provider = Beam::default();
+        let choice = chosen(alpha, tolerance, &mut provider);
+        let counts = provider.counts();
+        assert_eq!(counts.len(), 1, "{alpha}: {:?}", provider.runs);
+        assert_eq!(choice.fidelity, Fidelity::Modal(counts[0]));
+        let mut provider = Beam { exaggerated: Some(1.5), ..Beam::default() };
+        let choice = chosen(alpha, tolerance, &mut provider);
+        assert_eq!(choice.reason, Reason::Sufficient, "{choice:?}");
+        let all = provider.counts();
+        assert!(all.windows(2).all(|pair| pair[0] < pair[1]) && all.len() <= 3, "{alpha}: {all:?}");
+        raised += usize::from(all.len() > 1);
+    }
+    println!("{raised} of 24 raised");
+    assert!(raised > 0);
+}
+
+/// A tolerance below what 96 modes leave out is reported as such, after fewer runs than are allowed.
+#[test]
+fn a_tolerance_that_no_number_of_modes_meets_is_reported() {
+    let mut provider = Beam::default();
+    let choice = chosen(0.5, Tolerance { value: 1e-8, ..EXTREMES }, &mut provider);
+    assert_eq!(choice.reason, Reason::NoBetter, "{choice:?} {:?}", provider.runs);
+    assert!(choice.estimate.is_some_and(|estimate| estimate > 0.8e-8) && provider.counts().len() < 3);
+}
+
+/// Modes are computed until those that suffice are a third of them, or until there are 96.
+#[test]
+fn three_times_the_modes_that_suffice_are_known() {
+    let mut most = 0;
+    for (alpha, value) in [(0.25, 1e-2), (0.5, 1e-3), (0.5, 1e-4), (0.25, 1e-6)] {
+        let mut provider = Beam::default();
+        let choice = chosen(alpha, Tolerance { value, ..EXTREMES }, &mut provider);
+        let Fidelity::Modal(modes) = choice.fidelity else { panic!("{choice:?}") };
+        assert_eq!(provider.asked[0], 24);
+        assert!(provider.asked.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", provider.asked);
+        let known = provider.asked[provider.asked.len() - 1];
+        assert!(known <= 96 && (3 * modes <= known || known == 96), "{modes} of {:?}", provider.asked);
+        most = most.max(known);
+    }
+    assert_eq!(most, 96, "an accuracy of a millionth needs all of them");
+}
+
+#[test]
+fn a_structure_that_no_wheel_moves_needs_no_modes_and_has_no_error() {
+    let mut provider = Beam { is_still: true, ..Beam::default() };
+    let choice = chosen(0.25, EXTREMES, &mut provider);
+    assert_eq!(
+        (choice.fidelity, choice.reason, choice.estimate),
+        (Fidelity::Influence, Reason::Sufficient, Some(0.0))
+    );
+    assert_eq!(provider.runs, [(Fidelity::Influence, EXTREMES.run_accuracy())]);
+}
+
+/// A record of forces over time.
+fn record(count: usize, forces: &[&dyn Fn(f64) -> f64]) -> Record {
+    let time: Vec<f64> = (0..count).map(|i| i as f64 * 0.01).collect();
+    let quantity = |(k, force): (usize, &&dyn Fn(f64) -> f64)| RecordedQuantity {
+        name: format!("force {k}"),
+        kind: "force",
+        channel: None,
+        is_position: false,
+        group: String::new(),
+        least_scale: 0.0,
+        values: time.iter().map(|t| force(*t)).collect(),
+    };
+    let quantities = forces.iter().enumerate().map(quantity).collect();
+    Record { time, quantities }
+}
+
+const BOUNCES: Bounces = Bounces { slowest: 1.0, fastest: 1.0 };
+
+/// Analytic: runs that a rule ended after 0.40 and 0.50 s differ by a fifth of the longer time; equal ends do not count,
+/// and values are compared as far as both reach.
+#[test]
+fn runs_that_end_at_different_times_differ_by_the_time() {
+    let constant: &dyn Fn(f64) -> f64 = &|_| 3.0;
+    let (short, long) = (record(41, &[constant]), record(51, &[constant]));
+    for measure in [Measure::Extremes, Measure::History] {
+        for (a, b) in [(&short, &long), (&long, &short)] {
+            let found = difference(a, b, measure, BOUNCES);
+            assert!((found.largest - 0.2).abs() < 1e-14, "{found:?}");
+            assert_eq!(found.quantity, "time of the end");
+        }
+        let same = difference(&long, &long, measure, BOUNCES);
+        assert_eq!((same.largest, same.quantity.as_str()), (0.0, ""));
+        // One of them has a sample more at the same end.
+        let mut finer = long.clone();
+        finer.time.insert(50, 0.495);
+        finer.quantities[0].values.insert(50, 3.0);
+        assert_eq!(difference(&finer, &long, measure, BOUNCES).largest, 0.0);
+    }
+    let late: &dyn Fn(f64) -> f64 = &|t| if t > 0.405 { 9.0 } else { 3.0 };
+    let found = difference(&short, &record(51, &[late]), Measure::History, BOUNCES);
+    assert!((found.largest - 0.2).abs() < 1e-14, "beyond the shorter run nothing is compared: {found:?}");
+}
+
+/// Analytic: quantities that are no wheels of one body are not exchanged for one another in a long run.
+#[test]
+fn quantities_without_a_group_are_compared_each_by_itself_in_a_long_run() {
+    let wave = |size: f64| move |t: f64| size * (2.0 * PI * t).sin();
+    let (large, small) = (wave(1.0), wave(0.9));
+    let (a, b) = (record(3001, &[&large, &small]), record(3001, &[&small, &large]));
+    let long = Bounces { slowest: 1.0, fastest: 0.1 };
+    let found = difference(&a, &b, Measure::Extremes, long).largest;
+    assert!((found - 0.1 / 1.8).abs() < 1e-3, "{found}");
+    // Of a group, in a short run, each is still itself.
+    let grouped = |mut of: Record| {
+        of.quantities.iter_mut().for_each(|own| "wheels".clone_into(&mut own.group));
+        of
+    };
+    let (a, b) = (grouped(a), grouped(b));
+    let after = |bounces: f64| {
+        let bounces = Bounces { slowest: 1.0, fastest: 30.0 / bounces };
+        difference(&a, &b, Measure::Extremes, bounces).largest
+    };
+    for bounces in [30.0, 90.0] {
+        assert!((after(bounces) - 0.1 / 1.8).abs() < 1e-3, "{bounces}: {}", after(bounces));
+    }
+    // After more than a hundred bounces their phases cannot be known, and the wheels of a body are one.
+    assert!(after(110.0) < 1e-12, "{}", after(110.0));
+}
+
+/// Analytic: a bounce of +-1 that stays at its peak for one period has a mean that is larger by a third over three
+/// periods, while no envelope changes: a third of the amplitude, a sixth of its range. Windows overlap by half, so that
+/// one of them contains the whole pause wherever it begins.
+#[test]
+fn a_pause_of_one_period_changes_the_mean_over_three_periods() {
+    let wave: &dyn Fn(f64) -> f64 = &|t| (2.0 * PI * t).sin();
+    for from in [4.25, 5.75, 7.25, 10.25] {
+        let paused: &dyn Fn(f64) -> f64 =
+            &|t| if (from..from + 1.0).contains(&t) { 1.0 } else { (2.0 * PI * (t - from)).cos() };
+        let plain: &dyn Fn(f64) -> f64 = &|t| (2.0 * PI * (t - from)).cos();
+        let found = difference(&record(3001, &[paused]), &record(3001, &[plain]), Measure::Extremes, BOUNCES);
+        assert!((found.largest - 1.0 / 6.0).abs() < 2e-3, "from {from}: {found:?}");
+        assert!(
+            difference(&record(3001, &[wave]), &record(3001, &[plain]), Measure::Extremes, BOUNCES).largest
+                < 0.01
+        );
+    }
+}
