@@ -83,7 +83,7 @@ fn a_foundation_that_is_given_is_kept() {
     assert_eq!(scene.structures[0].foundation, Foundation::Rigid);
     let deflection = found.run.history.column(Channel::Deflection(0));
     assert!(!deflection.is_empty() && deflection.iter().all(|y| *y == 0.0), "a rigid rail");
-    assert_eq!(names, [""], "no structure is chosen for");
+    assert!(names.is_empty(), "no structure is chosen for: {names:?}");
 }
 
 fn choice(reason: Reason, estimate: Option<f64>, quantity: &str) -> Choice {
@@ -95,6 +95,7 @@ fn choice(reason: Reason, estimate: Option<f64>, quantity: &str) -> Choice {
         quantity: quantity.to_owned(),
         tried: Vec::new(),
         failed: Vec::new(),
+        drifting: None,
     }
 }
 
@@ -136,6 +137,12 @@ fn every_reason_is_a_sentence_with_the_choice_its_error_and_its_quantity() {
             }
         }
     }
+    let drifting = Some(204.4);
+    let doubt =
+        selection_doubt("girder", &Choice { drifting, ..choice(Reason::Sufficient, Some(1e-4), "") }, 1e-3);
+    assert!(
+        doubt.is_some_and(|doubt| doubt.contains("holds for 100 bounces") && doubt.contains("has 204 that"))
+    );
     let failed = vec![Fidelity::Influence, Fidelity::Modal(24)];
     let doubt = selection_doubt("girder", &Choice { failed, ..choice(Reason::Unchecked, None, "") }, 1e-3);
     assert!(doubt.is_some_and(|doubt| doubt.ends_with(" (could not be run: influence; modal, 24 modes)")));

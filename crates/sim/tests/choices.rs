@@ -212,7 +212,7 @@ fn record(count: usize, forces: &[&dyn Fn(f64) -> f64]) -> Record {
     Record { time, quantities }
 }
 
-const BOUNCES: Bounces = Bounces { slowest: 1.0, fastest: 1.0 };
+const BOUNCES: Bounces = Bounces { slowest: 1.0, remembered: 1.0 };
 
 /// Analytic: runs that a rule ended after 0.40 and 0.50 s differ by a fifth of the longer time; equal ends do not count,
 /// and values are compared as far as both reach.
@@ -245,7 +245,7 @@ fn quantities_without_a_group_are_compared_each_by_itself_in_a_long_run() {
     let wave = |size: f64| move |t: f64| size * (2.0 * PI * t).sin();
     let (large, small) = (wave(1.0), wave(0.9));
     let (a, b) = (record(3001, &[&large, &small]), record(3001, &[&small, &large]));
-    let long = Bounces { slowest: 1.0, fastest: 0.1 };
+    let long = Bounces { slowest: 1.0, remembered: 300.0 };
     let found = difference(&a, &b, Measure::Extremes, long).largest;
     assert!((found - 0.1 / 1.8).abs() < 1e-3, "{found}");
     // Of a group, in a short run, each is still itself.
@@ -255,7 +255,7 @@ fn quantities_without_a_group_are_compared_each_by_itself_in_a_long_run() {
     };
     let (a, b) = (grouped(a), grouped(b));
     let after = |bounces: f64| {
-        let bounces = Bounces { slowest: 1.0, fastest: 30.0 / bounces };
+        let bounces = Bounces { slowest: 1.0, remembered: bounces };
         difference(&a, &b, Measure::Extremes, bounces).largest
     };
     for bounces in [30.0, 90.0] {

@@ -81,16 +81,8 @@ impl FactoredFrame {
         error: f64,
     ) -> Result<Modes, Error> {
         let mass = ScaledMass::new(m, &self.elements, &self.bodies, self.stiffness())?;
-<<<<<<< HEAD
-        self.lowest_of(&Part::moved_by(forces, self, &mass), &mass, count, error.max(DOUBLES_SUFFICE[1]))
-=======
-        self.lowest_of(
-            &Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass),
-            &mass,
-            count,
-            DOUBLES_SUFFICE[1],
-        )
->>>>>>> input
+        let part = Part::moved_by(forces, self.rail_loads(), self.stiffness(), &mass);
+        self.lowest_of(&part, &mass, count, error.max(DOUBLES_SUFFICE[1]))
     }
 
     /// The lowest modes of `part`; its frequencies may have the relative error `error`.

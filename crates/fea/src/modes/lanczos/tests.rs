@@ -115,7 +115,7 @@ fn converged_pairs_stay_converged_after_a_restart() {
     let frame = FactoredFrame::new(&model, &rails).expect("it stands");
     let mass =
         ScaledMass::new(&model, &frame.elements, &frame.bodies, frame.stiffness()).expect("it has mass");
-    let part = Part::moved_by(&ExcitingForces::vertical(), &frame, &mass);
+    let part = Part::moved_by(&ExcitingForces::vertical(), frame.rail_loads(), frame.stiffness(), &mass);
     let factor = factor_of(&part.stiffness);
     let (stiffness, mass) = (&part.stiffness, &part.mass);
     let mut lanczos = Lanczos::new(Pencil { stiffness, mass, factor: PencilFactor::Own(&factor) });
