@@ -71,3 +71,28 @@ fn modes_without_mass_are_refused_at_the_place_that_lacks_it() {
     assert!(said.contains("mass_per_length") && said.contains("one.json:3"), "{said}");
     assert_eq!(girderway(&folder, &["fea", "one.json", "--modes", "0"]).status.code(), Some(2));
 }
+
+/// The ramp of the damper makes the force of a rising wheel fall with its penetration: a negative stiffness, which must
+/// not enter the frequency of a mode on its wheels. Regression: 56 steps.
+#[test]
+fn a_ramped_damper_of_a_rising_wheel_does_not_shorten_the_steps() {
+    let folder = folder();
+    let spec = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
+      "girder": {"spans": [11.6553], "E": 2.1e8, "G": 8.1e7, "A": 0.02, "I_vertical": 3.278e-5, "I_lateral": 3.312e-3,
+      "J": 1e-4, "mass_per_length": 0.5301, "rail_height": 0.5}, "stations": [0, 2.9, 5.8, 8.7, 11.6553]}"#;
+    let scene = r#"{"format": "girderway-scene/1", "units": {"length": "m", "force": "kN", "time": "s"}, "gravity": 9.81,
+      "structures": {"girder": {"spec": "spec.json", "foundation": "modal"}},
+      "bodies": {"car": {"mass": 16.11, "inertia": [16.11, 16.11, 11.807], "dof": ["x", "y", "pitch"], "x0": 3.4732}},
+      "wheels": {"wheel": {"radius": 0.2463,
+      "vertical": {"k": 5414000, "c": 40453.4, "law": "impact", "exponent": 1.1, "depth": 0.0002704}}},
+      "trucks": [{"body": "car", "rail": "girder.rail", "tree": [-1.2926, 1.2926], "wheel": "wheel"}],
+      "motions": [{"body": "car", "dof": "x", "kind": "prescribed", "speed": [[0, 0.3671]]}],
+      "end": {"time": 0.01784}, "output": {"dt": 0.00223}, "accuracy": 1e-4}"#;
+    fs::write(folder.path().join("spec.json"), spec).expect("written");
+    fs::write(folder.path().join("scene.json"), scene).expect("written");
+    let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+    let steps = summary["steps"]["accepted"].as_u64().expect("a number of steps");
+    assert!(steps < 1000, "{steps} steps");
+}

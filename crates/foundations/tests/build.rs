@@ -75,7 +75,7 @@ fn influence_functions_and_modes_have_the_static_compliance_of_the_bridge() {
     assert!((give(&modal, 0.5 * l, 0.5 * l) - rest).abs() < 1e-5 * expected);
 }
 
-/// Analytic: frequencies of the bridge; within 1e-6 where a number of modes is given, within a hundredth of the
+/// Analytic: frequencies of the bridge; within 1e-6 where a number of modes is given, within a tenth of the
 /// tolerance where it is chosen by the extremes of a run, and by fewer elements there.
 #[test]
 fn frequencies_of_modes_have_the_accuracy_that_their_use_needs() {
@@ -90,7 +90,7 @@ fn frequencies_of_modes_have_the_accuracy_that_their_use_needs() {
     for (auto, measure, accuracy) in [
         (false, sim::Measure::Extremes, 1e-6),
         (true, sim::Measure::History, 1e-6),
-        (true, sim::Measure::Extremes, 1e-3),
+        (true, sim::Measure::Extremes, 1e-2),
     ] {
         (structure.auto, structure.measure, structure.tolerance) = (auto, measure, 0.1);
         let built = built(&structure, &solved).expect("a bridge with mass");

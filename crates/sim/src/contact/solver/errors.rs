@@ -149,6 +149,8 @@ impl Solver<'_> {
             .map(|i| {
                 let row = &self.geometry.rows().approach[i * n..(i + 1) * n];
                 let [_, by_place, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
+                // a ramped damper makes the law of a wheel that rises fall with its penetration
+                let by_place = by_place.max(0.0);
                 let share = 1.0 / (1.0 + by_place * self.geometry.own_compliance(i));
                 (row, by_place * share, if self.remembers(i) { by_rate * share * share } else { 0.0 })
             })
