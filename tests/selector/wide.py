@@ -1,6 +1,6 @@
 """Random scenes of wheels on girders and frames, run with "auto" as a user runs them, judged by other runs.
 
-    python3 tests/selector/wide.py PROGRAM [--seed N] [--scenes N] [--jobs N]
+    python3 tests/selector/wide.py PROGRAM [--seed N] [--first N] [--scenes N] [--jobs N]
 
 Each scene is run twice with "auto", by extremes and by values at equal times, and compared in every recorded column with
 two references that differ in their discretization: a mesh, and natural modes. A scene whose references differ by more
@@ -340,12 +340,14 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("program")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--first", type=int, default=0, help="number of the first scene")
     parser.add_argument("--scenes", type=int, default=200)
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
     program, results = str(Path(options.program).resolve()), []
     with ThreadPoolExecutor(options.jobs) as threads:
-        for both in threads.map(lambda index: list(examined(program, options.seed, index)), range(options.scenes)):
+        for both in threads.map(lambda index: list(examined(program, options.seed, index)),
+                                 range(options.first, options.first + options.scenes)):
             results += both
             for result in both:
                 print(json.dumps(result), flush=True)
