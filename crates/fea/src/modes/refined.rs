@@ -110,7 +110,7 @@ impl RefinedModes {
 /// the inertia that this deflection leaves out: m omega^2 k^2 h^4 / (1440 G As) + m omega^2 k^2 h^6 / (201600 EI) for
 /// the linear part of the load, with k the wavenumber of the beam, and m omega^2 r^4 k^2 h^2 / (24 EI) for the moment of
 /// the rotation, with r the radius of gyration. The first mesh is made for an estimate of the highest frequency asked
-/// for ([`asymptotic_frequency`]); members are cut further until each term is below `accuracy` at the frequency found.
+/// for by Weyl's law; members are cut further until each term is below `accuracy` at the frequency found.
 /// Trusses and rods are not cut, nor are beams without an axial or bending stiffness that others have: their mass acts
 /// at their ends.
 ///
