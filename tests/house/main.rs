@@ -15,12 +15,13 @@ use crates::Crate;
 use wings::Wings;
 
 /// Normal dependencies that each crate may have on others of ours, lowest crate first.
-const DEPENDENCIES: [(&str, &[&str]); 13] = [
+const DEPENDENCIES: [(&str, &[&str]); 14] = [
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
     ("fea", &["splines"]),
     ("sim", &["splines"]),
+    ("trains", &["fea", "splines"]),
     ("formats", &["adams", "fea", "practice", "sim", "splines"]),
     ("import", &["formats", "fea"]),
     ("foundations", &["formats", "fea", "sim", "splines"]),

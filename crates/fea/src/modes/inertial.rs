@@ -2,7 +2,9 @@
 
 use nalgebra::{DMatrix, SVector, Vector3};
 
-use crate::assembly::{BendingPlane, Element, Matrix12, arm, bending_planes, transformation};
+use splines::Probe;
+
+use crate::assembly::{BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation};
 use crate::error::Error;
 use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
@@ -81,6 +83,34 @@ impl FactoredFrame {
             }
         }
         Ok(out)
+    }
+
+    /// Displacements at probes under the forces M a of a uniform acceleration a, global, of the whole structure: with
+    /// a = -g up those under its weight.
+    ///
+    /// `m` is the model that the frame was made of. The result is exact where a rail element ends; between its ends the
+    /// deflection by the mass of the element itself, with both ends held, is left out.
+    ///
+    /// # Errors
+    /// A probe beyond its rail.
+    pub fn displacements_of_weight(
+        &self,
+        m: &Model,
+        acceleration: [f64; 3],
+        at: &[Probe],
+    ) -> Result<Vec<f64>, Error> {
+        let reference = |body: usize| self.bodies.list[body].reference;
+        let [a, b, c] = acceleration;
+        let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
+        let forces = self.inertia_forces(m, &[motion], |motion, body| {
+            arm(&Vector3::from(m.points[reference(body)])) * motion
+        });
+        let mut load = Combination::default();
+        for (body, force) in forces[0].on_bodies.iter().enumerate() {
+            (0..6).for_each(|k| load.add(6 * body + k, force[k]));
+        }
+        let motions = self.motions(&self.scaled_where_stiffened(&load));
+        at.iter().map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions))).collect()
     }
 
     /// The forces M a for each of `all`; `motion` gives the acceleration of the reference of a body.

@@ -1,0 +1,273 @@
+//! Dead load: the weight of the structure and uniform loads on rails.
+
+use fea::{BeamTheory, Effect};
+use nalgebra::Vector3;
+use splines::Probe;
+
+use crate::error::Error;
+use crate::line::Lines;
+use crate::polynomial::Polynomial;
+use crate::structure::{Carrier, QUANTITIES, Quantity, Structure, deflection_axis, end_effects};
+
+/// Loads that stay.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DeadLoads {
+    /// Acceleration of gravity with which everything that has mass weighs, along minus up; 0 for no weight.
+    pub gravity: f64,
+    /// Force per length of each rail, downwards; an empty list for none.
+    pub lines: Vec<f64>,
+}
+
+impl DeadLoads {
+    /// The load on a rail per length.
+    pub(crate) fn line(&self, rail: usize) -> f64 {
+        self.lines.get(rail).copied().unwrap_or(0.0)
+    }
+
+    /// Whether there is any.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.gravity == 0.0 && self.lines.iter().all(|line| *line == 0.0)
+    }
+}
+
+/// The quantities of one carrier under dead load, as polynomials in the distance along it.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct DeadLoad {
+    /// Internal forces: a + b s + c s^2 each.
+    forces: [[f64; 3]; QUANTITIES],
+    /// Deflections downwards and along +z, of degree four.
+    deflections: [[f64; 5]; 2],
+}
+
+impl DeadLoad {
+    /// Quantity k at a place that is a polynomial itself.
+    pub fn along(&self, k: usize, place: &Polynomial) -> Polynomial {
+        let [a, b, c] = self.forces[k];
+        if [a, b, c] == [0.0; 3] {
+            return Polynomial::default();
+        }
+        let linear = Polynomial::new(&[a]).plus(place, b);
+        if c == 0.0 { linear } else { linear.plus(&place.times(place), c) }
+    }
+
+    /// Coefficients of quantity k.
+    pub fn quadratic(&self, k: usize) -> [f64; 3] {
+        self.forces[k]
+    }
+
+    /// Value of a quantity at a place.
+    pub fn at(&self, quantity: Quantity, s: f64) -> f64 {
+        let value = |c: &[f64]| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
+        match (quantity as usize).checked_sub(QUANTITIES) {
+            None => value(&self.forces[quantity as usize]),
+            Some(direction) => value(&self.deflections[direction]),
+        }
+    }
+
+    /// The same times a factor.
+    pub fn times(&self, factor: f64) -> DeadLoad {
+        DeadLoad {
+            forces: self.forces.map(|c| c.map(|c| factor * c)),
+            deflections: self.deflections.map(|c| c.map(|c| factor * c)),
+        }
+    }
+}
+
+impl Structure {
+    /// The dead load of carriers. `lines` are the influence lines at the first end of each.
+    pub(crate) fn dead_loads(
+        &self,
+        dead: &DeadLoads,
+        carriers: &[Carrier],
+        lines: &[Lines<QUANTITIES>],
+    ) -> Result<Vec<DeadLoad>, Error> {
+        if dead.is_empty() {
+            return Ok(vec![DeadLoad::default(); carriers.len()]);
+        }
+        let up = Vector3::from(self.model.up).normalize();
+        let effects: Vec<Effect> = carriers.iter().flat_map(end_effects).collect();
+        let rigid = self.frame.inertial(&self.model, &effects, &[])?.rigid;
+        let mut out = Vec::with_capacity(carriers.len());
+        for (index, (carrier, lines)) in carriers.iter().zip(lines).enumerate() {
+            let own = std::array::from_fn(|k| {
+                -dead.gravity * (0..3).map(|i| rigid[(6 * index + k, i)] * up[i]).sum::<f64>()
+            });
+            let mut start = carrier.quantities(own);
+            for (rail, cells) in lines.rails.iter().enumerate() {
+                let load = -dead.line(rail);
+                for (k, start) in start.iter_mut().enumerate() {
+                    *start +=
+                        load * cells.iter().map(|cell| integral(&cell.cubics[1][k], cell.x)).sum::<f64>();
+                }
+            }
+            let [force, couple] = self.distributed(dead, carrier, &up)?;
+            out.push(DeadLoad {
+                forces: along(&start, &carrier.jump(&force, &couple)),
+                deflections: [[0.0; 5]; 2],
+            });
+        }
+        self.add_deflections(dead, carriers, &up, &mut out)?;
+        Ok(out)
+    }
+
+    /// A sum of effects under dead load; `line` is its influence line.
+    pub(crate) fn dead_effect(
+        &self,
+        effects: &[Effect],
+        line: &Lines<1>,
+        dead: &DeadLoads,
+    ) -> Result<f64, Error> {
+        if dead.is_empty() {
+            return Ok(0.0);
+        }
+        let up = Vector3::from(self.model.up).normalize();
+        let rigid = self.frame.inertial(&self.model, effects, &[])?.rigid;
+        let weight: f64 =
+            (0..effects.len()).map(|e| (0..3).map(|k| rigid[(e, k)] * up[k]).sum::<f64>()).sum();
+        let on_rails: f64 = line
+            .rails
+            .iter()
+            .enumerate()
+            .map(|(rail, cells)| {
+                dead.line(rail) * cells.iter().map(|cell| integral(&cell.cubics[1][0], cell.x)).sum::<f64>()
+            })
+            .sum();
+        Ok(-dead.gravity * weight - on_rails)
+    }
+
+    /// Force and couple per length of the member of a carrier.
+    fn distributed(
+        &self,
+        dead: &DeadLoads,
+        carrier: &Carrier,
+        up: &Vector3<f64>,
+    ) -> Result<[Vector3<f64>; 2], Error> {
+        let section = &self.model.sections[self.model.members[carrier.member].section];
+        let mut force = up * (-section.mass * dead.gravity);
+        let mut couple = Vector3::zeros();
+        for other in self.carriers.iter().filter(|other| other.member == carrier.member) {
+            let stretches = &self.rails[other.rail].stretches;
+            let stretch = stretches.iter().find(|stretch| stretch.element == other.element);
+            let [f, m] = self.load(stretch.expect("a carrier is made from a stretch"), 1)?;
+            let load = -dead.line(other.rail) / other.rate();
+            force += f * load;
+            couple += m * load;
+        }
+        Ok([force, couple])
+    }
+
+    /// Deflections of the rails over the carriers: those of the ends by the structure, and between them the particular
+    /// solution for the internal forces that vanishes at both ends,
+    ///
+    /// v'' = M/EI - q/GAs in each plane of bending, and for the twist GJ theta'' = T'.
+    fn add_deflections(
+        &self,
+        dead: &DeadLoads,
+        carriers: &[Carrier],
+        up: &Vector3<f64>,
+        out: &mut [DeadLoad],
+    ) -> Result<(), Error> {
+        for (carrier, load) in carriers.iter().zip(out) {
+            let interior = self.interior_motion(carrier, load);
+            for (direction, quantity) in
+                [Quantity::VerticalDeflection, Quantity::LateralDeflection].into_iter().enumerate()
+            {
+                let (axis, sign) = deflection_axis(quantity);
+                if !self.frame.resists(carrier.rail, axis) {
+                    continue;
+                }
+                let at = carrier.x.map(|x| Probe { rail: carrier.rail, x, axis });
+                let down = (up * -dead.gravity).into();
+                let mut ends = self.frame.displacements_of_weight(&self.model, down, &at)?;
+                ends.iter_mut().for_each(|end| *end *= sign);
+                for (end, x) in ends.iter_mut().zip(carrier.x) {
+                    if dead.lines.iter().all(|line| *line == 0.0) {
+                        break;
+                    }
+                    let used = [false, true, false, false, false];
+                    let line = self.deflection_line(carrier.rail, &[[x, 1.0]], quantity, used)?;
+                    for (rail, cells) in line.rails.iter().enumerate() {
+                        let all = cells.iter().map(|cell| integral(&cell.cubics[1][0], cell.x));
+                        *end -= dead.line(rail) * all.sum::<f64>();
+                    }
+                }
+                let component = axis.component();
+                let inside =
+                    interior.map(|power| sign * power.dot(&self.rails[carrier.rail].axes[component]));
+                let deflection = &mut load.deflections[direction];
+                deflection.copy_from_slice(&inside);
+                deflection[0] += ends[0];
+                deflection[1] += (ends[1] - ends[0]) / carrier.length;
+            }
+        }
+        Ok(())
+    }
+
+    /// Motion of the rail between the ends of a carrier that are held in place, by powers of the distance; global.
+    fn interior_motion(&self, carrier: &Carrier, load: &DeadLoad) -> [Vector3<f64>; 5] {
+        let [t, u, z] = carrier.triad;
+        let section = &self.model.sections[self.model.members[carrier.member].section];
+        let theory: BeamTheory = self.model.theory;
+        let flexibility = section.flexibility(theory);
+        let quantity = |q: Quantity| load.forces[q as usize];
+        let y_axis = carrier.local[1];
+        let z_axis = t.cross(&y_axis);
+        let mut out = [Vector3::zeros(); 5];
+        let mut add = |direction: Vector3<f64>, second: [f64; 3]| {
+            for (out, c) in out.iter_mut().zip(zero_at_ends(second, carrier.length)) {
+                *out += direction * c;
+            }
+        };
+        // Moment and force on the face that looks along +t, in the planes of the section's axes.
+        let [vertical, lateral] = [quantity(Quantity::VerticalMoment), quantity(Quantity::LateralMoment)];
+        let shears = [quantity(Quantity::VerticalShear), quantity(Quantity::LateralShear)];
+        let planes = [
+            (y_axis, z_axis, 1.0, flexibility.bending_z, flexibility.shear_y),
+            (z_axis, y_axis, -1.0, flexibility.bending_y, flexibility.shear_z),
+        ];
+        for (direction, about, sign, bending, shear) in planes {
+            let times = |c: f64, flexibility: f64| if c == 0.0 { 0.0 } else { c * flexibility };
+            let moment = |p: usize| sign * (vertical[p] * z.dot(&about) + lateral[p] * u.dot(&about));
+            let rate = -shears[0][1] * u.dot(&direction) + shears[1][1] * z.dot(&direction);
+            let mut second: [f64; 3] = std::array::from_fn(|p| times(moment(p), bending));
+            second[0] += times(rate, shear);
+            if second.iter().all(|c| c.is_finite()) {
+                add(direction, second);
+            }
+        }
+        let twist = load.forces[Quantity::Torsion as usize][1];
+        if twist != 0.0 && flexibility.torsion.is_finite() {
+            let stretch = self.rails[carrier.rail].stretches.iter().find(|s| s.element == carrier.element);
+            let offset = stretch
+                .and_then(|_| self.frame.line().ok())
+                .map_or([0.0; 3], |line| line.elements()[carrier.element].offset);
+            let axes = &self.rails[carrier.rail].axes;
+            let arm = axes[0] * offset[0] + axes[1] * offset[1] + axes[2] * offset[2];
+            add(t.cross(&arm), [twist * flexibility.torsion, 0.0, 0.0]);
+        }
+        out
+    }
+}
+
+/// Integral of a cubic in the distance from x0 over x0..x1.
+fn integral(cubic: &[f64; 4], [from, to]: [f64; 2]) -> f64 {
+    let h = to - from;
+    let [a, b, c, d] = cubic;
+    h * (a + h * (b / 2.0 + h * (c / 3.0 + h * d / 4.0)))
+}
+
+/// Quantities along a member by those at its first end and their jump per length.
+fn along(start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES]) -> [[f64; 3]; QUANTITIES] {
+    std::array::from_fn(|k| match Quantity::ALL[k].slope() {
+        Some(shear) => [start[k], start[shear] + jump[k], 0.5 * jump[shear]],
+        None => [start[k], jump[k], 0.0],
+    })
+}
+
+/// The polynomial with second derivative a + b s + c s^2 that is zero at 0 and at `length`.
+fn zero_at_ends([a, b, c]: [f64; 3], length: f64) -> [f64; 5] {
+    let (second, third, fourth) = (a / 2.0, b / 6.0, c / 12.0);
+    let end = length * (second + length * (third + length * fourth));
+    [0.0, -end, second, third, fourth]
+}

@@ -1,0 +1,50 @@
+//! What can prevent envelopes from being computed.
+
+use splines::Axis;
+
+/// An error of a calculation of envelopes.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum Error {
+    /// The structure cannot be solved.
+    #[error(transparent)]
+    Frame(#[from] fea::Error),
+    /// A function along a rail cannot be evaluated.
+    #[error(transparent)]
+    Function(#[from] splines::Error),
+    /// A train does not fit on its rails.
+    #[error(
+        "the train is longer than the rails that it stands on: position {lowest} would be needed at least and {highest} at most"
+    )]
+    TooLong {
+        /// Index of the train.
+        train: usize,
+        /// Smallest position at which every wheel is beyond the start of its rail.
+        lowest: f64,
+        /// Largest position at which every wheel is before the end of its rail.
+        highest: f64,
+    },
+    /// Trains of a case do not fit on the rails beside each other in any order.
+    #[error("the trains of the case do not fit on the rails beside each other")]
+    NoRoom {
+        /// Index of the case.
+        case: usize,
+    },
+    /// A wheel has a force in a direction that the structure does not resist.
+    #[error("the structure has no stiffness against {axis:?} forces on the rail")]
+    NoStiffness {
+        /// Index of the train.
+        train: usize,
+        /// Index of the wheel.
+        wheel: usize,
+        /// Direction of the force.
+        axis: Axis,
+    },
+    /// A wheel stands on a rail that does not exist, or a number is not finite.
+    #[error("wheel {wheel} of train {train} has no rail or a number that is not finite")]
+    Wheel {
+        /// Index of the train.
+        train: usize,
+        /// Index of the wheel.
+        wheel: usize,
+    },
+}

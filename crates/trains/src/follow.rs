@@ -1,0 +1,166 @@
+//! Extremes of internal forces over all sections of a member.
+//!
+//! At a fixed position of the train a quantity changes along the member linearly between wheels, a moment quadratically
+//! where the dead load is distributed. It is extreme at an end of the member, just before or behind a wheel, or where a
+//! moment has a vertex. A section that follows a wheel has quantities of degree at most four in the position, and the
+//! value at a vertex, a - b^2/(4 c) with a and b cubic, is of degree six. Ends of the member are fixed sections
+//! (`section`); this file does the others.
+
+use crate::dead::DeadLoad;
+use crate::pieces::Pieces;
+use crate::polynomial::Polynomial;
+use crate::section::{TrainOnCarrier, WheelOnMember, slope_index};
+use crate::structure::QUANTITIES;
+
+/// Which side of a wheel a section is on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum SectionSide {
+    /// Just before it, at the smaller coordinate.
+    Before,
+    /// At the coordinate itself.
+    #[default]
+    At,
+    /// Just behind it.
+    Behind,
+}
+
+/// An extreme on a member: the section and the position.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Peak {
+    /// Sign times value, dead load included.
+    pub signed: f64,
+    pub place: f64,
+    pub side: SectionSide,
+    pub position: f64,
+}
+
+/// What is sought: the largest value of sign times quantity k with dead load, for places within a window.
+pub(crate) struct Target<'a> {
+    pub k: usize,
+    pub sign: f64,
+    pub window: [f64; 2],
+    pub dead: &'a DeadLoad,
+}
+
+impl TrainOnCarrier {
+    /// The largest value of a target at sections beside wheels and at vertices; `None` where there is none above
+    /// `floor`.
+    pub fn follow(&self, pieces: &Pieces<QUANTITIES>, target: &Target<'_>, floor: f64) -> Option<Peak> {
+        let mut best: Option<Peak> = None;
+        let mut wheels = Vec::new();
+        for (index, piece) in pieces.list.iter().enumerate() {
+            self.wheels(pieces, index, &mut wheels);
+            let state = State { base: &piece.cubics, wheels: &wheels };
+            let h = piece.length();
+            for (j, wheel) in wheels.iter().enumerate() {
+                // Positions at which the wheel is within the window.
+                let times = target.window.map(|s| (s - wheel.start) / wheel.rate);
+                let [from, to] = [times[0].min(times[1]).max(0.0), times[0].max(times[1]).min(h)];
+                if from > to {
+                    continue;
+                }
+                for side in [SectionSide::Before, SectionSide::Behind] {
+                    let count = if side == SectionSide::Before { j } else { j + 1 };
+                    let place = Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
+                    let of = |k: usize| state.quantity(k, &place, from, count);
+                    let live = of(target.k);
+                    let dead = target.dead.along(target.k, &place);
+                    let total = Polynomial::default().plus(&live, target.sign).plus(&dead, target.sign);
+                    let limit = best.map_or(floor, |best| best.signed);
+                    if let Some((t, signed)) = total.largest_above(to - from, limit)
+                        && signed > limit
+                    {
+                        best = Some(Peak {
+                            signed,
+                            place: place.at(t),
+                            side,
+                            position: piece.position[0] + from + t,
+                        });
+                    }
+                }
+            }
+            self.vertices(&state, [piece.position[0], h], target, floor, &mut best);
+        }
+        best
+    }
+
+    /// Vertices of a moment between neighbouring loads, where the dead load bends it.
+    fn vertices(
+        &self,
+        state: &State<'_>,
+        [position, h]: [f64; 2],
+        target: &Target<'_>,
+        floor: f64,
+        best: &mut Option<Peak>,
+    ) {
+        let Some(shear) = slope_index(target.k) else { return };
+        let [a, b, c] = target.dead.quadratic(target.k);
+        if target.sign * c >= 0.0 {
+            return;
+        }
+        for count in 0..=state.wheels.len() {
+            // moment = value + slope s + c s^2 between wheel `count` and the next.
+            let start = Polynomial::new(&[0.0]);
+            let value = state.quantity(target.k, &start, 0.0, count).plus(&Polynomial::new(&[a]), 1.0);
+            let slope = state.quantity(shear, &start, 0.0, count).plus(&Polynomial::new(&[b]), 1.0);
+            let total = value.plus(&slope.times(&slope), -0.25 / c);
+            let signed = Polynomial::default().plus(&total, target.sign);
+            let limit = best.map_or(floor, |best| best.signed);
+            if signed.bound(h) <= limit {
+                continue;
+            }
+            for &t in signed.candidates(h).list() {
+                let place = -0.5 * slope.at(t) / c;
+                let at = |wheel: Option<&WheelOnMember>, end: f64| {
+                    wheel.map_or(end, |wheel| wheel.start + wheel.rate * t)
+                };
+                let from = at(count.checked_sub(1).and_then(|k| state.wheels.get(k)), 0.0);
+                let to = at(state.wheels.get(count), self.length());
+                let inside = place >= from.max(target.window[0]) && place <= to.min(target.window[1]);
+                let limit = best.map_or(floor, |best| best.signed);
+                if inside && signed.at(t) > limit {
+                    *best = Some(Peak {
+                        signed: signed.at(t),
+                        place,
+                        side: SectionSide::At,
+                        position: position + t,
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// The quantities at the end of the member and the wheels on it, in one piece.
+struct State<'a> {
+    base: &'a [[f64; 4]; QUANTITIES],
+    wheels: &'a [WheelOnMember],
+}
+
+impl State<'_> {
+    /// Quantity k at a place that is linear in the distance from position `from` of the piece, the first `count` wheels
+    /// counted as before it.
+    fn quantity(&self, k: usize, place: &Polynomial, from: f64, count: usize) -> Polynomial {
+        let base = |k: usize| {
+            let [a, b, c, d] = self.base[k];
+            Polynomial::new(&[
+                a + from * (b + from * (c + from * d)),
+                b + from * (2.0 * c + from * (3.0 * d)),
+                c + 3.0 * from * d,
+                d,
+            ])
+        };
+        let mut out = base(k);
+        if let Some(shear) = slope_index(k) {
+            out = out.plus(&base(shear).times(place), 1.0);
+        }
+        for wheel in &self.wheels[..count] {
+            let own = Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
+            out = out.plus(&Polynomial::new(&[wheel.jump[k]]), 1.0);
+            if let Some(shear) = slope_index(k) {
+                out = out.plus(place, wheel.jump[shear]).plus(&own, -wheel.jump[shear]);
+            }
+        }
+        out
+    }
+}

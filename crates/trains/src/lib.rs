@@ -1,0 +1,51 @@
+//! Wheel trains on a structure: envelopes, extremes and the positions that govern them, exactly.
+//!
+//! A [`Structure`] is a frame with rails, solved once. Its influence lines are piecewise cubic, so that every response to
+//! a [`Train`] at a fixed section is piecewise cubic in the train's position, and its largest value a root of a
+//! polynomial; nothing is sampled. [`envelopes`] gives for each [`TrainCase`] the envelopes of internal forces and
+//! deflections along the members that carry rails, their extremes over spans, and the extremes of reactions and of forces
+//! elsewhere. Limits from either side count: a wheel just before and just behind a section are two states, never their
+//! mean.
+//!
+//! Everything is of first order. Units are consistent; the crate knows none.
+//!
+//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, overrun, follow, extremes, collect, search, several, deflection, analysis
+//!
+//! 1. `polynomial`: polynomials of low degree and their largest value;
+//! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
+//! 3. `line`, `structure`: influence lines as cubics; the structure that has them;
+//! 4. `pieces`, `running`, `plan`: responses to a train as functions of its position, and the best arrangement of trains;
+//! 5. `dead`: dead load;
+//! 6. `section`, `overrun`, `follow`: internal forces at a fixed section, and at sections beside wheels and at vertices;
+//! 7. `extremes`, `collect`: the results, and which of two states governs;
+//! 8. `search`, `several`, `deflection`: extremes that are enclosed by bisection;
+//! 9. `analysis`: the calculation.
+
+mod analysis;
+mod collect;
+mod dead;
+mod deflection;
+mod error;
+mod extremes;
+mod follow;
+mod line;
+mod overrun;
+mod pieces;
+mod plan;
+mod polynomial;
+mod running;
+mod search;
+mod section;
+mod several;
+mod structure;
+mod train;
+
+pub use analysis::envelopes;
+pub use dead::DeadLoads;
+pub use error::Error;
+pub use extremes::{
+    CaseEnvelopes, EnvelopeValue, Governing, Request, SpanDeflection, SpanExtreme, TrainPosition,
+};
+pub use follow::SectionSide;
+pub use structure::{Quantity, Structure};
+pub use train::{Stance, Train, TrainCase, Wheel};

@@ -1,0 +1,110 @@
+//! Influence lines as piecewise cubics along the rails.
+
+use crate::train::COMPONENTS;
+
+/// Places in a cell at which a function is sampled to find its cubic: the nodes of Chebyshev, which keep away from the
+/// ends, where a line may jump.
+const NODES: [f64; 4] =
+    [0.038_060_233_744_356_62, 0.308_658_283_817_455_1, 0.691_341_716_182_544_9, 0.961_939_766_255_643_4];
+
+/// Influence lines of N responses over one stretch of rail.
+#[derive(Clone, Debug)]
+pub(crate) struct LineCell<const N: usize> {
+    /// First and last coordinate.
+    pub x: [f64; 2],
+    /// The rail element.
+    pub element: usize,
+    /// By component of the load and response: the cubic in the distance from `x[0]`.
+    pub cubics: [[[f64; 4]; N]; COMPONENTS],
+}
+
+/// Influence lines of N responses: for each rail, its cells by increasing coordinate, without gaps.
+#[derive(Clone, Debug)]
+pub(crate) struct Lines<const N: usize> {
+    pub rails: Vec<Vec<LineCell<N>>>,
+}
+
+impl Lines<1> {
+    /// The response to a load at a coordinate of a rail; 0 beyond its ends.
+    pub fn value(&self, rail: usize, x: f64, load: &[f64; COMPONENTS]) -> f64 {
+        let cells = &self.rails[rail];
+        let Some(k) = cell_at(cells, x) else { return 0.0 };
+        let t = x - cells[k].x[0];
+        let cubic = |c: &[f64; 4]| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
+        load.iter().zip(&cells[k].cubics).map(|(load, [c])| load * cubic(c)).sum()
+    }
+}
+
+/// The cell at a coordinate; `None` beyond the rail.
+pub(crate) fn cell_at<const N: usize>(cells: &[LineCell<N>], x: f64) -> Option<usize> {
+    let (first, last) = (cells.first()?, cells.last()?);
+    // A train that just fits may stand beyond an end by rounding.
+    let slack = 1e-12 * first.x[0].abs().max(last.x[1].abs());
+    if x < first.x[0] - slack || x > last.x[1] + slack {
+        return None;
+    }
+    Some(cells.partition_point(|cell| cell.x[0] <= x).saturating_sub(1))
+}
+
+/// A stretch of rail on one side of every jump.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    pub rail: usize,
+    pub element: usize,
+    pub x: [f64; 2],
+}
+
+/// The cubics of functions that are cubic over a stretch, by their values at four nodes (Newton's divided differences);
+/// `values` is evaluated at a coordinate and writes one value for each function.
+pub(crate) fn cubics<E>(
+    x: [f64; 2],
+    count: usize,
+    mut values: impl FnMut(f64, &mut [f64]) -> Result<(), E>,
+) -> Result<Vec<[f64; 4]>, E> {
+    let h = x[1] - x[0];
+    let mut samples = vec![0.0; 4 * count];
+    for (node, out) in NODES.iter().zip(samples.chunks_mut(count)) {
+        values(x[0] + node * h, out)?;
+    }
+    let cubic = |k: usize| {
+        let f: [f64; 4] = std::array::from_fn(|i| samples[i * count + k]);
+        in_powers(f).into_iter().zip([1.0, h, h * h, h * h * h])
+    };
+    Ok((0..count)
+        .map(|k| {
+            let mut out = [0.0; 4];
+            out.iter_mut().zip(cubic(k)).for_each(|(out, (c, power))| *out = c / power);
+            out
+        })
+        .collect())
+}
+
+/// Coefficients of the cubic with the values f at the nodes.
+fn in_powers(f: [f64; 4]) -> [f64; 4] {
+    let [a, b, c, d] = NODES;
+    let first = [(f[1] - f[0]) / (b - a), (f[2] - f[1]) / (c - b), (f[3] - f[2]) / (d - c)];
+    let second = [(first[1] - first[0]) / (c - a), (first[2] - first[1]) / (d - b)];
+    let third = (second[1] - second[0]) / (d - a);
+    // f0 + (r - a) (f01 + (r - b) (f012 + (r - c) f0123))
+    let inner = [second[0] - c * third, third];
+    let middle = [first[0] - b * inner[0], inner[0] - b * inner[1], inner[1]];
+    [f[0] - a * middle[0], middle[0] - a * middle[1], middle[1] - a * middle[2], middle[2]]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cubic_is_found_by_its_values() {
+        let known = [0.3, -1.2, 0.7, 0.05];
+        let found = cubics([2.0, 5.0], 1, |x, out| {
+            let t = x - 2.0;
+            out[0] = known[0] + t * (known[1] + t * (known[2] + t * known[3]));
+            Ok::<(), ()>(())
+        });
+        for (a, b) in found.expect("the function has values")[0].iter().zip(known) {
+            assert!((a - b).abs() < 1e-14, "{a}, not {b}");
+        }
+    }
+}

@@ -1,0 +1,113 @@
+//! Responses to a train as piecewise cubics in its position.
+
+use crate::line::{LineCell, Lines, cell_at};
+use crate::polynomial::Polynomial;
+use crate::train::{COMPONENTS, PlacedTrain};
+
+/// N responses to a train between two of its positions.
+#[derive(Clone, Debug)]
+pub(crate) struct Piece<const N: usize> {
+    /// First and last position. Values at the ends are the limits from inside.
+    pub position: [f64; 2],
+    /// Cubics in the distance from the first position.
+    pub cubics: [[f64; 4]; N],
+}
+
+impl<const N: usize> Piece<N> {
+    pub fn length(&self) -> f64 {
+        self.position[1] - self.position[0]
+    }
+
+    pub fn polynomial(&self, response: usize) -> Polynomial {
+        Polynomial::new(&self.cubics[response])
+    }
+}
+
+/// The pieces of a train, with the cell in which each of its wheels stands.
+#[derive(Clone, Debug)]
+pub(crate) struct Pieces<const N: usize> {
+    pub list: Vec<Piece<N>>,
+    /// Rail element under each wheel, wheels of the first piece first; `None` beyond the rail.
+    elements: Vec<Option<usize>>,
+    wheels: usize,
+}
+
+impl<const N: usize> Pieces<N> {
+    /// Rail elements under the wheels in a piece.
+    pub fn elements(&self, piece: usize) -> &[Option<usize>] {
+        &self.elements[piece * self.wheels..(piece + 1) * self.wheels]
+    }
+
+    /// Sums the influence lines of all wheels. Between two positions at which a wheel passes from a cell to the next,
+    /// the sum is one cubic; each piece is summed anew, so that no rounding accumulates. Passages closer together than
+    /// `slack` count as one.
+    pub fn sum(lines: &Lines<N>, train: &PlacedTrain, slack: f64) -> Pieces<N> {
+        let [first, last] = train.range;
+        let mut breaks = vec![first, last];
+        for wheel in &train.wheels {
+            let cells = &lines.rails[wheel.rail];
+            let ends = cells.iter().map(|cell| cell.x[0]).chain(cells.last().map(|cell| cell.x[1]));
+            breaks.extend(ends.map(|x| x - wheel.offset).filter(|p| *p > first + slack && *p < last - slack));
+        }
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup_by(|b, a| *b - *a <= slack && *b != last);
+        if last - first <= slack {
+            breaks = vec![first, last];
+        }
+        // Cubics of one wheel: wheels with equal loads on one rail share them.
+        let mut kinds: Vec<(usize, [f64; COMPONENTS])> = Vec::new();
+        let kind_of: Vec<usize> = train
+            .wheels
+            .iter()
+            .map(|wheel| {
+                let kind = (wheel.rail, wheel.load);
+                kinds.iter().position(|known| *known == kind).unwrap_or_else(|| {
+                    kinds.push(kind);
+                    kinds.len() - 1
+                })
+            })
+            .collect();
+        let loaded: Vec<Vec<[[f64; 4]; N]>> = kinds
+            .iter()
+            .map(|(rail, load)| lines.rails[*rail].iter().map(|cell| under(cell, load)).collect())
+            .collect();
+        let mut list = Vec::with_capacity(breaks.len() - 1);
+        let mut elements = Vec::with_capacity((breaks.len() - 1) * train.wheels.len());
+        for ends in breaks.windows(2) {
+            let middle = 0.5 * (ends[0] + ends[1]);
+            let mut cubics = [[0.0; 4]; N];
+            for (wheel, kind) in train.wheels.iter().zip(&kind_of) {
+                let cells = &lines.rails[wheel.rail];
+                let found = cell_at(cells, middle + wheel.offset);
+                elements.push(found.map(|k| cells[k].element));
+                if let Some(k) = found {
+                    let t = ends[0] + wheel.offset - cells[k].x[0];
+                    for (sum, cubic) in cubics.iter_mut().zip(&loaded[*kind][k]) {
+                        add_shifted(sum, cubic, t);
+                    }
+                }
+            }
+            list.push(Piece { position: [ends[0], ends[1]], cubics });
+        }
+        Pieces { list, elements, wheels: train.wheels.len() }
+    }
+}
+
+/// The cubics of a cell under a load.
+fn under<const N: usize>(cell: &LineCell<N>, load: &[f64; COMPONENTS]) -> [[f64; 4]; N] {
+    let mut out = [[0.0; 4]; N];
+    for (force, cubics) in load.iter().zip(&cell.cubics).filter(|(force, _)| **force != 0.0) {
+        for (out, cubic) in out.iter_mut().zip(cubics) {
+            out.iter_mut().zip(cubic).for_each(|(out, c)| *out += force * c);
+        }
+    }
+    out
+}
+
+/// Adds the cubic c(x + t) to a cubic in x.
+fn add_shifted(sum: &mut [f64; 4], [a, b, c, d]: &[f64; 4], t: f64) {
+    sum[0] += a + t * (b + t * (c + t * d));
+    sum[1] += b + t * (2.0 * c + t * (3.0 * d));
+    sum[2] += c + 3.0 * t * d;
+    sum[3] += d;
+}

@@ -1,0 +1,465 @@
+//! A structure prepared for envelopes: its rails, the members that carry them, and its influence lines.
+
+use std::sync::OnceLock;
+
+use fea::{Effect, FactoredFrame, ForceComponent, Model, Rail};
+use nalgebra::Vector3;
+use splines::{Axis, Compliance, ExactSurface, Influence, InfluenceLines, Probe};
+
+use crate::error::Error;
+use crate::line::{LineCell, Lines, Stretch, cubics};
+use crate::train::{COMPONENTS, axis};
+
+/// Number of quantities of a section: [`Quantity::ALL`].
+pub(crate) const QUANTITIES: usize = 6;
+
+/// An internal force of a member that carries a rail, or the deflection of the rail.
+///
+/// The vertical plane is that of the member's axis and up; in the lateral plane +z of the rail takes the place of down.
+/// A moment is positive where it sags, shear is the derivative of the moment along the rail, a normal force is positive
+/// in tension, torsion right-handed about the rail's x on the face that looks along +x. Deflections are positive
+/// downwards and along +z.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum Quantity {
+    /// Normal force.
+    Normal,
+    /// Torsional moment.
+    Torsion,
+    /// Shear force in the vertical plane.
+    VerticalShear,
+    /// Shear force in the lateral plane.
+    LateralShear,
+    /// Moment in the vertical plane.
+    VerticalMoment,
+    /// Moment in the lateral plane.
+    LateralMoment,
+    /// Deflection of the rail downwards.
+    VerticalDeflection,
+    /// Deflection of the rail along +z.
+    LateralDeflection,
+}
+
+impl Quantity {
+    /// All of them: six internal forces and two deflections.
+    pub const ALL: [Quantity; QUANTITIES + 2] = [
+        Quantity::Normal,
+        Quantity::Torsion,
+        Quantity::VerticalShear,
+        Quantity::LateralShear,
+        Quantity::VerticalMoment,
+        Quantity::LateralMoment,
+        Quantity::VerticalDeflection,
+        Quantity::LateralDeflection,
+    ];
+
+    /// Moment, shear and deflection of the plane of a quantity; of the vertical plane for normal force and torsion.
+    pub(crate) const fn coincident(self) -> [Quantity; 3] {
+        match self {
+            Quantity::LateralShear | Quantity::LateralMoment | Quantity::LateralDeflection => {
+                [Quantity::LateralMoment, Quantity::LateralShear, Quantity::LateralDeflection]
+            }
+            _ => [Quantity::VerticalMoment, Quantity::VerticalShear, Quantity::VerticalDeflection],
+        }
+    }
+
+    /// The shear force whose integral along the rail the moment is.
+    pub(crate) const fn slope(self) -> Option<usize> {
+        match self {
+            Quantity::VerticalMoment => Some(Quantity::VerticalShear as usize),
+            Quantity::LateralMoment => Some(Quantity::LateralShear as usize),
+            _ => None,
+        }
+    }
+}
+
+/// A member under a rail, described along the rail.
+#[derive(Clone, Debug)]
+pub(crate) struct Carrier {
+    /// Index of the rail.
+    pub rail: usize,
+    /// Index of its rail element.
+    pub element: usize,
+    /// Index of the member.
+    pub member: usize,
+    /// Coordinates of its ends.
+    pub x: [f64; 2],
+    /// Its length.
+    pub length: f64,
+    /// Whether its own local x runs against the rail.
+    pub reversed: bool,
+    /// Along the member in the direction of the rail, normal to it in the plane of up, and t cross u; global.
+    pub triad: [Vector3<f64>; 3],
+    /// Its local axes, global.
+    pub local: [Vector3<f64>; 3],
+}
+
+impl Carrier {
+    /// Distance along the member from its end at the smaller coordinate.
+    pub fn place(&self, x: f64) -> f64 {
+        ((x - self.x[0]) * self.rate()).clamp(0.0, self.length)
+    }
+
+    /// Rail coordinate of a place.
+    pub fn coordinate(&self, s: f64) -> f64 {
+        if s >= self.length { self.x[1] } else { self.x[0] + s / self.rate() }
+    }
+
+    /// Length of the member per length of rail.
+    pub fn rate(&self) -> f64 {
+        self.length / (self.x[1] - self.x[0])
+    }
+
+    /// By how much the quantities of a section change where a load (force and couple, global) has been passed.
+    pub fn jump(&self, force: &Vector3<f64>, couple: &Vector3<f64>) -> [f64; QUANTITIES] {
+        let [t, u, z] = &self.triad;
+        let mut out = [0.0; QUANTITIES];
+        out[Quantity::Normal as usize] = -force.dot(t);
+        out[Quantity::Torsion as usize] = -couple.dot(t);
+        out[Quantity::VerticalShear as usize] = force.dot(u);
+        out[Quantity::LateralShear as usize] = -force.dot(z);
+        out[Quantity::VerticalMoment as usize] = -couple.dot(z);
+        out[Quantity::LateralMoment as usize] = -couple.dot(u);
+        out
+    }
+
+    /// The quantities by the six components of the internal force of the member in its own axes, as the structural
+    /// solver gives them for the face that looks along its local x.
+    pub fn quantities(&self, own: [f64; 6]) -> [f64; QUANTITIES] {
+        let vector = |k: usize| -> Vector3<f64> { (0..3).map(|i| self.local[i] * own[k + i]).sum() };
+        // The part before the section feels minus jump: the force on its face balances what it carries.
+        let sign = if self.reversed { 1.0 } else { -1.0 };
+        self.jump(&(sign * vector(0)), &(sign * vector(3)))
+    }
+}
+
+/// A rail with the frame of its coordinates.
+#[derive(Clone, Debug)]
+pub(crate) struct RailFrame {
+    /// Global directions of x, y and z.
+    pub axes: [Vector3<f64>; 3],
+    pub origin: Vector3<f64>,
+    /// First and last coordinate.
+    pub range: [f64; 2],
+    /// Rail elements by increasing coordinate.
+    pub stretches: Vec<Stretch>,
+}
+
+/// A structure solved once, of which any influence line can be asked.
+///
+/// # Example
+/// ```
+/// use fea::Girder;
+/// use trains::Structure;
+///
+/// let girder = Girder { spans: vec![8.0, 8.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
+/// let (model, rail) = girder.model_and_rail()?;
+/// let structure = Structure::new(&model, &[rail], false)?;
+/// assert_eq!(structure.range(0), [0.0, 16.0]);
+/// # Ok::<(), trains::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Structure {
+    pub(crate) model: Model,
+    pub(crate) frame: FactoredFrame,
+    pub(crate) rails: Vec<RailFrame>,
+    pub(crate) carriers: Vec<Carrier>,
+    /// Whether every rail has a twin at a distance of one length unit along +z, rail number + number of rails.
+    twins: bool,
+    surface: OnceLock<Result<ExactSurface, fea::Error>>,
+}
+
+impl Structure {
+    /// Solves a model with its rails. `eccentric` asks for influence lines of loads beside the rails.
+    ///
+    /// # Errors
+    /// A model or a rail that cannot be used, or a structure that can move without strain.
+    pub fn new(model: &Model, rails: &[Rail], eccentric: bool) -> Result<Structure, Error> {
+        let own: Vec<Rail> = rails.iter().map(|rail| Rail { stations: Vec::new(), ..rail.clone() }).collect();
+        let up = Vector3::from(model.up);
+        let mut all = own.clone();
+        if eccentric {
+            all.extend(own.iter().map(|rail| beside(rail, &up)));
+        }
+        let frame = FactoredFrame::new(model, &all)?;
+        let frames: Vec<RailFrame> = rails
+            .iter()
+            .enumerate()
+            .map(|(index, rail)| rail_frame(index, rail, &up, &frame))
+            .collect::<Result<_, _>>()?;
+        let mut carriers = Vec::new();
+        for stretch in frames.iter().flat_map(|rail| &rail.stretches) {
+            let element = &frame.line()?.elements()[stretch.element];
+            let Some(member) = element.member.filter(|_| element.ends[0] != element.ends[1]) else {
+                continue;
+            };
+            let axes = &frames[stretch.rail].axes;
+            let global = |v: [f64; 3]| axes[0] * v[0] + axes[1] * v[1] + axes[2] * v[2];
+            let t = global(element.frame[0]);
+            let across = up - t * t.dot(&up);
+            let u =
+                if across.norm() > 1e-9 * up.norm() { across.normalize() } else { global(element.frame[1]) };
+            carriers.push(Carrier {
+                rail: stretch.rail,
+                element: stretch.element,
+                member: member.id,
+                x: element.x,
+                length: element.length,
+                reversed: element.is_reversed(),
+                triad: [t, u, t.cross(&u)],
+                local: element.member_axes().map(global),
+            });
+        }
+        Ok(Structure {
+            model: model.clone(),
+            frame,
+            rails: frames,
+            carriers,
+            twins: eccentric,
+            surface: OnceLock::new(),
+        })
+    }
+
+    /// Number of rails.
+    #[must_use]
+    pub fn rail_count(&self) -> usize {
+        self.rails.len()
+    }
+
+    /// The structural solver with the factored stiffness.
+    #[must_use]
+    pub fn frame(&self) -> &FactoredFrame {
+        &self.frame
+    }
+
+    /// First and last coordinate of a rail.
+    #[must_use]
+    pub fn range(&self, rail: usize) -> [f64; 2] {
+        self.rails[rail].range
+    }
+
+    /// Coordinates at which members that carry the rail begin or end, increasing.
+    #[must_use]
+    pub fn member_ends(&self, rail: usize) -> Vec<f64> {
+        let mut all: Vec<f64> = self.carriers.iter().filter(|c| c.rail == rail).flat_map(|c| c.x).collect();
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|b, a| *b - *a <= self.slack());
+        all
+    }
+
+    /// Differences of coordinates that count as rounding.
+    pub(crate) fn slack(&self) -> f64 {
+        let ends = self.rails.iter().flat_map(|rail| rail.range);
+        1e-12 * ends.fold(0.0, |most: f64, x| most.max(x.abs()))
+    }
+
+    /// Rail coordinate of the place on each rail that is opposite to coordinate 0 of `first`.
+    pub(crate) fn shifts(&self, first: usize) -> Vec<f64> {
+        let origin = self.rails[first].origin;
+        self.rails.iter().map(|rail| (origin - rail.origin).dot(&rail.axes[0])).collect()
+    }
+
+    /// Whether the structure resists a component of load on a rail.
+    pub(crate) fn resists(&self, rail: usize, component: usize) -> bool {
+        (component < 3 || self.twins) && self.frame.resists(rail, axis(component))
+    }
+
+    /// Force and couple about the axis of a carrier per unit of a component of load at a rail of its member, global.
+    pub(crate) fn load(&self, stretch: &Stretch, component: usize) -> Result<[Vector3<f64>; 2], Error> {
+        let axes = &self.rails[stretch.rail].axes;
+        let element = &self.frame.line()?.elements()[stretch.element];
+        let offset = axes[0] * element.offset[0] + axes[1] * element.offset[1] + axes[2] * element.offset[2];
+        let zero = Vector3::zeros();
+        Ok(match component {
+            3 => [zero, axes[2].cross(&axes[0])],
+            4 => [zero, axes[2].cross(&axes[1])],
+            k => [axes[k], offset.cross(&axes[k])],
+        })
+    }
+
+    /// The exact influence surface of the rails and their twins.
+    pub(crate) fn surface(&self) -> Result<&ExactSurface, Error> {
+        let made = self.surface.get_or_init(|| self.frame.surface().map(|certified| certified.surface));
+        made.as_ref().map_err(|error| Error::Frame(error.clone()))
+    }
+
+    /// Influence lines from a function that writes `groups` times N responses at a probe. A cell is split at the
+    /// coordinates that `split` gives for a stretch of rail. Components that are not `used` stay zero.
+    pub(crate) fn lines<const N: usize>(
+        &self,
+        used: [bool; COMPONENTS],
+        groups: usize,
+        split: impl Fn(&Stretch) -> Vec<f64>,
+        mut value: impl FnMut(Probe, &mut [f64]) -> Result<(), splines::Error>,
+    ) -> Result<Vec<Lines<N>>, Error> {
+        let mut out = vec![Lines { rails: vec![Vec::new(); self.rails.len()] }; groups];
+        let mut twin = vec![0.0; groups * N];
+        for (index, rail) in self.rails.iter().enumerate() {
+            let components: Vec<usize> =
+                (0..COMPONENTS).filter(|&k| used[k] && self.resists(index, k)).collect();
+            for stretch in &rail.stretches {
+                for x in parts(stretch.x, split(stretch), self.slack()) {
+                    let empty = LineCell { x, element: stretch.element, cubics: [[[0.0; 4]; N]; COMPONENTS] };
+                    out.iter_mut().for_each(|lines| lines.rails[index].push(empty.clone()));
+                    for &component in &components {
+                        let found = cubics(x, groups * N, |x, out| {
+                            let probe = Probe { rail: index, x, axis: axis(component) };
+                            value(probe, out)?;
+                            if component >= 3 {
+                                value(Probe { rail: index + self.rails.len(), ..probe }, &mut twin)?;
+                                out.iter_mut().zip(&twin).for_each(|(own, twin)| *own = twin - *own);
+                            }
+                            Ok::<(), splines::Error>(())
+                        })?;
+                        for (lines, all) in out.iter_mut().zip(found.chunks(N)) {
+                            let cell = lines.rails[index].last_mut().expect("it was added above");
+                            cell.cubics[component].copy_from_slice(all);
+                        }
+                    }
+                }
+            }
+        }
+        Ok(out)
+    }
+
+    /// Influence lines of the six quantities of a section just inside the first end of each of the carriers.
+    pub(crate) fn end_lines(
+        &self,
+        carriers: &[Carrier],
+        used: [bool; COMPONENTS],
+    ) -> Result<Vec<Lines<QUANTITIES>>, Error> {
+        let effects: Vec<Effect> = carriers.iter().flat_map(end_effects).collect();
+        let lines = self.frame.influence_lines(&self.model, &effects)?;
+        let mut all =
+            self.lines(used, carriers.len(), |_| Vec::new(), |probe, out| lines.fill(probe, out))?;
+        for (carrier, lines) in carriers.iter().zip(&mut all) {
+            let cells = lines.rails.iter_mut().flatten();
+            for component in cells.flat_map(|cell| &mut cell.cubics) {
+                let own: [[f64; 4]; QUANTITIES] = *component;
+                for p in 0..4 {
+                    let moved = carrier.quantities(own.map(|cubic| cubic[p]));
+                    component.iter_mut().zip(moved).for_each(|(cubic, value)| cubic[p] = value);
+                }
+            }
+        }
+        Ok(all)
+    }
+
+    /// Influence line of a sum of effects; it may jump at the sections of internal forces.
+    pub(crate) fn effect_line(
+        &self,
+        effects: &[Effect],
+        used: [bool; COMPONENTS],
+    ) -> Result<Lines<1>, Error> {
+        let lines: InfluenceLines = self.frame.influence_lines(&self.model, effects)?;
+        let cut = effects.iter().find_map(|effect| match *effect {
+            Effect::InternalForce { member, place, .. } => Some((member, place)),
+            Effect::Reaction(_) => None,
+        });
+        let mut parts = vec![0.0; effects.len()];
+        let split = |stretch: &Stretch| {
+            let carrier = self.carriers.iter().find(|c| c.element == stretch.element);
+            let here = carrier.zip(cut).filter(|(carrier, (member, _))| carrier.member == *member);
+            let place = here.map(|(carrier, (_, place))| {
+                let s = if carrier.reversed { 1.0 - place } else { place };
+                carrier.coordinate(s * carrier.length)
+            });
+            place.into_iter().collect()
+        };
+        let value = |probe: Probe, out: &mut [f64]| {
+            lines.fill(probe, &mut parts)?;
+            out[0] = parts.iter().sum();
+            Ok(())
+        };
+        Ok(self.lines(used, 1, split, value)?.remove(0))
+    }
+
+    /// Influence line of a weighted sum of deflections of a rail, downwards or along +z; `places` are coordinates with
+    /// their weights.
+    pub(crate) fn deflection_line(
+        &self,
+        rail: usize,
+        places: &[[f64; 2]],
+        quantity: Quantity,
+        used: [bool; COMPONENTS],
+    ) -> Result<Lines<1>, Error> {
+        let surface = self.surface()?;
+        let (axis, sign) = deflection_axis(quantity);
+        let mut influence = Influence::zeros(2);
+        let here: Vec<(&Carrier, f64)> = places
+            .iter()
+            .filter_map(|&[x, _]| {
+                let on = |c: &&Carrier| c.rail == rail && c.x[0] <= x && x <= c.x[1];
+                self.carriers.iter().find(on).map(|carrier| (carrier, x))
+            })
+            .collect();
+        let split = |stretch: &Stretch| -> Vec<f64> {
+            let Some(carrier) = self.carriers.iter().find(|c| c.element == stretch.element) else {
+                return Vec::new();
+            };
+            let on = here.iter().filter(|(here, _)| here.member == carrier.member);
+            on.map(|(here, x)| {
+                let s = here.place(*x);
+                carrier.coordinate(if here.reversed == carrier.reversed { s } else { carrier.length - s })
+            })
+            .collect()
+        };
+        let value = |probe: Probe, out: &mut [f64]| {
+            out[0] = 0.0;
+            for &[x, weight] in places {
+                surface.fill(&[Probe { rail, x, axis }, probe], &mut influence)?;
+                out[0] += sign * weight * influence.value[(0, 1)];
+            }
+            Ok(())
+        };
+        Ok(self.lines(used, 1, split, value)?.remove(0))
+    }
+}
+
+/// Axis of a deflection, and the sign with which it counts.
+pub(crate) fn deflection_axis(quantity: Quantity) -> (Axis, f64) {
+    if quantity == Quantity::LateralDeflection { (Axis::Lateral, 1.0) } else { (Axis::Vertical, -1.0) }
+}
+
+/// The six components of the internal force just inside the end of a carrier at its smaller coordinate.
+pub(crate) fn end_effects(carrier: &Carrier) -> [Effect; 6] {
+    let place = if carrier.reversed { 1.0 } else { 0.0 };
+    ForceComponent::ALL.map(|component| Effect::InternalForce { member: carrier.member, place, component })
+}
+
+/// The parts of a stretch between the places that are inside it.
+fn parts(x: [f64; 2], mut split: Vec<f64>, slack: f64) -> Vec<[f64; 2]> {
+    split.retain(|at| *at > x[0] + slack && *at < x[1] - slack);
+    split.push(x[1]);
+    split.sort_by(f64::total_cmp);
+    split.dedup_by(|b, a| *b - *a <= slack);
+    let mut from = x[0];
+    split.into_iter().map(|to| [std::mem::replace(&mut from, to), to]).collect()
+}
+
+/// The rail displaced by one unit of length along its +z.
+fn beside(rail: &Rail, up: &Vector3<f64>) -> Rail {
+    let mut twin = rail.clone();
+    let z = Vector3::from(rail.axis).cross(up).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+    for segment in &mut twin.segments {
+        segment.offset = (Vector3::from(segment.offset) + z).into();
+    }
+    twin
+}
+
+fn rail_frame(
+    index: usize,
+    rail: &Rail,
+    up: &Vector3<f64>,
+    frame: &FactoredFrame,
+) -> Result<RailFrame, Error> {
+    let x = Vector3::from(rail.axis).normalize();
+    let y = (up - x * x.dot(up)).normalize();
+    let elements = frame.line()?.elements().iter().enumerate();
+    let mut stretches: Vec<Stretch> = elements
+        .filter(|(_, element)| element.rail == index)
+        .map(|(element, given)| Stretch { rail: index, element, x: given.x })
+        .collect();
+    stretches.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
+    let range = [stretches[0].x[0], stretches[stretches.len() - 1].x[1]];
+    Ok(RailFrame { axes: [x, y, x.cross(&y)], origin: Vector3::from(rail.origin), range, stretches })
+}

@@ -1,0 +1,111 @@
+//! A worked case and classical results.
+
+use fea::{BeamTheory, Effect, Girder};
+use trains::{
+    CaseEnvelopes, DeadLoads, Quantity, Request, SpanExtreme, Structure, Train, TrainCase, Wheel, envelopes,
+};
+
+fn wheel(x: f64, vertical: f64) -> Wheel {
+    Wheel { rail: 0, x, vertical, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 }
+}
+
+fn train(wheels: &[(f64, f64)]) -> Train {
+    let wheels = wheels.iter().map(|&(x, force)| wheel(x, force)).collect();
+    Train { wheels, ends: [0.0; 2], turned: true, reverses: true, enters: false }
+}
+
+fn supports(girder: &Girder) -> Vec<f64> {
+    let mut x = vec![0.0];
+    girder.spans.iter().for_each(|span| x.push(x[x.len() - 1] + span));
+    x
+}
+
+fn solve(girder: &Girder, trains: Vec<Train>, dead: &DeadLoads, places: Vec<f64>) -> CaseEnvelopes {
+    let (model, rail) = girder.model_and_rail().expect("the girder is valid");
+    let structure = Structure::new(&model, &[rail], false).expect("the girder is stable");
+    let effects =
+        structure.frame().restraints(&model).into_iter().map(|hold| vec![Effect::Reaction(hold)]).collect();
+    let request = Request { spans: vec![supports(girder)], places: vec![places], effects };
+    let factor = if dead.is_empty() { 0.0 } else { 1.0 };
+    let case = TrainCase { trains, dead: factor, ..TrainCase::default() };
+    envelopes(&structure, dead, &[case], &request).expect("the train fits").remove(0)
+}
+
+fn extreme(found: &CaseEnvelopes, span: usize, quantity: Quantity, is_max: bool) -> &SpanExtreme {
+    let same = |e: &&SpanExtreme| (e.span, e.quantity, e.is_max) == (span, quantity, is_max);
+    found.extremes.iter().find(same).expect("there is an extreme for every span")
+}
+
+/// HEB 400 over 6, 7.5 and 6 m, two wheels of 180 kN, 3.6 m apart. Numbers of an independent Timoshenko model of
+/// finite elements of 0.05 m, given to six digits.
+#[test]
+fn runway_over_three_spans() {
+    let girder = Girder {
+        spans: vec![6.0, 7.5, 6.0],
+        e: 2.1e8,
+        g: Some(8.1e7),
+        area: Some(0.01978),
+        i_vertical: 5.768e-4,
+        ka_vertical: Some(0.007),
+        theory: BeamTheory::Timoshenko,
+        ..Girder::default()
+    };
+    let found =
+        solve(&girder, vec![train(&[(0.0, 180.0), (3.6, 180.0)])], &DeadLoads::default(), vec![6.0, 9.75]);
+    let largest = extreme(&found, 2, Quantity::VerticalMoment, true);
+    assert!((largest.governing.value - 241.2377).abs() < 5e-5, "{largest:?}");
+    assert!((largest.governing.x - 9.2442).abs() < 5e-5);
+    let at = |x: f64, is_max: bool| {
+        let same = |e: &&trains::EnvelopeValue| {
+            e.governing.x == x && e.quantity == Quantity::VerticalMoment && e.is_max == is_max
+        };
+        found.envelopes.iter().find(same).expect("the place was asked for").governing.value
+    };
+    assert!((at(9.75, true) - 233.048).abs() < 5e-4);
+    assert!((at(6.0, false) + 195.174).abs() < 5e-4);
+    // Reactions: longitudinal, vertical, lateral and twist of the first support, then three of each other.
+    let vertical: Vec<[f64; 2]> =
+        [1, 4].map(|k: usize| [&found.effects[k][0], &found.effects[k][1]].map(|g| g.value)).to_vec();
+    for (found, known) in vertical.iter().flatten().zip([235.687, -28.335, 317.259, -26.143]) {
+        assert!((found - known).abs() < 1e-3, "{found}, not {known}");
+    }
+    let sag = extreme(&found, 2, Quantity::VerticalDeflection, true);
+    assert!((sag.governing.value - 9.385e-3).abs() < 1e-6, "{sag:?}");
+    assert!(sag.bound >= sag.governing.value && sag.bound < sag.governing.value * (1.0 + 1e-9));
+}
+
+/// The largest moment of a simple beam under two equal wheels is P (L - a/2)^2/(2 L), at L/2 - a/4.
+#[test]
+fn two_wheels_on_a_simple_beam() {
+    let girder = Girder { spans: vec![10.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
+    let found = solve(&girder, vec![train(&[(0.0, 90.0), (3.0, 90.0)])], &DeadLoads::default(), Vec::new());
+    let largest = &extreme(&found, 1, Quantity::VerticalMoment, true).governing;
+    assert!((largest.value - 90.0 * 8.5 * 8.5 / 20.0).abs() < 1e-11, "{largest:?}");
+    assert!((largest.x - 4.25).abs() < 1e-9, "{largest:?}");
+    let shear = &extreme(&found, 1, Quantity::VerticalShear, true).governing;
+    assert!((shear.value - 90.0 * (1.0 + 0.7)).abs() < 1e-11, "{shear:?}");
+}
+
+/// With a dead load w the largest moment of one wheel P on a simple beam is at midspan: P L/4 + w L^2/8.
+#[test]
+fn dead_load_adds_its_own() {
+    let girder = Girder {
+        spans: vec![8.0],
+        e: 2.1e8,
+        i_vertical: 5e-4,
+        mass_per_length: Some(0.2),
+        ..Girder::default()
+    };
+    let dead = DeadLoads { gravity: 10.0, lines: vec![1.0] };
+    let found = solve(&girder, vec![train(&[(0.0, 100.0)])], &dead, vec![4.0]);
+    let largest = &extreme(&found, 1, Quantity::VerticalMoment, true).governing;
+    assert!((largest.value - (200.0 + 3.0 * 8.0)).abs() < 1e-10, "{largest:?}");
+    assert!((largest.dead - 24.0).abs() < 1e-11 && (largest.x - 4.0).abs() < 1e-9);
+    let sag = &extreme(&found, 1, Quantity::VerticalDeflection, true).governing;
+    let stiffness = 2.1e8 * 5e-4;
+    let known = 100.0 * 512.0 / (48.0 * stiffness) + 5.0 * 3.0 * 4096.0 / (384.0 * stiffness);
+    assert!((sag.value / known - 1.0).abs() < 1e-9, "{sag:?}, not {known}");
+    // The smallest moment: wheel at a support, dead load alone.
+    let least = &extreme(&found, 1, Quantity::VerticalMoment, false).governing;
+    assert!(least.value.abs() < 1e-11, "{least:?}");
+}
