@@ -1,20 +1,19 @@
 //! The calculation: for each member its influence lines, for each case the extremes over it and the envelopes at places.
 
-use fea::Effect;
-
 use crate::collect::{Accumulated, Entry, entry, is_better, offer, sign_of, spans_of, standings};
 use crate::dead::{DeadLoad, DeadLoads};
 use crate::deflection::Deflections;
+use crate::effect::{extremes_of_effects, plans};
 use crate::error::Error;
 use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtreme, TrainPosition};
 use crate::follow::{SectionSide, Target};
 use crate::line::Lines;
 use crate::overrun::Overrun;
-use crate::pieces::{Piece, Pieces};
+use crate::pieces::Piece;
 use crate::plan::{Arrangement, CasePlan, TIE};
 use crate::several;
 use crate::structure::{Carrier, QUANTITIES, Quantity, Structure};
-use crate::train::{COMPONENTS, TrainCase};
+use crate::train::TrainCase;
 
 /// Carriers whose influence lines are solved at once.
 const BATCH: usize = 32;
@@ -54,17 +53,8 @@ pub fn envelopes(
     cases: &[TrainCase],
     request: &Request,
 ) -> Result<Vec<CaseEnvelopes>, Error> {
-    let plans: Vec<CasePlan> = cases
-        .iter()
-        .enumerate()
-        .map(|(k, case)| CasePlan::new(structure, case, k))
-        .collect::<Result<_, _>>()?;
-    let mut used = [false; COMPONENTS];
-    used[1] = dead.lines.iter().any(|line| *line != 0.0);
-    for wheel in plans.iter().flat_map(|plan| &plan.trains).flatten().flat_map(|train| &train.wheels) {
-        used.iter_mut().zip(wheel.load).for_each(|(used, load)| *used |= load != 0.0);
-    }
-    let analysis = Analysis { structure, plans: &plans, request, used };
+    let (plans, used) = plans(structure, dead, cases)?;
+    let analysis = Analysis { structure, plans: &plans, request };
     let mut extremes: Vec<Accumulated> = cases.iter().map(|_| Accumulated::default()).collect();
     let mut kept = Vec::new();
     for carriers in structure.carriers.chunks(BATCH) {
@@ -81,17 +71,19 @@ pub fn envelopes(
     for (carrier, lines, load) in &kept {
         analysis.envelopes_on(carrier, lines, load, &deflections, (&mut extremes, &mut out))?;
     }
-    for (case, (plan, out)) in plans.iter().zip(&mut out).enumerate() {
+    for (case, out) in out.iter_mut().enumerate() {
         out.envelopes.sort_by(|a, b| {
             let key = |e: &EnvelopeValue| (e.quantity, !e.is_max);
             let place = a.rail.cmp(&b.rail).then(a.governing.x.total_cmp(&b.governing.x));
             place.then(key(a).cmp(&key(b)))
         });
         out.extremes = finished(&extremes[case], &out.envelopes, structure.slack());
-        out.deflections = deflections.from_chords(case, &extremes[case])?;
-        for effects in &request.effects {
-            out.effects.push(analysis.effect(effects, dead, plan)?);
-        }
+        out.deflections = deflections.beside_chords(case, &extremes[case])?;
+    }
+    for (out, effects) in
+        out.iter_mut().zip(extremes_of_effects(structure, dead, &plans, &request.effects, used)?)
+    {
+        out.effects = effects;
     }
     Ok(out)
 }
@@ -122,7 +114,6 @@ struct Analysis<'a> {
     structure: &'a Structure,
     plans: &'a [CasePlan],
     request: &'a Request,
-    used: [bool; COMPONENTS],
 }
 
 impl Analysis<'_> {
@@ -244,31 +235,6 @@ impl Analysis<'_> {
         places.sort_by(f64::total_cmp);
         places.dedup_by(|b, a| *b - *a <= slack);
         places
-    }
-
-    /// Largest and smallest value of a sum of effects.
-    fn effect(&self, effects: &[Effect], dead: &DeadLoads, plan: &CasePlan) -> Result<[Governing; 2], Error> {
-        let mut used = self.used;
-        used[1] |= dead.lines.iter().any(|line| *line != 0.0);
-        let line = self.structure.effect_line(effects, used)?;
-        let own = plan.dead * self.structure.dead_effect(effects, &line, dead)?;
-        let slack = self.structure.slack();
-        let pieces: Vec<Vec<Vec<Piece<1>>>> = plan
-            .trains
-            .iter()
-            .map(|stances| stances.iter().map(|train| Pieces::sum(&line, train, slack).list).collect())
-            .collect();
-        Ok([1.0, -1.0].map(|sign| {
-            let found = plan.best(&pieces, 0, sign, f64::NEG_INFINITY).unwrap_or_default();
-            Governing {
-                value: sign * found.signed + own,
-                dead: own,
-                x: 0.0,
-                side: SectionSide::At,
-                trains: standings(plan, &found),
-                coincident: [0.0; 3],
-            }
-        }))
     }
 }
 

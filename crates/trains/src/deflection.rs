@@ -199,7 +199,7 @@ impl<'a> Deflections<'a> {
     }
 
     /// Largest deflections of spans from their chords, without dead load.
-    pub fn from_chords(&self, case: usize, all: &Accumulated) -> Result<Vec<SpanDeflection>, Error> {
+    pub fn beside_chords(&self, case: usize, all: &Accumulated) -> Result<Vec<SpanDeflection>, Error> {
         let mut out: Vec<SpanDeflection> = Vec::new();
         for (carrier, _, load) in self.carriers {
             for (span, window) in spans_of(self.request, self.structure, carrier) {

@@ -9,7 +9,7 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, overrun, follow, extremes, collect, search, several, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, overrun, follow, extremes, collect, effect, search, several, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
@@ -17,7 +17,7 @@
 //! 4. `pieces`, `running`, `plan`: responses to a train as functions of its position, and the best arrangement of trains;
 //! 5. `dead`: dead load;
 //! 6. `section`, `overrun`, `follow`: internal forces at a fixed section, and at sections beside wheels and at vertices;
-//! 7. `extremes`, `collect`: the results, and which of two states governs;
+//! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
 //! 8. `search`, `several`, `deflection`: extremes that are enclosed by bisection;
 //! 9. `analysis`: the calculation.
 
@@ -25,6 +25,7 @@ mod analysis;
 mod collect;
 mod dead;
 mod deflection;
+mod effect;
 mod error;
 mod extremes;
 mod follow;
@@ -42,6 +43,7 @@ mod train;
 
 pub use analysis::envelopes;
 pub use dead::DeadLoads;
+pub use effect::effects;
 pub use error::Error;
 pub use extremes::{
     CaseEnvelopes, EnvelopeValue, Governing, Request, SpanDeflection, SpanExtreme, TrainPosition,

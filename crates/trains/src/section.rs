@@ -119,9 +119,9 @@ impl TrainOnCarrier {
         let mut passages = Vec::new();
         for (index, piece) in pieces.list.iter().enumerate() {
             let mut base = piece.cubics;
-            for k in 0..QUANTITIES {
+            for (k, cubic) in base.iter_mut().enumerate() {
                 if let Some(shear) = slope_index(k) {
-                    (0..4).for_each(|p| base[k][p] += s * piece.cubics[shear][p]);
+                    cubic.iter_mut().zip(piece.cubics[shear]).for_each(|(c, slope)| *c += s * slope);
                 }
             }
             self.wheels(pieces, index, &mut wheels);
