@@ -68,12 +68,31 @@ pub enum Command {
     /// Chart accuracy against cost: a scene at many settings, compared with a converged reference that is run first
     #[command(after_help = "Example:\n  girderway study examples/bogie/scene.json -o out")]
     Study(StudyArgs),
+    /// Envelopes, extremes and reactions of wheel trains on a structure, statically and exactly, with limits of codes
+    #[command(after_help = "Example:\n  girderway design examples/runway/design.json -o out")]
+    Design(DesignArgs),
     /// Print the JSON Schema of a format, with which editors complete and check files
     #[command(after_help = "Example:\n  girderway schema scene -o scene.schema.json")]
     Schema(SchemaArgs),
-    /// Write starter files that run as they are: a bogie on a girder, a girder of a mill building, a bridge crane
+    /// Write starter files that run as they are: a crane runway, a bogie on a girder, a girder of a mill building, a bridge crane
     #[command(after_help = "Example:\n  girderway init bogie mine")]
     Init(InitArgs),
+}
+
+/// Arguments of `design`.
+#[derive(Clone, Debug, Args)]
+pub struct DesignArgs {
+    /// Design file
+    pub design: PathBuf,
+    /// Output folder [default: girderway-out/NAME-design, after the design's name]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Replace files in the folder that girderway did not write, or that have been changed since
+    #[arg(long)]
+    pub force: bool,
+    /// Exit with status 1 where a limit of the code is exceeded
+    #[arg(long)]
+    pub fail_on_limit: bool,
 }
 
 /// Arguments of `schema`.
@@ -95,6 +114,8 @@ pub enum SchemaArg {
     Grid,
     /// Scene
     Scene,
+    /// Design
+    Design,
 }
 
 /// Arguments of `init`.
@@ -116,6 +137,8 @@ pub enum Starter {
     Crane,
     /// One girderway on columns and brackets
     Girderway,
+    /// A plain crane runway, with its design
+    Runway,
 }
 
 /// Arguments of `study`.

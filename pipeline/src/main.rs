@@ -39,6 +39,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Import(args) => commands::import::run(&args, cli.global),
         Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),
         Command::Study(args) => commands::study::run(&args, cli.global),
+        Command::Design(args) => commands::design::run(&args, cli.global),
         Command::Schema(args) => commands::schema::run(&args, cli.global),
         Command::Init(args) => commands::init::run(&args, cli.global),
     }

@@ -15,7 +15,7 @@ use crates::Crate;
 use wings::Wings;
 
 /// Normal dependencies that each crate may have on others of ours, lowest crate first.
-const DEPENDENCIES: [(&str, &[&str]); 14] = [
+const DEPENDENCIES: [(&str, &[&str]); 15] = [
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
@@ -24,6 +24,7 @@ const DEPENDENCIES: [(&str, &[&str]); 14] = [
     ("trains", &["fea", "splines"]),
     ("formats", &["adams", "fea", "practice", "sim", "splines"]),
     ("import", &["formats", "fea"]),
+    ("design", &["formats", "trains", "practice", "fea", "splines"]),
     ("foundations", &["formats", "fea", "sim", "splines"]),
     ("results", &["foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
     ("deck", &["results", "adams", "foundations", "practice", "formats", "fea", "sim", "splines"]),
@@ -35,6 +36,7 @@ const DEPENDENCIES: [(&str, &[&str]); 14] = [
             "study",
             "report",
             "deck",
+            "design",
             "import",
             "results",
             "foundations",

@@ -24,11 +24,12 @@
 //! ```
 //!
 //! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
-//! [`scene`], [`schema`].
+//! [`scene`], [`design`], [`schema`].
 //!
-//! Wings, lowest first: limits, text, vector, units, check, spec, grid, tables, scene, schema
+//! Wings, lowest first: limits, text, vector, units, check, spec, grid, tables, scene, design, schema
 
 pub mod check;
+pub mod design;
 pub mod grid;
 pub mod limits;
 pub mod scene;

@@ -66,3 +66,14 @@ pub(crate) const BODIES: Limit =
 /// Rows of a table over time and of the profile of a rail. Time steps end at every row.
 pub(crate) const ROWS: Limit =
     Limit { most: 1_000_000, reason: "time steps end at every row: resample the table" };
+
+/// Trains of a design. Each stands in up to sixteen ways.
+pub(crate) const TRAINS: Limit = Limit { most: 100, reason: "each train is tried in up to 16 ways" };
+
+/// Wheels of a train of a design.
+pub(crate) const TRAIN_WHEELS: Limit =
+    Limit { most: 500, reason: "every wheel is followed along every member; cranes have 4 to 64 wheels" };
+
+/// Trains of a case of a design, which are tried in every order.
+pub(crate) const CASE_TRAINS: Limit =
+    Limit { most: 5, reason: "n trains are tried in n! orders, each turned both ways" };

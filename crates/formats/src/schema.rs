@@ -9,6 +9,7 @@ use schemars::generate::SchemaSettings;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::{Value, json};
 
+use crate::design::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 use crate::grid::file::RawGrid;
 use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
 use crate::spec::{Block, RawDetail, RawSpec, Reference};
@@ -30,6 +31,12 @@ pub fn grid() -> Value {
 #[must_use]
 pub fn scene() -> Value {
     of::<RawScene>(crate::scene::FORMAT, "Scene of girderway")
+}
+
+/// The schema of designs.
+#[must_use]
+pub fn design() -> Value {
+    of::<RawDesign>(crate::design::FORMAT, "Design of girderway")
 }
 
 fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
@@ -63,6 +70,15 @@ schemas! {
     Reference, "Reference", |_generator| json_schema!({ "anyOf": [{ "type": "integer", "minimum": 0 }, { "type": "string" }] });
     RawDetail, "Detail", |_generator| json_schema!({ "type": ["number", "string"] });
     RawColumns, "Columns", |_generator| json_schema!({ "anyOf": [{ "type": "boolean" }, { "type": "array", "items": { "type": "string" } }] });
+    RawForces, "Forces", |_generator| json_schema!({ "anyOf": [{ "type": "number" }, { "type": "object", "additionalProperties": { "type": "number" } }] });
+    RawCase, "Case", |generator| {
+        let named = generator.subschema_for::<RawNamedCase>();
+        json_schema!({ "anyOf": [{ "type": "array", "items": { "type": "string" }, "minItems": 1 }, named] })
+    };
+    RawDead, "Dead", |generator| {
+        let parts = generator.subschema_for::<RawDeadLoads>();
+        json_schema!({ "anyOf": [{ "type": "boolean" }, parts] })
+    };
     RawPick, "Pick", |_generator| json_schema!({ "type": ["integer", "string"] });
     RawNode, "Node", |generator| {
         let below = generator.subschema_for::<RawNode>();

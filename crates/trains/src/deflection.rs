@@ -33,6 +33,8 @@ use crate::search::{Bend, Search};
 use crate::structure::{Carrier, QUANTITIES, Quantity, Structure, deflection_axis};
 use crate::train::{COMPONENTS, PlacedTrain, axis};
 
+/// Most evaluations for one extreme under several trains, whose slope jumps under wheels.
+const MOST_OF_SEVERAL: usize = 120;
 /// Most cells of influence lines that are kept.
 const KEPT_CELLS: usize = 200_000;
 
@@ -185,7 +187,14 @@ impl<'a> Deflections<'a> {
                                     self.under_wheels(case, carrier, &over, window, quantity, sign, load)?;
                                 search.offer(under);
                             }
+                            let several = search.bend.kinks > 0.0;
+                            if several {
+                                search.most = MOST_OF_SEVERAL;
+                            }
                             search.run()?;
+                            if several {
+                                search.polish((window[1] - window[0]) / 40.0)?;
+                            }
                             let entry = entry(all, carrier.rail, span, quantity, is_max);
                             let bound = search.bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY));
                             offer(&mut entry.governing, search.best, sign);
@@ -229,6 +238,7 @@ impl<'a> Deflections<'a> {
                         });
                         // A ratio of span to deflection is printed with three digits.
                         search.gap = 1e-5;
+                        search.most = MOST_OF_SEVERAL;
                         search.run()?;
                         let Some(governing) = search.best else { continue };
                         let known = out.iter_mut().find(|known| {

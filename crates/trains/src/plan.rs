@@ -16,6 +16,8 @@ use crate::train::{COMPONENTS, PlacedTrain, TrainCase};
 
 /// Values closer than this, relative to their size, count as equal.
 pub(crate) const TIE: f64 = 1e-12;
+/// Responses that differ by no more than this, relative to the largest, are those of one stance.
+const EQUAL: f64 = 1e-14;
 
 /// A case with its trains in every stance.
 #[derive(Clone, Debug)]
@@ -119,7 +121,8 @@ impl CasePlan {
             })
             .collect();
         let share = |a: usize, b: usize| distances[a][0][b][0] > f64::NEG_INFINITY;
-        let groups = groups(trains.len(), share, case.ordered);
+        let equal = |a: usize, b: usize| case.trains[a] == case.trains[b];
+        let groups = groups(trains.len(), share, equal, case.ordered);
         let plan = CasePlan { trains, groups, distances, dead: case.dead };
         let room = plan
             .groups
@@ -131,7 +134,8 @@ impl CasePlan {
     /// Whether the trains fit in an order in some stances.
     fn fits(&self, order: &[usize], slack: f64) -> bool {
         let mut ok = false;
-        self.stances(order, &mut |stances| {
+        let all: Vec<Vec<usize>> = self.trains.iter().map(|stances| (0..stances.len()).collect()).collect();
+        choices(order, &all, &mut |stances| {
             let mut lowest = f64::NEG_INFINITY;
             let fits = order.iter().enumerate().all(|(k, &train)| {
                 let [first, last] = self.trains[train][stances[k]].range;
@@ -149,18 +153,6 @@ impl CasePlan {
         self.distances[order[k - 1]][stances[k - 1]][order[k]][stances[k]]
     }
 
-    /// Calls `each` for every choice of stances of the trains of an order.
-    fn stances(&self, order: &[usize], each: &mut dyn FnMut(&[usize])) {
-        let counts: Vec<usize> = order.iter().map(|&train| self.trains[train].len()).collect();
-        let mut chosen = vec![0; order.len()];
-        loop {
-            each(&chosen);
-            let Some(k) = (0..order.len()).rev().find(|&k| chosen[k] + 1 < counts[k]) else { return };
-            chosen[k] += 1;
-            chosen[k + 1..].fill(0);
-        }
-    }
-
     /// The arrangement with the largest value of sign times response `k`; `pieces[train][stance]` are the responses to
     /// each train. `None` where nothing reaches `floor`, for a case of one train.
     pub fn best<const N: usize>(
@@ -170,20 +162,21 @@ impl CasePlan {
         sign: f64,
         floor: f64,
     ) -> Option<Arrangement> {
-        if let [stances] = pieces {
-            return best_of_one(stances, k, sign, floor);
+        let distinct: Vec<Vec<usize>> = pieces.iter().map(|stances| distinct_stances(stances, k)).collect();
+        if let ([stances], [distinct]) = (pieces, &distinct[..]) {
+            return best_of_one(stances, distinct, k, sign, floor);
         }
         let mut out = Arrangement { signed: 0.0, trains: vec![Standing::default(); pieces.len()] };
         for group in &self.groups {
             if let [train] = group.orders[0][..] {
-                let one = best_of_one(&pieces[train], k, sign, f64::NEG_INFINITY)?;
+                let one = best_of_one(&pieces[train], &distinct[train], k, sign, f64::NEG_INFINITY)?;
                 out.signed += one.signed;
                 out.trains[train] = one.trains[0];
                 continue;
             }
             let mut best: Option<(f64, Vec<(usize, Standing)>)> = None;
             for order in &group.orders {
-                self.stances(order, &mut |stances| {
+                choices(order, &distinct, &mut |stances| {
                     let limit =
                         best.as_ref().map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
                     if let Some(found) = self.chain(pieces, order, stances, k, sign, limit) {
@@ -232,16 +225,58 @@ impl CasePlan {
     }
 }
 
-/// The largest value for one train.
+/// Calls `each` for every choice among the listed stances of the trains of an order.
+fn choices(order: &[usize], listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize])) {
+    let mut at = vec![0; order.len()];
+    loop {
+        let chosen: Vec<usize> = order.iter().zip(&at).map(|(&train, &k)| listed[train][k]).collect();
+        each(&chosen);
+        let Some(k) = (0..order.len()).rev().find(|&k| at[k] + 1 < listed[order[k]].len()) else { return };
+        at[k] += 1;
+        at[k + 1..].fill(0);
+    }
+}
+
+/// The stances of a train that differ in a response: of those with equal pieces the first. A lateral force, for
+/// instance, does not change a vertical moment, whatever its sign.
+fn distinct_stances<const N: usize>(stances: &[Vec<Piece<N>>], k: usize) -> Vec<usize> {
+    let size = |pieces: &Vec<Piece<N>>| {
+        let value = |piece: &Piece<N>| {
+            let h = piece.length();
+            let [a, b, c, d] = piece.cubics[k].map(f64::abs);
+            a + h * (b + h * (c + h * d))
+        };
+        pieces.iter().map(value).fold(0.0, f64::max)
+    };
+    let slack = EQUAL * stances.iter().map(size).fold(0.0, f64::max);
+    let same = |a: &Piece<N>, b: &Piece<N>| {
+        let h = a.length();
+        let powers = [1.0, h, h * h, h * h * h];
+        a.position == b.position
+            && (0..4).all(|p| (a.cubics[k][p] - b.cubics[k][p]).abs() * powers[p] <= slack)
+    };
+    let equal =
+        |a: &Vec<Piece<N>>, b: &Vec<Piece<N>>| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b));
+    let mut out: Vec<usize> = Vec::new();
+    for (stance, pieces) in stances.iter().enumerate() {
+        if !out.iter().any(|&known| equal(&stances[known], pieces)) {
+            out.push(stance);
+        }
+    }
+    out
+}
+
+/// The largest value for one train in the listed stances.
 fn best_of_one<const N: usize>(
     stances: &[Vec<Piece<N>>],
+    listed: &[usize],
     k: usize,
     sign: f64,
     floor: f64,
 ) -> Option<Arrangement> {
     let mut best: Option<(f64, Standing)> = None;
-    for (stance, pieces) in stances.iter().enumerate() {
-        for (index, piece) in pieces.iter().enumerate() {
+    for &stance in listed {
+        for (index, piece) in stances[stance].iter().enumerate() {
             let limit = best.map_or(floor, |(value, _)| value + TIE * value.abs());
             let signed = crate::polynomial::Polynomial::default().plus(&piece.polynomial(k), sign);
             if let Some((t, value)) = signed.largest_above(piece.length(), limit)
@@ -255,7 +290,12 @@ fn best_of_one<const N: usize>(
 }
 
 /// Groups of trains that share rails, directly or through others, with their orders.
-fn groups(count: usize, share: impl Fn(usize, usize) -> bool, ordered: bool) -> Vec<Group> {
+fn groups(
+    count: usize,
+    share: impl Fn(usize, usize) -> bool,
+    equal: impl Fn(usize, usize) -> bool,
+    ordered: bool,
+) -> Vec<Group> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for train in 0..count {
         let (met, apart): (Vec<_>, Vec<_>) =

@@ -28,11 +28,14 @@ const CRANE: Files = files!(
     "two_cranes.json",
 );
 
+const RUNWAY: Files = files!("runway": "scene.json", "spec.json", "design.json");
+
 const fn files(starter: Starter) -> Files {
     match starter {
         Starter::Bogie => BOGIE,
         Starter::Crane => CRANE,
         Starter::Girderway => GIRDERWAY,
+        Starter::Runway => RUNWAY,
     }
 }
 

@@ -3,6 +3,7 @@
 pub mod check_tables;
 pub mod crosscheck;
 pub mod deck;
+pub mod design;
 mod factored;
 pub mod fea;
 mod fewest;

@@ -15,6 +15,7 @@ pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
         SchemaArg::Beam => schema::beam(),
         SchemaArg::Grid => schema::grid(),
         SchemaArg::Scene => schema::scene(),
+        SchemaArg::Design => schema::design(),
     };
     output::deliver(args.output.as_deref(), &output::json(&schema), &Progress::new(global))?;
     Ok(Exit::Done)

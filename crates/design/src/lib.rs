@@ -1,0 +1,23 @@
+//! Static design of girders under wheel trains.
+//!
+//! [`solve`] computes a checked [`formats::design::Design`]: the envelopes of all cases, the extremes of every span with
+//! the positions that govern them, and reactions by load. [`envelope_csv`], [`reactions_csv`] and [`summary`] write
+//! the results as files.
+//!
+//! Files, lowest first: `words` (names of quantities), `error`, `loads` (trains of a case with its factors), `limits`
+//! (limits of codes), `solve`, `tables`, `summary`.
+
+mod error;
+mod limits;
+mod loads;
+mod solve;
+mod summary;
+mod tables;
+mod words;
+
+pub use error::DesignError;
+pub use limits::LimitCheck;
+pub use solve::{DesignResult, LoadKind, ReactionExtremes, ReactionName, SolvedCase, solve};
+pub use summary::summary;
+pub use tables::{envelope_csv, reactions_csv};
+pub use words::{plane_word, quantity_word, side_word};

@@ -1,0 +1,69 @@
+//! Trains of a case with its factors.
+
+use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, WHOLE};
+use trains::{Train, TrainCase, Wheel};
+
+/// Which forces of the trains act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LoadKind {
+    /// All of them.
+    All,
+    /// Vertical forces.
+    Vertical,
+    /// Lateral forces.
+    SideThrust,
+    /// Longitudinal forces.
+    Traction,
+}
+
+/// The trains of a case under its factors. The dead load acts with its factor where `kind` is all.
+pub(crate) fn train_case(design: &Design, case: &DesignCase, kind: LoadKind) -> TrainCase {
+    let all = kind == LoadKind::All;
+    let trains = case.trains.iter().map(|&index| train(&design.trains[index], case, kind)).collect();
+    TrainCase {
+        trains,
+        ordered: case.ordered,
+        gap: case.gap,
+        dead: if all { case.factor("dead") } else { 0.0 },
+    }
+}
+
+fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
+    let share = |own: LoadKind| f64::from(u8::from(kind == LoadKind::All || kind == own));
+    let lateral = share(LoadKind::SideThrust) * case.factor("lateral");
+    let longitudinal = share(LoadKind::Traction) * case.factor("longitudinal");
+    let wheel = |wheel: &DesignWheel| Wheel {
+        rail: wheel.rail,
+        x: wheel.x,
+        vertical: share(LoadKind::Vertical) * vertical(wheel, case),
+        lateral: lateral * wheel.lateral,
+        longitudinal: longitudinal * wheel.longitudinal,
+        eccentricity: wheel.eccentricity,
+    };
+    Train {
+        wheels: train.wheels.iter().map(wheel).collect(),
+        ends: train.ends,
+        turned: train.turned,
+        reverses: train.reverses,
+        enters: train.enters,
+    }
+}
+
+/// Vertical force of a wheel: each part with the factor of its name or, where the case has none, that of `vertical`.
+fn vertical(wheel: &DesignWheel, case: &DesignCase) -> f64 {
+    let factor = |name: &str| {
+        let own = case.factors.iter().find(|(known, _)| known == name);
+        own.map_or_else(|| case.factor(WHOLE), |(_, factor)| *factor)
+    };
+    wheel.vertical.iter().map(|(name, force)| factor(name) * force).sum()
+}
+
+/// Whether any wheel of a case has a force of a kind.
+pub(crate) fn has(design: &Design, case: &DesignCase, kind: LoadKind) -> bool {
+    train_case(design, case, kind).trains.iter().flat_map(|train| &train.wheels).any(|wheel| match kind {
+        LoadKind::All => true,
+        LoadKind::Vertical => wheel.vertical != 0.0,
+        LoadKind::SideThrust => wheel.lateral != 0.0,
+        LoadKind::Traction => wheel.longitudinal != 0.0,
+    })
+}

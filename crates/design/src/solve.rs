@@ -1,0 +1,190 @@
+//! The calculation of a design.
+
+use fea::{Effect, Model};
+use formats::design::{Design, DesignCase};
+use formats::text::inputs::Inputs;
+use trains::{CaseEnvelopes, DeadLoads, Governing, Request, Structure, TrainCase};
+
+use crate::error::DesignError;
+use crate::limits::{LimitCheck, check_limits};
+pub use crate::loads::LoadKind;
+use crate::loads::{has, train_case};
+
+/// Parts of each span at whose ends envelopes are listed.
+const PARTS: usize = 20;
+
+/// The results of a design.
+#[derive(Clone, Debug)]
+pub struct DesignResult {
+    /// One for each case, in the order of the design.
+    pub cases: Vec<SolvedCase>,
+    /// Limits of codes against the results.
+    pub limits: Vec<LimitCheck>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Bound of the relative error of the influence coefficients.
+    pub error_bound: f64,
+}
+
+/// The results of one case.
+#[derive(Clone, Debug)]
+pub struct SolvedCase {
+    /// Its name.
+    pub name: String,
+    /// Envelopes and extremes along the rails.
+    pub envelopes: CaseEnvelopes,
+    /// Reactions under all loads.
+    pub reactions: Vec<ReactionExtremes>,
+    /// Reactions under each kind of load alone.
+    pub by_load: Vec<(LoadKind, Vec<ReactionExtremes>)>,
+    /// Internal forces of the named sections, in the order of the design.
+    pub sections: Vec<[Governing; 2]>,
+}
+
+/// Largest and smallest value of a reaction.
+#[derive(Clone, Debug)]
+pub struct ReactionExtremes {
+    /// Which reaction.
+    pub name: ReactionName,
+    /// Largest and smallest value.
+    pub extremes: [Governing; 2],
+}
+
+/// Name of a reaction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReactionName {
+    /// The supported point, named as in the columns of a history.
+    pub support: String,
+    /// Its global direction, `ux` to `rz`.
+    pub direction: String,
+}
+
+/// Solves a design; `inputs` are the files from which it was read.
+///
+/// # Errors
+/// A structure that has no trustworthy solution; loads that it does not resist; trains that do not fit beside each other.
+pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignError> {
+    let located = |error: trains::Error| DesignError::of(&error, design, inputs);
+    let (model, rails) = design.spec.model().map_err(|error| located(error.into()))?;
+    let eccentric =
+        design.trains.iter().flat_map(|train| &train.wheels).any(|wheel| wheel.eccentricity != 0.0);
+    let structure = Structure::new(&model, &rails, eccentric).map_err(located)?;
+    let dead = DeadLoads { gravity: design.dead.gravity, lines: design.dead.lines.clone() };
+    let (names, reactions) = reactions(design, &model, &structure);
+    let sections = design.sections.iter().map(|section| {
+        vec![Effect::InternalForce {
+            member: section.member,
+            place: section.place,
+            component: section.component,
+        }]
+    });
+    let mut effects = reactions.clone();
+    effects.extend(sections);
+    let request = Request { spans: design.spans.clone(), places: places(design, &structure), effects };
+    let cases: Vec<TrainCase> =
+        design.cases.iter().map(|case| train_case(design, case, LoadKind::All)).collect();
+    let found = trains::envelopes(&structure, &dead, &cases, &request).map_err(located)?;
+    let mut solved = Vec::new();
+    for (case, mut envelopes) in design.cases.iter().zip(found) {
+        let mut all = std::mem::take(&mut envelopes.effects);
+        let sections = all.split_off(names.len());
+        solved.push(SolvedCase {
+            name: case.name.clone(),
+            reactions: named(&names, all),
+            by_load: by_load(design, case, &structure, &names, &reactions).map_err(located)?,
+            sections,
+            envelopes,
+        });
+    }
+    let warnings = warnings(design, &solved);
+    let limits = check_limits(design, &solved);
+    let error_bound = structure.frame().certificate().error_bound;
+    Ok(DesignResult { cases: solved, limits, warnings, error_bound })
+}
+
+/// Reactions under each kind of load alone that the case has.
+fn by_load(
+    design: &Design,
+    case: &DesignCase,
+    structure: &Structure,
+    names: &[ReactionName],
+    reactions: &[Vec<Effect>],
+) -> Result<Vec<(LoadKind, Vec<ReactionExtremes>)>, trains::Error> {
+    let mut out = Vec::new();
+    for kind in [LoadKind::Vertical, LoadKind::SideThrust, LoadKind::Traction] {
+        if has(design, case, kind) {
+            let alone = train_case(design, case, kind);
+            let found = trains::effects(structure, &DeadLoads::default(), &[alone], reactions)?;
+            out.extend(found.into_iter().map(|found| (kind, named(names, found))));
+        }
+    }
+    Ok(out)
+}
+
+fn named(names: &[ReactionName], found: Vec<[Governing; 2]>) -> Vec<ReactionExtremes> {
+    let each = names.iter().cloned().zip(found);
+    each.map(|(name, extremes)| ReactionExtremes { name, extremes }).collect()
+}
+
+/// Names of all reactions, and the sums of restraints that each consists of.
+fn reactions(design: &Design, model: &Model, structure: &Structure) -> (Vec<ReactionName>, Vec<Vec<Effect>>) {
+    let restraints = structure.frame().restraints(model);
+    let mut names = Vec::new();
+    let mut sums = Vec::new();
+    for ground in design.spec.supported_points(model) {
+        for &dof in &ground.dofs {
+            let own = restraints.iter().filter(|one| one.point == ground.point && one.dof == dof);
+            let sum: Vec<Effect> = own.copied().map(Effect::Reaction).collect();
+            if !sum.is_empty() {
+                names.push(ReactionName { support: ground.name.clone(), direction: dof.to_string() });
+                sums.push(sum);
+            }
+        }
+    }
+    (names, sums)
+}
+
+/// Coordinates at which envelopes are listed: stations, ends of members and spans, twentieths of spans.
+fn places(design: &Design, structure: &Structure) -> Vec<Vec<f64>> {
+    let rails = design.spec.rails();
+    let on = |(rail, outline): (usize, &formats::spec::RailOutline)| {
+        let spans = design.spans[rail].windows(2);
+        let twentieths = spans.flat_map(|ends| {
+            let (from, to) = (ends[0], ends[1]);
+            (0..=PARTS).map(move |k| from + (to - from) * k as f64 / PARTS as f64)
+        });
+        let mut all: Vec<f64> = twentieths.chain(outline.stations.iter().copied()).collect();
+        all.extend(structure.member_ends(rail));
+        let [low, high] = structure.range(rail);
+        all.retain(|x| *x >= low && *x <= high);
+        all.sort_by(f64::total_cmp);
+        all.dedup_by(|b, a| *b - *a <= 1e-9 * (high - low));
+        all
+    };
+    rails.iter().enumerate().map(on).collect()
+}
+
+fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
+    let mut out = Vec::new();
+    if design.dead.gravity > 0.0 && !design.spec.has_mass() {
+        out.push(format!(
+            "{}: nothing of the structure has mass, so that its weight is 0; give `mass_per_length` or densities",
+            design.spec_file
+        ));
+    }
+    for (number, case) in cases.iter().enumerate() {
+        let open = case.envelopes.extremes.iter().filter(|extreme| {
+            let value = extreme.governing.value;
+            (extreme.bound - value).abs() > 1e-9 * value.abs().max(extreme.bound.abs())
+        });
+        let count = open.count();
+        if count > 0 {
+            out.push(format!(
+                "case {} ({}): {count} extremes over spans are enclosed by bounds, not exact; summary.json has the bounds",
+                number + 1,
+                case.name
+            ));
+        }
+    }
+    out
+}

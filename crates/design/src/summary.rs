@@ -1,0 +1,193 @@
+//! `summary.json` of a design.
+
+use formats::design::{Design, DesignSection};
+use serde_json::{Map, Value, json};
+use trains::{Governing, SpanDeflection, SpanExtreme, TrainPosition};
+
+use crate::limits::LimitCheck;
+use crate::solve::{DesignResult, ReactionExtremes};
+use crate::words::{kind_word, plane_word, quantity_word, side_word};
+
+/// Name and version of the format.
+pub const FORMAT: &str = "girderway-design-summary/1";
+
+/// The summary of a design as JSON.
+#[must_use]
+pub fn summary(design: &Design, result: &DesignResult) -> Value {
+    let mut extremes = Vec::new();
+    let mut deflections = Vec::new();
+    for (index, case) in result.cases.iter().enumerate() {
+        let of = OfCase { design, number: index + 1, names: train_names(design, index) };
+        extremes.extend(case.envelopes.extremes.iter().map(|extreme| of.span(extreme)));
+        extremes.extend(case.reactions.iter().flat_map(|reaction| of.reaction(reaction)));
+        let sections = design.sections.iter().zip(&case.sections);
+        extremes.extend(sections.flat_map(|(section, found)| of.section(section, found)));
+        deflections.extend(case.envelopes.deflections.iter().map(|deflection| of.deflection(deflection)));
+    }
+    let cases: Vec<Value> = design
+        .cases
+        .iter()
+        .enumerate()
+        .map(|(index, case)| {
+            let factors: Map<String, Value> =
+                case.factors.iter().map(|(name, factor)| (name.clone(), json!(factor))).collect();
+            json!({
+                "case": index + 1,
+                "name": case.name,
+                "trains": case.trains.iter().map(|&train| &design.trains[train].name).collect::<Vec<_>>(),
+                "gap": case.gap,
+                "factors": factors,
+            })
+        })
+        .collect();
+    json!({
+        "format": FORMAT,
+        "name": design.name,
+        "status": "done",
+        "units": design.units.json(),
+        "spec": design.spec_file,
+        "error_bound": result.error_bound,
+        "within": result.limits.iter().all(LimitCheck::within),
+        "cases": cases,
+        "extremes": extremes,
+        "deflections": deflections,
+        "limits": result.limits.iter().map(limit).collect::<Vec<_>>(),
+        "warnings": result.warnings,
+    })
+}
+
+/// Names of the trains of a case, numbered where a train occurs several times.
+fn train_names(design: &Design, case: usize) -> Vec<String> {
+    let trains = &design.cases[case].trains;
+    trains
+        .iter()
+        .enumerate()
+        .map(|(k, train)| {
+            let name = &design.trains[*train].name;
+            if trains.iter().filter(|other| *other == train).count() == 1 {
+                return name.clone();
+            }
+            format!("{name}{}", trains[..=k].iter().filter(|other| *other == train).count())
+        })
+        .collect()
+}
+
+struct OfCase<'a> {
+    design: &'a Design,
+    number: usize,
+    names: Vec<String>,
+}
+
+impl OfCase<'_> {
+    fn span(&self, extreme: &SpanExtreme) -> Value {
+        let rail = &self.design.spec.rails()[extreme.rail].name;
+        let g = &extreme.governing;
+        let mut out = json!({
+            "case": self.number,
+            "rail": rail,
+            "span": extreme.span,
+            "quantity": quantity_word(extreme.quantity),
+            "plane": plane_word(extreme.quantity),
+            "kind": kind_word(extreme.is_max),
+            "value": g.value + 0.0,
+            "x": g.x + 0.0,
+            "side": side_word(g.side),
+            "dead": g.dead + 0.0,
+        });
+        self.add_state(&mut out, g);
+        out["bound"] = json!(extreme.bound + 0.0);
+        let [moment, shear, deflection] = g.coincident.map(|value| value + 0.0);
+        out["coincident"] = json!({ "moment": moment, "shear": shear, "deflection": deflection });
+        out
+    }
+
+    fn reaction(&self, reaction: &ReactionExtremes) -> [Value; 2] {
+        [0, 1].map(|k| {
+            let g = &reaction.extremes[k];
+            let mut out = json!({
+                "case": self.number,
+                "quantity": "reaction",
+                "support": reaction.name.support,
+                "direction": reaction.name.direction,
+                "kind": kind_word(k == 0),
+                "value": g.value + 0.0,
+                "dead": g.dead + 0.0,
+            });
+            self.add_state(&mut out, g);
+            out
+        })
+    }
+
+    fn section(&self, section: &DesignSection, found: &[Governing; 2]) -> [Value; 2] {
+        [0, 1].map(|k| {
+            let g = &found[k];
+            let word =
+                formats::spec::COMPONENTS.iter().find(|(_, component)| *component == section.component);
+            let mut out = json!({
+                "case": self.number,
+                "section": section.name,
+                "quantity": word.map_or("", |(word, _)| word),
+                "kind": kind_word(k == 0),
+                "value": g.value + 0.0,
+                "dead": g.dead + 0.0,
+            });
+            self.add_state(&mut out, g);
+            out
+        })
+    }
+
+    fn deflection(&self, found: &SpanDeflection) -> Value {
+        let g = &found.governing;
+        let length = found.ends[1] - found.ends[0];
+        let mut out = json!({
+            "case": self.number,
+            "rail": self.design.spec.rails()[found.rail].name,
+            "span": found.span,
+            "plane": plane_word(found.quantity),
+            "relative": g.value + 0.0,
+            "x": g.x + 0.0,
+            "span_length": length,
+        });
+        if g.value != 0.0 && (length / g.value).is_finite() {
+            out["ratio"] = json!((length / g.value).abs());
+        }
+        self.add_state(&mut out, g);
+        out
+    }
+
+    /// Adds where the trains stand: the first one, and all of them by name.
+    fn add_state(&self, out: &mut Value, g: &Governing) {
+        let one = |train: &TrainPosition| json!({ "position": train.position + 0.0, "turned": train.stance.turned });
+        let positions: Map<String, Value> =
+            self.names.iter().cloned().zip(g.trains.iter().map(one)).collect();
+        let signs: Map<String, Value> = self
+            .names
+            .iter()
+            .zip(&g.trains)
+            .map(|(name, train)| {
+                let [lateral, longitudinal, eccentricity] = train.stance.signs;
+                let signs =
+                    json!({ "lateral": lateral, "longitudinal": longitudinal, "eccentricity": eccentricity });
+                (name.clone(), signs)
+            })
+            .collect();
+        out["train"] = json!(self.names.first());
+        out["position"] = json!(g.trains.first().map(|train| train.position + 0.0));
+        out["positions"] = Value::Object(positions);
+        out["signs"] = Value::Object(signs);
+    }
+}
+
+fn limit(check: &LimitCheck) -> Value {
+    json!({
+        "case": check.case,
+        "rail": check.rail,
+        "span": check.span,
+        "code": check.code,
+        "clause": check.clause,
+        "quantity": check.quantity,
+        "value": check.value,
+        "limit": check.limit,
+        "within": check.within(),
+    })
+}

@@ -1,0 +1,40 @@
+//! Words of results.
+
+use trains::{Quantity, SectionSide};
+
+/// Word of a quantity: `moment`, `shear`, `normal`, `torsion` or `deflection`.
+#[must_use]
+pub const fn quantity_word(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::Normal => "normal",
+        Quantity::Torsion => "torsion",
+        Quantity::VerticalShear | Quantity::LateralShear => "shear",
+        Quantity::VerticalMoment | Quantity::LateralMoment => "moment",
+        Quantity::VerticalDeflection | Quantity::LateralDeflection => "deflection",
+    }
+}
+
+/// Word of the plane of a quantity; normal force and torsion belong to neither plane and are listed with the vertical
+/// one.
+#[must_use]
+pub const fn plane_word(quantity: Quantity) -> &'static str {
+    match quantity {
+        Quantity::LateralShear | Quantity::LateralMoment | Quantity::LateralDeflection => "lateral",
+        _ => "vertical",
+    }
+}
+
+/// Word of the side of a section: `-`, `at` or `+`.
+#[must_use]
+pub const fn side_word(side: SectionSide) -> &'static str {
+    match side {
+        SectionSide::Before => "-",
+        SectionSide::At => "at",
+        SectionSide::Behind => "+",
+    }
+}
+
+/// `max` or `min`.
+pub(crate) const fn kind_word(is_max: bool) -> &'static str {
+    if is_max { "max" } else { "min" }
+}

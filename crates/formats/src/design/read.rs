@@ -1,0 +1,583 @@
+//! Reads a design file and its spec, and reports all faults of both.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use fea::{Model, Rail};
+
+use super::raw::{RawCase, RawDead, RawDesign, RawForces, RawNamedCase, RawSectionCut, RawTrain};
+use super::values::{Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, WHOLE};
+use crate::check::Check;
+use crate::limits::{CASE_TRAINS, TRAIN_WHEELS, TRAINS};
+use crate::spec::{COMPONENTS, Form, RailOutline, Spec, format, stem};
+use crate::text::diagnostic::Diagnostic;
+use crate::text::fault::{Fault, Faults, number};
+use crate::text::inputs::Inputs;
+use crate::text::names::{check_name, names, resolve};
+use crate::text::place::Place;
+use crate::units::{Dimension, Scale, Units};
+use crate::vector::length;
+
+/// Value of the member `format`: name and version of the format.
+pub const FORMAT: &str = "girderway-design/1";
+
+/// Standard acceleration of gravity, m/s2.
+const STANDARD_GRAVITY: f64 = 9.806_65;
+
+/// Names of loads that every case may factor, beside those of parts of vertical forces.
+const LOADS: [&str; 4] = ["dead", WHOLE, "lateral", "longitudinal"];
+
+impl Design {
+    /// Reads a design and the spec that it names.
+    ///
+    /// # Errors
+    /// All faults of both files, each with its place.
+    pub fn open(path: &Path) -> Result<(Design, Inputs), Vec<Diagnostic>> {
+        let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
+        let mut wrong = Vec::new();
+        let read = source
+            .read(FORMAT, |raw: &RawDesign, faults| read(raw, &source.name, &mut inputs, faults, &mut wrong));
+        match read {
+            Ok(design) if wrong.is_empty() => Ok((design, inputs)),
+            Ok(_) => Err(wrong),
+            Err(mut own) => {
+                own.append(&mut wrong);
+                Err(own)
+            }
+        }
+    }
+}
+
+fn read(
+    raw: &RawDesign,
+    file: &str,
+    inputs: &mut Inputs,
+    faults: &mut Faults,
+    wrong: &mut Vec<Diagnostic>,
+) -> Option<Design> {
+    let root = Place::root();
+    format(&raw.format, FORMAT, &root, faults);
+    let own = Units::read(&raw.units, &root, faults);
+    let units = own.unwrap_or(Units::SI);
+    if let Some(name) = &raw.name {
+        check_name(name, &root.key("name"), faults);
+    }
+    let spec = spec(raw, units, inputs, &root, faults, wrong);
+    let scale = Scale { from: units, to: units };
+    let mut check = Check { faults, scale };
+    let standard = STANDARD_GRAVITY * Scale { from: Units::SI, to: units }.factor(Dimension::LENGTH);
+    let gravity = match raw.gravity {
+        Some(given) => {
+            check.not_negative(given, &root.key("gravity"), Dimension::ACCELERATION, "a magnitude")
+        }
+        None => standard,
+    };
+    let Some(spec) = spec else {
+        check_trains(raw, &[], &root, &mut check);
+        return None;
+    };
+    let rails = spec.rails();
+    let dead = dead_load(&raw.dead_load, gravity, &rails, &root, &mut check);
+    let trains = check_trains(raw, &rails, &root, &mut check);
+    check_fit(&trains, &spec, &rails, &root, &mut check);
+    let cases = cases(raw, &trains, &root, &mut check);
+    let sections = raw.sections.iter().enumerate();
+    let at = root.key("sections");
+    let sections: Vec<DesignSection> =
+        sections.filter_map(|(k, raw)| section(raw, &spec, &at.index(k), &mut check)).collect();
+    unique(sections.iter().map(|section| section.name.as_str()), &at, check.faults);
+    let spans = spans(raw, &spec, &rails, &root, &mut check);
+    let practice = raw.practice.clone().unwrap_or_default();
+    Some(Design {
+        name: raw.name.clone().unwrap_or_else(|| stem(file)),
+        units: own?,
+        spec_file: raw.spec.clone()?,
+        spec,
+        dead,
+        trains,
+        cases,
+        sections,
+        spans,
+        code: practice.code,
+        class: practice.class,
+    })
+}
+
+/// The spec in the units of the design.
+fn spec(
+    raw: &RawDesign,
+    units: Units,
+    inputs: &mut Inputs,
+    root: &Place<'_>,
+    faults: &mut Faults,
+    wrong: &mut Vec<Diagnostic>,
+) -> Option<Arc<Spec>> {
+    let name = faults.require(&raw.spec, root, "spec")?;
+    let input = match inputs.open_referenced(name) {
+        Ok(input) => input,
+        Err(why) => {
+            let fault = Fault::new(&root.key("spec"), format!("\"{name}\" {why}"));
+            faults.add(fault.hint("paths are relative to the folder of the design"));
+            return None;
+        }
+    };
+    let read =
+        input.source().map_err(|error| vec![*error]).and_then(|source| Spec::read(&source, Some(units)));
+    match read {
+        Ok(spec) => Some(Arc::new(spec)),
+        Err(faults) => {
+            wrong.extend(faults);
+            None
+        }
+    }
+}
+
+fn dead_load(
+    raw: &Option<RawDead>,
+    gravity: f64,
+    rails: &[RailOutline],
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> DesignDead {
+    let mut lines = vec![0.0; rails.len()];
+    let weight = match raw {
+        None => false,
+        Some(RawDead::Weight(weight)) => *weight,
+        Some(RawDead::Parts(parts)) => {
+            let at = root.key("dead_load");
+            let at = at.key("line");
+            let known = names(rails, |rail| &rail.name);
+            for (name, load) in &parts.line.0 {
+                let here = at.key(name);
+                if let Some(rail) = resolve(name, &known, "rail", &here, check.faults) {
+                    lines[rail] = check.not_negative(*load, &here, Dimension::STIFFNESS, "downwards");
+                }
+            }
+            parts.weight.unwrap_or(false)
+        }
+    };
+    DesignDead { gravity: if weight { gravity } else { 0.0 }, lines }
+}
+
+fn check_trains(
+    raw: &RawDesign,
+    rails: &[RailOutline],
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<DesignTrain> {
+    let Some(list) = check.faults.require(&raw.trains, root, "trains") else { return Vec::new() };
+    let at = root.key("trains");
+    if list.is_empty() {
+        check.faults.add(Fault::new(&at, "must have at least one train").of_value());
+    }
+    check.items(list.len(), &TRAINS, &at);
+    let trains: Vec<DesignTrain> =
+        list.iter().enumerate().map(|(k, raw)| train(raw, rails, &at.index(k), check)).collect();
+    unique(trains.iter().map(|train| train.name.as_str()), &at, check.faults);
+    trains
+}
+
+/// Refuses a name that occurs before.
+fn unique<'n>(names: impl Iterator<Item = &'n str>, at: &Place<'_>, faults: &mut Faults) {
+    let mut seen: Vec<&str> = Vec::new();
+    for (k, name) in names.enumerate() {
+        if seen.contains(&name) && !name.is_empty() {
+            let here = at.index(k);
+            let fault = Fault::new(&here.key("name"), "must differ from the other names");
+            faults.add(fault.got(format!("\"{name}\"")));
+        }
+        seen.push(name);
+    }
+}
+
+fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Check<'_>) -> DesignTrain {
+    let name = check.faults.require(&raw.name, at, "name").cloned().unwrap_or_default();
+    if raw.name.is_some() {
+        check_name(&name, &at.key("name"), check.faults);
+    }
+    let known = names(rails, |rail| &rail.name);
+    let rail = match &raw.rail {
+        Some(name) if !rails.is_empty() => resolve(name, &known, "rail", &at.key("rail"), check.faults),
+        _ => None,
+    };
+    let mut ends = [0.0; 2];
+    for (k, end) in raw.ends.into_iter().flatten().enumerate() {
+        let place = at.key("ends");
+        ends[k] = check.not_negative(end, &place.index(k), Dimension::LENGTH, "beyond the outermost wheel");
+    }
+    let list = check.faults.require(&raw.wheels, at, "wheels").map_or(&[][..], Vec::as_slice);
+    let places = at.key("wheels");
+    if raw.wheels.is_some() && list.is_empty() {
+        check.faults.add(Fault::new(&places, "must have at least one wheel").of_value());
+    }
+    check.items(list.len(), &TRAIN_WHEELS, &places);
+    let signs = [("both", true), ("given", false)];
+    let reverses = raw.signs.as_ref().and_then(|word| check.faults.one_of(word, &at.key("signs"), &signs));
+    let whole = raw.longitudinal.map(|force| check.number(force, &at.key("longitudinal"), Dimension::FORCE));
+    let sharing = list.iter().filter(|wheel| wheel.longitudinal.is_none()).count().max(1) as f64;
+    let of_train = [
+        raw.lateral.map(|force| check.number(force, &at.key("lateral"), Dimension::FORCE)),
+        whole.map(|force| force / sharing),
+        raw.eccentricity.map(|e| check.number(e, &at.key("eccentricity"), Dimension::LENGTH)),
+    ];
+    let mut wheels = Vec::with_capacity(list.len());
+    for (k, given) in list.iter().enumerate() {
+        let here = places.index(k);
+        let x = check.faults.require(&given.x, &here, "x").copied().unwrap_or(0.0);
+        let x = check.number(x, &here.key("x"), Dimension::LENGTH);
+        let own = match &given.rail {
+            Some(name) if !rails.is_empty() => resolve(name, &known, "rail", &here.key("rail"), check.faults),
+            _ => rail,
+        };
+        if own.is_none() && given.rail.is_none() && raw.rail.is_none() && rails.len() > 1 && k == 0 {
+            let fault = Fault::new(at, "missing key `rail`").of_value();
+            let words: Vec<&str> = rails.iter().map(|rail| rail.name.as_str()).collect();
+            check.faults.add(fault.hint(format!("the structure has several: {}", words.join(", "))));
+        }
+        let [lateral, longitudinal, eccentricity] = of_train;
+        let mut own_number = |value: Option<f64>, key: &str, dimension, default: Option<f64>| {
+            value.map(|value| check.number(value, &here.key(key), dimension)).or(default).unwrap_or(0.0)
+        };
+        let lateral = own_number(given.lateral, "lateral", Dimension::FORCE, lateral);
+        let longitudinal = own_number(given.longitudinal, "longitudinal", Dimension::FORCE, longitudinal);
+        let eccentricity = own_number(given.eccentricity, "eccentricity", Dimension::LENGTH, eccentricity);
+        let vertical = vertical(&given.vertical, &here, check);
+        wheels.push(DesignWheel { rail: own.unwrap_or(0), x, vertical, lateral, longitudinal, eccentricity });
+    }
+    check_order(&wheels, &places, check.faults);
+    let mut weight = |value: Option<f64>, key: &str| {
+        value.map(|value| check.not_negative(value, &at.key(key), Dimension::FORCE, "a weight"))
+    };
+    DesignTrain {
+        weights: [
+            weight(raw.hoist_load, "hoist_load"),
+            weight(raw.trolley, "trolley"),
+            weight(raw.bridge, "bridge"),
+        ],
+        name,
+        ends,
+        wheels,
+        turned: raw.turned.unwrap_or(true),
+        enters: raw.enters.unwrap_or(false),
+        reverses: reverses.unwrap_or(true),
+    }
+}
+
+/// The parts of a vertical force.
+fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> Vec<(String, f64)> {
+    let place = at.key("vertical");
+    match check.faults.require(raw, at, "vertical") {
+        None => Vec::new(),
+        Some(RawForces::Whole(force)) => {
+            vec![(WHOLE.to_owned(), check.number(*force, &place, Dimension::FORCE))]
+        }
+        Some(RawForces::Parts(parts)) => {
+            if parts.0.is_empty() {
+                check.faults.add(Fault::new(&place, "must have at least one part").of_value());
+            }
+            let mut out = Vec::new();
+            for (name, force) in &parts.0 {
+                let here = place.key(name);
+                check_name(name, &here, check.faults);
+                if LOADS.contains(&name.as_str()) {
+                    let fault =
+                        Fault::new(&here, format!("\"{name}\" cannot be the name of a part")).at_key();
+                    check.faults.add(fault.hint("it names another load in the factors of a case"));
+                }
+                out.push((name.clone(), check.number(*force, &here, Dimension::FORCE)));
+            }
+            out
+        }
+    }
+}
+
+/// Wheels of one rail must be listed from the rear to the front.
+fn check_order(wheels: &[DesignWheel], places: &Place<'_>, faults: &mut Faults) {
+    for (k, wheel) in wheels.iter().enumerate() {
+        let before = wheels[..k].iter().rev().find(|other| other.rail == wheel.rail);
+        if let Some(before) = before.filter(|before| before.x >= wheel.x) {
+            let here = places.index(k);
+            let expected = format!("must be above that of the wheel before it, {}", number(before.x));
+            let fault = Fault::new(&here.key("x"), expected).got(number(wheel.x));
+            faults.add(fault.hint("list the wheels of a rail by increasing x"));
+        }
+    }
+}
+
+/// Refuses trains that are longer than the rails that they stand on.
+fn check_fit(
+    trains: &[DesignTrain],
+    spec: &Spec,
+    rails: &[RailOutline],
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) {
+    if !check.faults.0.is_empty() {
+        return;
+    }
+    let Ok((_, geometry)) = spec.model() else { return };
+    let shift = |first: usize, rail: usize| {
+        let (a, b): (&Rail, &Rail) = (&geometry[first], &geometry[rail]);
+        let size = length(b.axis);
+        (0..3).map(|k| (a.origin[k] - b.origin[k]) * b.axis[k] / size).sum::<f64>()
+    };
+    let list = root.key("trains");
+    for (k, train) in trains.iter().enumerate().filter(|(_, train)| !train.enters) {
+        let first = train.wheels[0].rail;
+        let limits = train
+            .wheels
+            .iter()
+            .map(|wheel| rails[wheel.rail].range.map(|end| end - wheel.x - shift(first, wheel.rail)));
+        let range = limits.fold([f64::NEG_INFINITY, f64::INFINITY], |r, [a, b]| [r[0].max(a), r[1].min(b)]);
+        let slack = 1e-12 * range[0].abs().max(range[1].abs());
+        if range[0] > range[1] + slack {
+            let [low, high] = rails[first].range;
+            let fault = Fault::new(&list.index(k), "must fit on its rails with all wheels");
+            let fault = fault.got(format!("wheels that reach {} beyond", number(range[0] - range[1])));
+            check.faults.add(fault.hint(format!(
+                "rail \"{}\" is covered from {} to {}; `\"enters\": true` lets wheels stand beyond its ends",
+                rails[first].name,
+                number(low),
+                number(high)
+            )));
+        }
+    }
+}
+
+fn cases(
+    raw: &RawDesign,
+    trains: &[DesignTrain],
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<DesignCase> {
+    let Some(list) = &raw.cases else {
+        let alone = |(index, train): (usize, &DesignTrain)| DesignCase {
+            name: train.name.clone(),
+            trains: vec![index],
+            gap: 0.0,
+            ordered: false,
+            factors: Vec::new(),
+        };
+        return trains.iter().enumerate().map(alone).collect();
+    };
+    let at = root.key("cases");
+    if list.is_empty() {
+        check.faults.add(Fault::new(&at, "must have at least one case").of_value());
+    }
+    let plain = |trains: &Vec<String>| RawNamedCase {
+        name: None,
+        trains: Some(trains.clone()),
+        gap: None,
+        order: None,
+        factors: Default::default(),
+    };
+    let mut out = Vec::new();
+    for (k, given) in list.iter().enumerate() {
+        let here = at.index(k);
+        let found = match given {
+            RawCase::Trains(names) => case(&plain(names), trains, &here, &here, check),
+            RawCase::Named(named) => case(named, trains, &here, &here.key("trains"), check),
+        };
+        out.push(found);
+    }
+    unique(out.iter().map(|case| case.name.as_str()), &at, check.faults);
+    out
+}
+
+fn case(
+    raw: &RawNamedCase,
+    trains: &[DesignTrain],
+    at: &Place<'_>,
+    list: &Place<'_>,
+    check: &mut Check<'_>,
+) -> DesignCase {
+    let named = check.faults.require(&raw.trains, at, "trains").cloned().unwrap_or_default();
+    if raw.trains.is_some() && named.is_empty() {
+        check.faults.add(Fault::new(list, "must name at least one train").of_value());
+    }
+    check.items(named.len(), &CASE_TRAINS, list);
+    let known = names(trains, |train| &train.name);
+    let chosen: Vec<usize> = named
+        .iter()
+        .enumerate()
+        .filter_map(|(k, name)| resolve(name, &known, "train", &list.index(k), check.faults))
+        .collect();
+    if let Some(name) = &raw.name {
+        check_name(name, &at.key("name"), check.faults);
+    }
+    let gap = raw
+        .gap
+        .map_or(0.0, |gap| check.not_negative(gap, &at.key("gap"), Dimension::LENGTH, "a clear distance"));
+    let orders = [("any", false), ("given", true)];
+    let ordered = raw.order.as_ref().and_then(|word| check.faults.one_of(word, &at.key("order"), &orders));
+    let place = at.key("factors");
+    let mut factors = Vec::new();
+    let mut parts: Vec<&str> = chosen
+        .iter()
+        .flat_map(|&k| &trains[k].wheels)
+        .flat_map(|wheel| &wheel.vertical)
+        .map(|(name, _)| name.as_str())
+        .filter(|name| *name != WHOLE)
+        .collect();
+    parts.sort_unstable();
+    parts.dedup();
+    let words: Vec<(&str, usize)> =
+        LOADS.iter().chain(&parts).enumerate().map(|(k, word)| (*word, k)).collect();
+    for (name, factor) in &raw.factors.0 {
+        let here = place.key(name);
+        let factor = check.number(*factor, &here, Dimension::NUMBER);
+        if chosen.len() == named.len() && resolve(name, &words, "load", &here, check.faults).is_some() {
+            refuse_missing_parts(name, &parts, &chosen, trains, &here, check.faults);
+        }
+        factors.push((name.clone(), factor));
+    }
+    DesignCase {
+        name: raw.name.clone().unwrap_or_else(|| named.join(" + ")),
+        trains: chosen,
+        gap,
+        ordered: ordered.unwrap_or(false),
+        factors,
+    }
+}
+
+/// A factor of a part needs that every wheel of the case gives its vertical force in parts.
+fn refuse_missing_parts(
+    name: &str,
+    parts: &[&str],
+    chosen: &[usize],
+    trains: &[DesignTrain],
+    at: &Place<'_>,
+    faults: &mut Faults,
+) {
+    if !parts.contains(&name) {
+        return;
+    }
+    for &train in chosen {
+        let whole = |wheel: &DesignWheel| wheel.vertical.iter().any(|(part, _)| part == WHOLE);
+        if let Some(wheel) = trains[train].wheels.iter().position(whole) {
+            let fault = Fault::new(at, "needs the vertical forces of all wheels in parts");
+            faults.add(
+                fault
+                    .got(format!("a number for wheel {} of train \"{}\"", wheel + 1, trains[train].name))
+                    .hint(format!(
+                        "give its parts by name: {}; or give a factor of `vertical`",
+                        parts.join(", ")
+                    )),
+            );
+            return;
+        }
+    }
+}
+
+fn section(raw: &RawSectionCut, spec: &Spec, at: &Place<'_>, check: &mut Check<'_>) -> Option<DesignSection> {
+    let name = check.faults.require(&raw.name, at, "name").cloned();
+    if let Some(name) = &name {
+        check_name(name, &at.key("name"), check.faults);
+    }
+    let component = check
+        .faults
+        .require(&raw.component, at, "component")
+        .and_then(|word| check.faults.one_of(word, &at.key("component"), &COMPONENTS));
+    let (member, place) = match &spec.form {
+        Form::Girder(_) => {
+            for (key, given) in [("cell", raw.cell.is_some()), ("place", raw.place.is_some())] {
+                if given {
+                    let fault =
+                        Fault::new(&at.key(key), format!("`{key}` is a key of the general form")).at_key();
+                    check.faults.add(fault.hint("in the short form of the spec the section is at `x`"));
+                }
+            }
+            let x = check.faults.require(&raw.x, at, "x").copied()?;
+            let x = check.number(x, &at.key("x"), Dimension::LENGTH);
+            let (model, _) = spec.model().ok()?;
+            on_girder(&model, x).or_else(|| {
+                let [low, high] = spec.rails()[0].range.map(number);
+                let fault = Fault::new(&at.key("x"), format!("must be on the girder, from {low} to {high}"));
+                check.faults.add(fault.got(number(x)));
+                None
+            })?
+        }
+        Form::Frame(frame) => {
+            if raw.x.is_some() {
+                let fault = Fault::new(&at.key("x"), "`x` is a key of the short form").at_key();
+                check.faults.add(fault.hint("in the general form of the spec give `cell` and `place`"));
+            }
+            let cell = check.faults.require(&raw.cell, at, "cell").copied();
+            let place = check.faults.require(&raw.place, at, "place").copied()?;
+            if !(0.0..=1.0).contains(&place) {
+                let fault = Fault::new(&at.key("place"), "must be from 0 to 1").got(number(place)).of_value();
+                check.faults.add(fault.hint("0 is the flexible end a of the cell, 1 its flexible end b"));
+            }
+            let cell = cell?;
+            let parts: Vec<usize> = (0..frame.cells.len()).filter(|&k| frame.cells[k] == cell).collect();
+            if parts.is_empty() {
+                let fault = Fault::new(&at.key("cell"), "must be [block, index] of a cell of the spec");
+                check
+                    .faults
+                    .add(fault.got(format!("[{}, {}]", cell[0], cell[1])).hint("indices count from 0"));
+                return None;
+            }
+            // A tapered cell has parts of equal length.
+            let along = place.clamp(0.0, 1.0) * parts.len() as f64;
+            let part = (along.floor() as usize).min(parts.len() - 1);
+            (parts[part], along - part as f64)
+        }
+    };
+    Some(DesignSection { name: name?, member, place, component: component? })
+}
+
+/// Member and place of a coordinate of a girder; a support belongs to the member behind it.
+fn on_girder(model: &Model, x: f64) -> Option<(usize, f64)> {
+    let ends: Vec<f64> = model.points.iter().map(|point| point[0]).collect();
+    let (first, last) = (*ends.first()?, *ends.last()?);
+    let slack = 1e-12 * (last - first);
+    if x < first - slack || x > last + slack {
+        return None;
+    }
+    let member = ends.partition_point(|end| *end <= x + slack).clamp(1, ends.len() - 1) - 1;
+    Some((member, ((x - ends[member]) / (ends[member + 1] - ends[member])).clamp(0.0, 1.0)))
+}
+
+fn spans(
+    raw: &RawDesign,
+    spec: &Spec,
+    rails: &[RailOutline],
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Vec<Vec<f64>> {
+    let mut out: Vec<Vec<f64>> = rails.iter().map(|rail| rail.range.to_vec()).collect();
+    if let Some(girder) = spec.girder() {
+        let mut x = 0.0;
+        out[0] = std::iter::once(0.0)
+            .chain(girder.spans.iter().map(|span| {
+                x += span;
+                x
+            }))
+            .collect();
+    }
+    let at = root.key("spans");
+    let known = names(rails, |rail| &rail.name);
+    for (name, list) in raw.spans.iter().flat_map(|entries| &entries.0) {
+        let here = at.key(name);
+        let Some(rail) = resolve(name, &known, "rail", &here, check.faults) else { continue };
+        if list.len() < 2 {
+            check.faults.add(Fault::new(&here, "must have at least two coordinates").of_value());
+        }
+        if !check.faults.increasing(list, &here) {
+            continue;
+        }
+        let [low, high] = rails[rail].range;
+        let slack = 1e-9 * (high - low);
+        let mut ends = Vec::with_capacity(list.len());
+        for (k, x) in list.iter().enumerate() {
+            let x = check.number(*x, &here.index(k), Dimension::LENGTH);
+            if x < low - slack || x > high + slack {
+                let expected = format!("must be on the rail, from {} to {}", number(low), number(high));
+                check.faults.add(Fault::new(&here.index(k), expected).got(number(x)));
+            }
+            ends.push(x.clamp(low, high));
+        }
+        out[rail] = ends;
+    }
+    out
+}

@@ -1,0 +1,117 @@
+//! A checked design, as plain values in the units of its file.
+
+use std::sync::Arc;
+
+use crate::spec::Spec;
+use crate::units::Units;
+
+/// Name of the part of a vertical force that is given as a number.
+pub const WHOLE: &str = "vertical";
+
+/// A design, read and checked together with its spec.
+#[derive(Clone, Debug)]
+pub struct Design {
+    /// Its name.
+    pub name: String,
+    /// Units of all its numbers and of its spec.
+    pub units: Units,
+    /// File of the spec, as the design names it.
+    pub spec_file: String,
+    /// The structure.
+    pub spec: Arc<Spec>,
+    /// Dead load.
+    pub dead: DesignDead,
+    /// Wheel trains.
+    pub trains: Vec<DesignTrain>,
+    /// Load cases.
+    pub cases: Vec<DesignCase>,
+    /// Sections elsewhere.
+    pub sections: Vec<DesignSection>,
+    /// By rail: coordinates between which its spans lie.
+    pub spans: Vec<Vec<f64>>,
+    /// Design code, as written.
+    pub code: Option<String>,
+    /// Class of the crane in the code, as written.
+    pub class: Option<String>,
+}
+
+/// Dead load of a design.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct DesignDead {
+    /// Acceleration of gravity with which the structure weighs; 0 where its weight does not count.
+    pub gravity: f64,
+    /// By rail: load per length, downwards.
+    pub lines: Vec<f64>,
+}
+
+/// A wheel train.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignTrain {
+    /// Its name.
+    pub name: String,
+    /// Distances from the outermost wheels to its ends, before and behind.
+    pub ends: [f64; 2],
+    /// The wheels.
+    pub wheels: Vec<DesignWheel>,
+    /// Whether it is tried the other way round.
+    pub turned: bool,
+    /// Whether wheels may stand beyond the ends of the rails.
+    pub enters: bool,
+    /// Whether signs of horizontal forces and eccentricities are tried.
+    pub reverses: bool,
+    /// Weights of the hoisted load, the trolley and the bridge, where they are given.
+    pub weights: [Option<f64>; 3],
+}
+
+/// A wheel of a train.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignWheel {
+    /// Index of its rail.
+    pub rail: usize,
+    /// Distance ahead of the position of the train.
+    pub x: f64,
+    /// Parts of its vertical force by name; a force without parts has one named `vertical`.
+    pub vertical: Vec<(String, f64)>,
+    /// Lateral force along +z.
+    pub lateral: f64,
+    /// Longitudinal force along +x.
+    pub longitudinal: f64,
+    /// Distance of the forces from the line of the rail along +z.
+    pub eccentricity: f64,
+}
+
+/// Trains that stand on the rails at once.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignCase {
+    /// Its name.
+    pub name: String,
+    /// Indices of its trains.
+    pub trains: Vec<usize>,
+    /// Least clear distance between the ends of two trains.
+    pub gap: f64,
+    /// Whether the order of the trains is the given one.
+    pub ordered: bool,
+    /// Factors that differ from 1, by the name of the load.
+    pub factors: Vec<(String, f64)>,
+}
+
+impl DesignCase {
+    /// Factor of a load by name, 1 by default.
+    #[must_use]
+    pub fn factor(&self, name: &str) -> f64 {
+        self.factors.iter().find(|(known, _)| known == name).map_or(1.0, |(_, factor)| *factor)
+    }
+}
+
+/// A section of a member elsewhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DesignSection {
+    /// Its name.
+    pub name: String,
+    /// Index of the member.
+    pub member: usize,
+    /// Place along its flexible part, as a fraction from its first end.
+    pub place: f64,
+    /// Component of the internal force.
+    pub component: fea::ForceComponent,
+}

@@ -1,0 +1,70 @@
+//! `girderway design`: envelopes, extremes and reactions of wheel trains.
+
+use std::path::PathBuf;
+
+use serde_json::json;
+
+use crate::cli::{DesignArgs, Global};
+use crate::exit::{Exit, Failure};
+use crate::folder::{OutputFolder, PlannedFiles};
+use crate::manifest::Manifest;
+use crate::output;
+use crate::progress::Progress;
+use design::{DesignError, LimitCheck};
+use formats::design::Design;
+
+/// Files that the command writes.
+const FILES: [&str; 4] = ["envelope.csv", "reactions.csv", "summary.json", "report.html"];
+
+/// Reads and solves the design, and writes its tables, summary and report.
+///
+/// # Errors
+/// The design or its spec is invalid, the structure is a mechanism, or a file cannot be written; with
+/// `--fail-on-limit`, a limit that is exceeded, after the results are written.
+pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    let (read, inputs) = Design::open(&args.design)?;
+    let folder = || PathBuf::from("girderway-out").join(format!("{}-design", read.name));
+    let path = args.output.clone().unwrap_or_else(folder);
+    let planned =
+        PlannedFiles { names: FILES.iter().map(|name| (*name).to_owned()).collect(), plots: Vec::new() };
+    let mut folder = OutputFolder::open(&path, "design", args.force, &planned)?;
+    let result = design::solve(&read, &inputs).map_err(|error| match error {
+        DesignError::Input(diagnostics) => Failure::Input(diagnostics),
+        DesignError::NoSolution(why) => Failure::Untrusted(why),
+    })?;
+    let summary = design::summary(&read, &result);
+    folder.add("envelope.csv", design::envelope_csv(&read, &result).map_err(Failure::untrusted)?);
+    folder.add("reactions.csv", design::reactions_csv(&result).map_err(Failure::untrusted)?);
+    folder.add("summary.json", output::json(&summary));
+    let written = folder.commit(Manifest::new("design", &inputs, json!({})))?;
+    for warning in &result.warnings {
+        progress.say(&format!("warning: {warning}"));
+    }
+    progress.say(&format!("wrote {}", written.display()));
+    if global.json {
+        let all = json!({ "output": written.display().to_string(), "summary": summary });
+        output::print(&output::json(&all))?;
+    }
+    match result.limits.iter().filter(|limit| !limit.within()).count() {
+        0 => Ok(Exit::Done),
+        _ if !args.fail_on_limit => Ok(Exit::Done),
+        count => Err(Failure::Differs(format!("{count} limits are exceeded: {}", worst(&result.limits)))),
+    }
+}
+
+/// The limit that is exceeded most, in words.
+fn worst(limits: &[LimitCheck]) -> String {
+    let ratio = |limit: &&LimitCheck| limit.value.abs() / limit.limit;
+    let found = limits.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)));
+    found.map_or_else(String::new, |limit| {
+        format!(
+            "{} of rail {}, span {}: {:.3} of its limit ({})",
+            limit.quantity,
+            limit.rail,
+            limit.span,
+            ratio(&limit),
+            limit.code
+        )
+    })
+}
