@@ -28,7 +28,21 @@ const DEPENDENCIES: [(&str, &[&str]); 15] = [
     ("foundations", &["formats", "fea", "sim", "splines"]),
     ("results", &["foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
     ("deck", &["results", "adams", "foundations", "practice", "formats", "fea", "sim", "splines"]),
-    ("report", &["results", "foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
+    (
+        "report",
+        &[
+            "design",
+            "trains",
+            "results",
+            "foundations",
+            "practice",
+            "formats",
+            "fea",
+            "sim",
+            "splines",
+            "adams",
+        ],
+    ),
     ("study", &["results", "report", "foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
     (
         "girderway",

@@ -306,8 +306,14 @@ fn groups(
         groups.push(joined);
     }
     groups.sort();
-    let orders =
-        |group: Vec<usize>| Group { orders: if ordered { vec![group] } else { permutations(&group) } };
+    // Equal trains need not be exchanged: of two of them the first stands before the second.
+    let increasing = |order: &Vec<usize>| {
+        (0..order.len()).all(|i| (0..i).all(|j| order[j] < order[i] || !equal(order[i], order[j])))
+    };
+    let orders = |group: Vec<usize>| {
+        let all = if ordered { vec![group] } else { permutations(&group) };
+        Group { orders: all.into_iter().filter(|order| ordered || increasing(order)).collect() }
+    };
     groups.into_iter().map(orders).collect()
 }
 

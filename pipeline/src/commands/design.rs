@@ -12,6 +12,7 @@ use crate::output;
 use crate::progress::Progress;
 use design::{DesignError, LimitCheck};
 use formats::design::Design;
+use report::text::design_report::design_report;
 
 /// Files that the command writes.
 const FILES: [&str; 4] = ["envelope.csv", "reactions.csv", "summary.json", "report.html"];
@@ -37,6 +38,8 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     folder.add("envelope.csv", design::envelope_csv(&read, &result).map_err(Failure::untrusted)?);
     folder.add("reactions.csv", design::reactions_csv(&result).map_err(Failure::untrusted)?);
     folder.add("summary.json", output::json(&summary));
+    let report = design_report(&read, &result);
+    folder.add("report.html", report.html(global.threads).map_err(Failure::untrusted)?);
     let written = folder.commit(Manifest::new("design", &inputs, json!({})))?;
     for warning in &result.warnings {
         progress.say(&format!("warning: {warning}"));
