@@ -110,6 +110,11 @@ fn yang_yau_gives_its_expected_numbers() {
 }
 
 #[test]
+fn runway_gives_its_expected_numbers() {
+    check("runway");
+}
+
+#[test]
 fn ties_gives_its_expected_numbers() {
     check("ties");
 }
@@ -156,7 +161,8 @@ fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
         let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
         assert!(
-            ["bogie", "bridge_crane", "mill_girderway", "ties", "wheel", "yang_yau"].contains(&name.as_str()),
+            ["bogie", "bridge_crane", "mill_girderway", "runway", "ties", "wheel", "yang_yau"]
+                .contains(&name.as_str()),
             "examples/{name} has no test"
         );
         for file in ["scene.json", "README.md", "expected.json"] {

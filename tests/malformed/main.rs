@@ -179,6 +179,11 @@ fn scenes_are_refused_with_all_their_errors() {
 }
 
 #[test]
+fn designs_are_refused_with_all_their_errors() {
+    all_refused("design.txt");
+}
+
+#[test]
 fn grids_and_tables_are_refused_with_all_their_errors() {
     all_refused("table.txt");
 }

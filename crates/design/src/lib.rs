@@ -5,11 +5,12 @@
 //! the results as files.
 //!
 //! Files, lowest first: `words` (names of quantities), `error`, `loads` (trains of a case with its factors), `limits`
-//! (limits of codes), `solve`, `tables`, `summary`.
+//! (limits of codes), `rounding` (what is only rounding), `solve`, `tables`, `summary`.
 
 mod error;
 mod limits;
 mod loads;
+mod rounding;
 mod solve;
 mod summary;
 mod tables;

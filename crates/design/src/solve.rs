@@ -9,6 +9,7 @@ use crate::error::DesignError;
 use crate::limits::{LimitCheck, check_limits};
 pub use crate::loads::LoadKind;
 use crate::loads::{has, train_case};
+use crate::rounding::Sizes;
 
 /// Parts of each span at whose ends envelopes are listed.
 const PARTS: usize = 20;
@@ -85,7 +86,10 @@ pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignErr
         design.cases.iter().map(|case| train_case(design, case, LoadKind::All)).collect();
     let found = trains::envelopes(&structure, &dead, &cases, &request).map_err(located)?;
     let mut solved = Vec::new();
+    let length =
+        (0..structure.rail_count()).map(|rail| structure.range(rail)).map(|[a, b]| b - a).fold(0.0, f64::max);
     for (case, mut envelopes) in design.cases.iter().zip(found) {
+        Sizes::of(&envelopes, length).clean_all(&mut envelopes);
         let mut all = std::mem::take(&mut envelopes.effects);
         let sections = all.split_off(names.len());
         solved.push(SolvedCase {

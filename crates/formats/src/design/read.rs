@@ -35,10 +35,11 @@ impl Design {
     pub fn open(path: &Path) -> Result<(Design, Inputs), Vec<Diagnostic>> {
         let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let mut wrong = Vec::new();
-        let read = source
-            .read(FORMAT, |raw: &RawDesign, faults| read(raw, &source.name, &mut inputs, faults, &mut wrong));
+        let read = source.read(FORMAT, |raw: &RawDesign, faults| {
+            Some(read(raw, &source.name, &mut inputs, faults, &mut wrong))
+        });
         match read {
-            Ok(design) if wrong.is_empty() => Ok((design, inputs)),
+            Ok(Some(design)) if wrong.is_empty() => Ok((design, inputs)),
             Ok(_) => Err(wrong),
             Err(mut own) => {
                 own.append(&mut wrong);
@@ -72,7 +73,8 @@ fn read(
         }
         None => standard,
     };
-    let Some(spec) = spec else {
+    // What is on the structure can only be checked where the structure and the units are known.
+    let Some(spec) = spec.filter(|_| own.is_some()) else {
         check_trains(raw, &[], &root, &mut check);
         return None;
     };
@@ -223,8 +225,8 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
     let mut wheels = Vec::with_capacity(list.len());
     for (k, given) in list.iter().enumerate() {
         let here = places.index(k);
-        let x = check.faults.require(&given.x, &here, "x").copied().unwrap_or(0.0);
-        let x = check.number(x, &here.key("x"), Dimension::LENGTH);
+        let x = check.faults.require(&given.x, &here, "x").copied().unwrap_or(f64::INFINITY);
+        let x = if given.x.is_some() { check.number(x, &here.key("x"), Dimension::LENGTH) } else { x };
         let own = match &given.rail {
             Some(name) if !rails.is_empty() => resolve(name, &known, "rail", &here.key("rail"), check.faults),
             _ => rail,
@@ -295,7 +297,7 @@ fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> V
 fn check_order(wheels: &[DesignWheel], places: &Place<'_>, faults: &mut Faults) {
     for (k, wheel) in wheels.iter().enumerate() {
         let before = wheels[..k].iter().rev().find(|other| other.rail == wheel.rail);
-        if let Some(before) = before.filter(|before| before.x >= wheel.x) {
+        if let Some(before) = before.filter(|before| before.x >= wheel.x && before.x.is_finite()) {
             let here = places.index(k);
             let expected = format!("must be above that of the wheel before it, {}", number(before.x));
             let fault = Fault::new(&here.key("x"), expected).got(number(wheel.x));
@@ -397,9 +399,12 @@ fn case(
     }
     check.items(named.len(), &CASE_TRAINS, list);
     let known = names(trains, |train| &train.name);
+    // A train without a name has been reported, and may be the one that is meant.
+    let all_named = trains.iter().all(|train| !train.name.is_empty());
     let chosen: Vec<usize> = named
         .iter()
         .enumerate()
+        .filter(|_| all_named)
         .filter_map(|(k, name)| resolve(name, &known, "train", &list.index(k), check.faults))
         .collect();
     if let Some(name) = &raw.name {
@@ -449,7 +454,7 @@ fn refuse_missing_parts(
     at: &Place<'_>,
     faults: &mut Faults,
 ) {
-    if !parts.contains(&name) {
+    if !parts.contains(&name) || LOADS.contains(&name) {
         return;
     }
     for &train in chosen {

@@ -2,10 +2,10 @@
 
 use crate::figures::design::{deflection_unit, digits, envelope_charts, position_sketch, unit_of};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
-use ::design::{DesignResult, LoadKind, ReactionExtremes, SolvedCase, plane_word, quantity_word, side_word};
+use ::design::{DesignResult, LoadKind, ReactionExtremes, SolvedCase, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
-use trains::{Governing, Quantity, SpanExtreme};
+use trains::{Governing, Quantity, SectionSide, SpanExtreme};
 
 /// Significant digits of values in the report.
 const DIGITS: usize = 4;
@@ -51,23 +51,22 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     for warning in &result.warnings {
         section = section.paragraph(format!("Warning: {warning}."));
     }
-    let columns = ["", "value", "unit", "case", "rail", "span", "x", "position of the train"];
+    let columns = ["", "value", "case", "rail or support", "span", "x", "position of the train"];
     let mut table = ReportTable {
         caption: "Governing values, dead load and factors included".to_owned(),
         columns: columns.iter().map(|name| TableColumn::new(*name, "")).collect(),
         rows: Vec::new(),
     };
     let length = design.units.label(Dimension::LENGTH);
-    table.columns[6].unit = length.clone();
-    table.columns[7].unit = length;
+    table.columns[5].unit = length.clone();
+    table.columns[6].unit = length;
     let rails = design.spec.rails();
     for (quantity, is_max, words) in GOVERNING {
         let Some((case, found)) = largest(result, quantity, is_max) else { continue };
         let (unit, factor) = unit_of(design, quantity);
         table.rows.push(vec![
             TableCell::from(words),
-            TableCell::from(digits(factor * found.governing.value, DIGITS)),
-            TableCell::from(unit),
+            TableCell::from(with_unit(digits(factor * found.governing.value, DIGITS), &unit)),
             TableCell::from(case + 1),
             TableCell::from(rails[found.rail].name.clone()),
             TableCell::from(found.span),
@@ -79,8 +78,10 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
         let Some((case, reaction, governing)) = largest_reaction(design, result, is_max) else { continue };
         table.rows.push(vec![
             TableCell::from(words),
-            TableCell::from(digits(governing.value, DIGITS)),
-            TableCell::from(design.units.label(Dimension::FORCE)),
+            TableCell::from(with_unit(
+                digits(governing.value, DIGITS),
+                &design.units.label(Dimension::FORCE),
+            )),
             TableCell::from(case + 1),
             TableCell::from(reaction.name.support.clone()),
             TableCell::Empty,
@@ -104,6 +105,20 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
         section = section.figure(position_sketch(design, case, found.rail, &found.governing), caption);
     }
     section
+}
+
+/// A value and its unit, which stay on one line.
+fn with_unit(value: String, unit: &str) -> String {
+    format!("{value}\u{a0}{}", unit.replace(' ', "\u{a0}"))
+}
+
+/// Side of a section in words; nothing where both sides are the same.
+const fn side(side: SectionSide) -> &'static str {
+    match side {
+        SectionSide::Before => "just before",
+        SectionSide::At => "",
+        SectionSide::Behind => "just behind",
+    }
 }
 
 /// One sentence that says whether all limits are kept.
@@ -236,7 +251,6 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
             "quantity",
             "",
             "value",
-            "unit",
             "of dead load",
             "x",
             "side",
@@ -267,11 +281,10 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
             TableCell::from(found.span),
             TableCell::from(name),
             TableCell::from(if found.is_max { "largest" } else { "smallest" }),
-            TableCell::from(digits(factor * g.value, DIGITS)),
-            TableCell::from(unit),
+            TableCell::from(with_unit(digits(factor * g.value, DIGITS), &unit)),
             TableCell::from(digits(factor * g.dead, DIGITS)),
             TableCell::from(digits(g.x, DIGITS)),
-            TableCell::from(side_word(g.side)),
+            TableCell::from(side(g.side)),
             TableCell::from(positions(g)),
         ]);
     }

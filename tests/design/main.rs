@@ -1,0 +1,184 @@
+//! `girderway design` from its files to its tables.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::{Value, json};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("..")
+}
+
+/// Runs a design with its spec in a folder of its own; returns the folder and what the program said.
+fn run(spec: &Value, design: &Value, flags: &[&str]) -> (tempfile::TempDir, Output) {
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    for (name, value) in [("spec.json", spec), ("design.json", design)] {
+        std::fs::write(folder.path().join(name), value.to_string()).expect("a writable folder");
+    }
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(["design", "design.json", "-o", "out"])
+        .args(flags)
+        .current_dir(folder.path())
+        .output()
+        .expect("the program starts");
+    (folder, output)
+}
+
+fn summary(folder: &tempfile::TempDir) -> Value {
+    let text = std::fs::read_to_string(folder.path().join("out/summary.json")).expect("a summary");
+    serde_json::from_str(&text).expect("the summary is JSON")
+}
+
+/// Rows of a CSV file of the output folder, by the names of its columns.
+fn table(folder: &Path, name: &str) -> Vec<BTreeMap<String, String>> {
+    let text = std::fs::read_to_string(folder.join(name)).expect("the table exists");
+    let mut lines = text.lines();
+    let names: Vec<&str> = lines.next().expect("a header").split(',').collect();
+    let row =
+        |line: &str| names.iter().map(|n| (*n).to_owned()).zip(line.split(',').map(str::to_owned)).collect();
+    lines.map(row).collect()
+}
+
+fn number(text: &str) -> f64 {
+    text.parse().unwrap_or_else(|_| panic!("{text} is not a number"))
+}
+
+/// The worked runway: HEB 400 with a shear area of 0.007 m2 over 6, 7.5 and 6 m.
+fn spec() -> Value {
+    json!({
+        "format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "timoshenko",
+        "girder": {"spans": [6, 7.5, 6], "E": 2.1e8, "G": 8.1e7, "A": 0.01978, "I_vertical": 5.768e-4,
+                   "kA_vertical": 0.007},
+        "stations": [0, 9.75, 19.5]
+    })
+}
+
+fn design() -> Value {
+    json!({
+        "format": "girderway-design/1", "name": "worked", "units": {"length": "m", "force": "kN", "time": "s"},
+        "spec": "spec.json",
+        "trains": [{"name": "crane", "wheels": [{"x": 0, "vertical": 180}, {"x": 3.6, "vertical": 180}]}]
+    })
+}
+
+fn extreme<'s>(summary: &'s Value, wanted: &[(&str, Value)]) -> &'s Value {
+    let all = summary["extremes"].as_array().expect("a list of extremes");
+    let same = |entry: &&Value| wanted.iter().all(|(key, value)| entry[*key] == *value);
+    all.iter().find(same).unwrap_or_else(|| panic!("no extreme with {wanted:?}"))
+}
+
+/// External: an independent Timoshenko model with elements of 0.05 m.
+#[test]
+fn the_worked_runway_has_its_digits() {
+    let (folder, output) = run(&spec(), &design(), &[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found = summary(&folder);
+    let moment =
+        extreme(&found, &[("span", json!(2)), ("quantity", json!("moment")), ("kind", json!("max"))]);
+    let value = moment["value"].as_f64().expect("a number");
+    assert!((value - 241.2377).abs() < 5e-5, "{moment}");
+    let x = moment["x"].as_f64().expect("a number");
+    assert!((x - 9.2442).abs() < 5e-5 || (x - 10.2558).abs() < 5e-5, "{moment}");
+    for (support, kind, known) in [
+        ("support1", "max", 235.687),
+        ("support1", "min", -28.335),
+        ("support2", "max", 317.259),
+        ("support2", "min", -26.143),
+    ] {
+        let keys = [("support", json!(support)), ("direction", json!("uy")), ("kind", json!(kind))];
+        let reaction = extreme(&found, &keys)["value"].as_f64().expect("a number");
+        assert!((reaction - known).abs() < 1e-3, "{support} {kind}: {reaction}, not {known}");
+    }
+    let rows = table(&folder.path().join("out"), "envelope.csv");
+    let at = |x: f64, kind: &str| {
+        let same = |row: &&BTreeMap<String, String>| {
+            number(&row["x"]) == x
+                && row["quantity"] == "moment"
+                && row["plane"] == "vertical"
+                && row["kind"] == kind
+        };
+        number(&rows.iter().find(same).expect("the place is listed")["value"])
+    };
+    assert!((at(9.75, "max") - 233.048).abs() < 5e-4);
+    assert!((at(6.0, "min") + 195.174).abs() < 5e-4);
+}
+
+/// Factors multiply the loads that they name; a part has its own factor, and horizontal forces stay.
+#[test]
+fn factors_multiply_the_loads_that_they_name() {
+    let mut spec = spec();
+    spec["girder"]["I_lateral"] = json!(1e-4);
+    let mut design = design();
+    design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": {"crane": 60, "hoist": 120}, "lateral": 10}]);
+    design["cases"] = json!([["crane"], {"name": "ultimate", "trains": ["crane"], "factors": {"crane": 1.1, "hoist": 1.5}}]);
+    let (folder, output) = run(&spec, &design, &[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found = summary(&folder);
+    let of = |case: usize, direction: &str| {
+        let keys = [
+            ("case", json!(case)),
+            ("support", json!("support1")),
+            ("direction", json!(direction)),
+            ("kind", json!("max")),
+        ];
+        extreme(&found, &keys)["value"].as_f64().expect("a number")
+    };
+    assert!((of(1, "uy") - 180.0).abs() < 1e-9 && (of(2, "uy") - 246.0).abs() < 1e-9);
+    assert!((of(1, "uz") - 10.0).abs() < 1e-9 && (of(2, "uz") - 10.0).abs() < 1e-9);
+}
+
+/// Reactions by load: dead, vertical and side thrust add up to those of all loads where they govern together.
+#[test]
+fn reactions_are_listed_by_load() {
+    let out = tempfile::tempdir().expect("a temporary folder");
+    let status = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .args(["design", "--quiet"])
+        .arg(root().join("examples/runway/design.json"))
+        .arg("-o")
+        .arg(out.path())
+        .status()
+        .expect("the program starts");
+    assert!(status.success());
+    let rows = table(out.path(), "reactions.csv");
+    let value = |direction: &str, load: &str| {
+        let same = |row: &&BTreeMap<String, String>| {
+            row["case"] == "1"
+                && row["support"] == "support1"
+                && row["direction"] == direction
+                && row["load"] == load
+                && row["kind"] == "max"
+        };
+        number(&rows.iter().find(same).expect("the reaction is listed")["value"])
+    };
+    // The crane stands over the support: its whole longitudinal force goes there, and the twist is the lateral force
+    // at the height of the rail: 18 kN (1 + 2.4/6) 0.275 m.
+    assert!((value("ux", "traction") - 25.0).abs() < 1e-9);
+    assert!((value("rx", "side thrust") - 18.0 * 1.4 * 0.275).abs() < 1e-9);
+    // Traction at the height of the rail bends the girder, and lifts or presses the supports a little.
+    let together = value("uy", "dead") + value("uy", "vertical") + value("uy", "traction");
+    let text = std::fs::read_to_string(out.path().join("summary.json")).expect("a summary");
+    let found: Value = serde_json::from_str(&text).expect("JSON");
+    let keys = [
+        ("case", json!(1)),
+        ("support", json!("support1")),
+        ("direction", json!("uy")),
+        ("kind", json!("max")),
+    ];
+    let all = extreme(&found, &keys)["value"].as_f64().expect("a number");
+    assert!(all <= together + 1e-9 && all > together - 5.0, "{all} and {together}");
+    for file in ["report.html", "manifest.json", "envelope.csv"] {
+        assert!(out.path().join(file).is_file(), "{file} is missing");
+    }
+}
+
+/// The same design gives the same bytes, whatever the number of threads.
+#[test]
+fn equal_designs_give_equal_bytes() {
+    let manifest = |threads: &str| {
+        let (folder, output) = run(&spec(), &design(), &["--quiet", "--threads", threads]);
+        assert!(output.status.success());
+        std::fs::read(folder.path().join("out/manifest.json")).expect("a manifest")
+    };
+    assert_eq!(manifest("1"), manifest("2"));
+}
