@@ -4,12 +4,14 @@
 //! the positions that govern them, and reactions by load. [`envelope_csv`], [`reactions_csv`] and [`summary`] write
 //! the results as files.
 //!
-//! Files, lowest first: `words` (names of quantities), `error`, `loads` (trains of a case with its factors), `limits`
-//! (limits of codes), `rounding` (what is only rounding), `solve`, `tables`, `summary`.
+//! Files, lowest first: `words` (names of quantities), `error`, `loads` (trains of a case with its factors),
+//! `outcome` (what a calculation gives), `limits` (limits of codes), `rounding` (what is only rounding), `solve`,
+//! `tables`, `summary`.
 
 mod error;
 mod limits;
 mod loads;
+mod outcome;
 mod rounding;
 mod solve;
 mod summary;
@@ -17,8 +19,9 @@ mod tables;
 mod words;
 
 pub use error::DesignError;
-pub use limits::LimitCheck;
-pub use solve::{DesignResult, LoadKind, ReactionExtremes, ReactionName, SolvedCase, solve};
+pub use loads::LoadKind;
+pub use outcome::{DesignResult, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
+pub use solve::solve;
 pub use summary::summary;
 pub use tables::{envelope_csv, reactions_csv};
 pub use words::{plane_word, quantity_word, side_word};

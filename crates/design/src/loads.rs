@@ -1,7 +1,7 @@
 //! Trains of a case with its factors.
 
 use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, WHOLE};
-use trains::{Train, TrainCase, Wheel};
+use trains::{Train, TrainCase, TrainWheel};
 
 /// Which forces of the trains act.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,7 +32,7 @@ fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
     let share = |own: LoadKind| f64::from(u8::from(kind == LoadKind::All || kind == own));
     let lateral = share(LoadKind::SideThrust) * case.factor("lateral");
     let longitudinal = share(LoadKind::Traction) * case.factor("longitudinal");
-    let wheel = |wheel: &DesignWheel| Wheel {
+    let wheel = |wheel: &DesignWheel| TrainWheel {
         rail: wheel.rail,
         x: wheel.x,
         vertical: share(LoadKind::Vertical) * vertical(wheel, case),

@@ -1,6 +1,6 @@
 //! Values that are only rounding are zero: a table of moments at a support is read by people.
 
-use trains::{CaseEnvelopes, Governing, Quantity};
+use trains::{CaseEnvelopes, GirderResponse, Governing};
 
 /// Values below this fraction of the largest of their kind are rounding errors.
 const ROUNDING: f64 = 1e-13;
@@ -15,7 +15,7 @@ pub(crate) struct Sizes {
 impl Sizes {
     /// The sizes of a case with rails of `length`.
     pub fn of(envelopes: &CaseEnvelopes, length: f64) -> Sizes {
-        let most = |is_own: &dyn Fn(Quantity) -> bool| {
+        let most = |is_own: &dyn Fn(GirderResponse) -> bool| {
             let own = envelopes.extremes.iter().filter(|e| is_own(e.quantity));
             own.map(|e| e.governing.value.abs()).fold(0.0, f64::max)
         };
@@ -67,10 +67,12 @@ enum Kind {
     Deflection,
 }
 
-const fn kind(quantity: Quantity) -> Kind {
+const fn kind(quantity: GirderResponse) -> Kind {
     match quantity {
-        Quantity::Normal | Quantity::VerticalShear | Quantity::LateralShear => Kind::Force,
-        Quantity::Torsion | Quantity::VerticalMoment | Quantity::LateralMoment => Kind::Moment,
-        Quantity::VerticalDeflection | Quantity::LateralDeflection => Kind::Deflection,
+        GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear => Kind::Force,
+        GirderResponse::Torsion | GirderResponse::VerticalMoment | GirderResponse::LateralMoment => {
+            Kind::Moment
+        }
+        GirderResponse::VerticalDeflection | GirderResponse::LateralDeflection => Kind::Deflection,
     }
 }

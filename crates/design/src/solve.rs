@@ -3,62 +3,16 @@
 use fea::{Effect, Model};
 use formats::design::{Design, DesignCase};
 use formats::text::inputs::Inputs;
-use trains::{CaseEnvelopes, DeadLoads, Governing, Request, Structure, TrainCase};
+use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
 use crate::error::DesignError;
-use crate::limits::{LimitCheck, check_limits};
-pub use crate::loads::LoadKind;
-use crate::loads::{has, train_case};
+use crate::limits::check_limits;
+use crate::loads::{LoadKind, has, train_case};
+use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
 use crate::rounding::Sizes;
 
 /// Parts of each span at whose ends envelopes are listed.
 const PARTS: usize = 20;
-
-/// The results of a design.
-#[derive(Clone, Debug)]
-pub struct DesignResult {
-    /// One for each case, in the order of the design.
-    pub cases: Vec<SolvedCase>,
-    /// Limits of codes against the results.
-    pub limits: Vec<LimitCheck>,
-    /// What the user should know.
-    pub warnings: Vec<String>,
-    /// Bound of the relative error of the influence coefficients.
-    pub error_bound: f64,
-}
-
-/// The results of one case.
-#[derive(Clone, Debug)]
-pub struct SolvedCase {
-    /// Its name.
-    pub name: String,
-    /// Envelopes and extremes along the rails.
-    pub envelopes: CaseEnvelopes,
-    /// Reactions under all loads.
-    pub reactions: Vec<ReactionExtremes>,
-    /// Reactions under each kind of load alone.
-    pub by_load: Vec<(LoadKind, Vec<ReactionExtremes>)>,
-    /// Internal forces of the named sections, in the order of the design.
-    pub sections: Vec<[Governing; 2]>,
-}
-
-/// Largest and smallest value of a reaction.
-#[derive(Clone, Debug)]
-pub struct ReactionExtremes {
-    /// Which reaction.
-    pub name: ReactionName,
-    /// Largest and smallest value.
-    pub extremes: [Governing; 2],
-}
-
-/// Name of a reaction.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct ReactionName {
-    /// The supported point, named as in the columns of a history.
-    pub support: String,
-    /// Its global direction, `ux` to `rz`.
-    pub direction: String,
-}
 
 /// Solves a design; `inputs` are the files from which it was read.
 ///

@@ -4,8 +4,7 @@ use formats::design::{Design, DesignSection};
 use serde_json::{Map, Value, json};
 use trains::{Governing, SpanDeflection, SpanExtreme, TrainPosition};
 
-use crate::limits::LimitCheck;
-use crate::solve::{DesignResult, ReactionExtremes};
+use crate::outcome::{DesignResult, LimitCheck, ReactionExtremes};
 use crate::words::{kind_word, plane_word, quantity_word, side_word};
 
 /// Name and version of the format.

@@ -3,7 +3,8 @@
 use formats::design::Design;
 use trains::{Governing, TrainPosition};
 
-use crate::solve::{DesignResult, LoadKind};
+use crate::loads::LoadKind;
+use crate::outcome::DesignResult;
 use crate::words::{kind_word, plane_word, quantity_word};
 
 /// A number in as many digits as it needs, without a negative zero.

@@ -1,25 +1,27 @@
 //! Words of results.
 
-use trains::{Quantity, SectionSide};
+use trains::{GirderResponse, SectionSide};
 
 /// Word of a quantity: `moment`, `shear`, `normal`, `torsion` or `deflection`.
 #[must_use]
-pub const fn quantity_word(quantity: Quantity) -> &'static str {
+pub const fn quantity_word(quantity: GirderResponse) -> &'static str {
     match quantity {
-        Quantity::Normal => "normal",
-        Quantity::Torsion => "torsion",
-        Quantity::VerticalShear | Quantity::LateralShear => "shear",
-        Quantity::VerticalMoment | Quantity::LateralMoment => "moment",
-        Quantity::VerticalDeflection | Quantity::LateralDeflection => "deflection",
+        GirderResponse::Normal => "normal",
+        GirderResponse::Torsion => "torsion",
+        GirderResponse::VerticalShear | GirderResponse::LateralShear => "shear",
+        GirderResponse::VerticalMoment | GirderResponse::LateralMoment => "moment",
+        GirderResponse::VerticalDeflection | GirderResponse::LateralDeflection => "deflection",
     }
 }
 
 /// Word of the plane of a quantity; normal force and torsion belong to neither plane and are listed with the vertical
 /// one.
 #[must_use]
-pub const fn plane_word(quantity: Quantity) -> &'static str {
+pub const fn plane_word(quantity: GirderResponse) -> &'static str {
     match quantity {
-        Quantity::LateralShear | Quantity::LateralMoment | Quantity::LateralDeflection => "lateral",
+        GirderResponse::LateralShear | GirderResponse::LateralMoment | GirderResponse::LateralDeflection => {
+            "lateral"
+        }
         _ => "vertical",
     }
 }

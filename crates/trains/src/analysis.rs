@@ -12,7 +12,7 @@ use crate::overrun::Overrun;
 use crate::pieces::Piece;
 use crate::plan::{Arrangement, CasePlan, TIE};
 use crate::several;
-use crate::structure::{Carrier, QUANTITIES, Quantity, Structure};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
 use crate::train::TrainCase;
 
 /// Carriers whose influence lines are solved at once.
@@ -27,21 +27,21 @@ const BATCH: usize = 32;
 /// # Example
 /// ```
 /// use fea::Girder;
-/// use trains::{DeadLoads, Quantity, Request, Structure, Train, TrainCase, Wheel, envelopes};
+/// use trains::{DeadLoads, GirderResponse, Request, Structure, Train, TrainCase, TrainWheel, envelopes};
 ///
 /// // Two wheels of 100 kN, 2 m apart, on a simple beam of 8 m: the largest moment is P (L - a/2)^2/(2 L) under a wheel
 /// // at x = L/2 - a/4.
 /// let girder = Girder { spans: vec![8.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
 /// let (model, rail) = girder.model_and_rail()?;
 /// let structure = Structure::new(&model, &[rail], false)?;
-/// let wheel = |x: f64| Wheel { rail: 0, x, vertical: 100.0, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 };
+/// let wheel = |x: f64| TrainWheel { rail: 0, x, vertical: 100.0, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 };
 /// let train = Train {
 ///     wheels: vec![wheel(0.0), wheel(2.0)], ends: [0.0; 2], turned: true, reverses: true, enters: false,
 /// };
 /// let case = TrainCase { trains: vec![train], ..TrainCase::default() };
 /// let request = Request { spans: vec![vec![0.0, 8.0]], ..Request::default() };
 /// let found = envelopes(&structure, &DeadLoads::default(), &[case], &request)?;
-/// let largest = found[0].extremes.iter().find(|e| e.quantity == Quantity::VerticalMoment && e.is_max);
+/// let largest = found[0].extremes.iter().find(|e| e.quantity == GirderResponse::VerticalMoment && e.is_max);
 /// let largest = &largest.expect("there is one for each quantity").governing;
 /// assert!((largest.value - 100.0 * 49.0 / 16.0).abs() < 1e-11);
 /// assert!((largest.x - 3.5).abs() < 1e-12);
@@ -138,7 +138,7 @@ impl Analysis<'_> {
                     x: ends[end],
                     side: self.side_of_end(carrier, ends[end], end),
                 });
-                for quantity in &Quantity::ALL[..QUANTITIES] {
+                for quantity in &GirderResponse::ALL[..QUANTITIES] {
                     for is_max in [true, false] {
                         let sign = sign_of(is_max);
                         let entry = entry(out, carrier.rail, span, *quantity, is_max);
@@ -192,19 +192,20 @@ impl Analysis<'_> {
                 let side = self.side_of_end(carrier, x, end);
                 let section = Section { plan, dead: &dead, pieces: over.section(s), s, x, side };
                 let at = (case, carrier.rail, x);
-                for quantity in Quantity::ALL {
+                for quantity in GirderResponse::ALL {
                     for is_max in [true, false] {
                         let sign = sign_of(is_max);
                         let Some(governing) = section.envelope(quantity, sign, at, deflections)? else {
                             continue;
                         };
-                        let known =
-                            out.envelopes.iter_mut().rev().take(4 * Quantity::ALL.len()).find(|known| {
+                        let known = out.envelopes.iter_mut().rev().take(4 * GirderResponse::ALL.len()).find(
+                            |known| {
                                 known.rail == carrier.rail
                                     && (known.governing.x - x).abs() <= slack
                                     && known.quantity == quantity
                                     && known.is_max == is_max
-                            });
+                            },
+                        );
                         match known {
                             Some(known) if is_better(&governing, &known.governing, sign) => {
                                 known.governing = governing
@@ -250,7 +251,7 @@ struct Section<'a> {
 
 impl Section<'_> {
     /// The governing state of an internal force, without coincident values.
-    fn best(&self, quantity: Quantity, sign: f64) -> Option<(Governing, Arrangement)> {
+    fn best(&self, quantity: GirderResponse, sign: f64) -> Option<(Governing, Arrangement)> {
         let found = self.plan.best(&self.pieces, quantity as usize, sign, f64::NEG_INFINITY)?;
         let dead = self.dead.at(quantity, self.s);
         let governing = Governing {
@@ -267,7 +268,7 @@ impl Section<'_> {
     /// The governing state of any quantity with the moment, shear and deflection of the same state.
     fn envelope(
         &self,
-        quantity: Quantity,
+        quantity: GirderResponse,
         sign: f64,
         (case, rail, x): (usize, usize, f64),
         deflections: &Deflections<'_>,
@@ -304,7 +305,7 @@ impl Section<'_> {
     }
 
     /// An internal force in an arrangement, dead load included.
-    fn value(&self, quantity: Quantity, arrangement: &Arrangement) -> f64 {
+    fn value(&self, quantity: GirderResponse, arrangement: &Arrangement) -> f64 {
         let live: f64 = arrangement
             .trains
             .iter()
@@ -331,7 +332,7 @@ fn follow_one(
         let so_far = best.as_ref().or(known).map_or(f64::NEG_INFINITY, |g| target.sign * g.value);
         let floor = so_far - TIE * so_far.abs();
         let Some(peak) = over.on[0][stance].follow(&over.pieces[0][stance], target, floor) else { continue };
-        let dead = target.dead.at(Quantity::ALL[target.k], peak.place);
+        let dead = target.dead.at(GirderResponse::ALL[target.k], peak.place);
         let found = Governing {
             value: target.sign * peak.signed,
             dead,

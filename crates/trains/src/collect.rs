@@ -2,7 +2,7 @@
 
 use crate::extremes::{Governing, Request, TrainPosition};
 use crate::plan::{Arrangement, CasePlan, TIE};
-use crate::structure::{Carrier, Quantity, Structure};
+use crate::structure::{Carrier, GirderResponse, Structure};
 
 /// The extremes of one case while they are collected.
 #[derive(Debug, Default)]
@@ -15,7 +15,7 @@ pub(crate) struct Accumulated {
 pub(crate) struct Entry {
     pub rail: usize,
     pub span: usize,
-    pub quantity: Quantity,
+    pub quantity: GirderResponse,
     pub is_max: bool,
     pub governing: Option<Governing>,
     /// What no value exceeds, where that is known to be more than the value: sign times bound.
@@ -27,7 +27,7 @@ pub(crate) fn entry(
     all: &mut Accumulated,
     rail: usize,
     span: usize,
-    quantity: Quantity,
+    quantity: GirderResponse,
     is_max: bool,
 ) -> &mut Entry {
     let key = (rail, span, quantity, is_max);

@@ -7,7 +7,7 @@ use splines::Probe;
 use crate::error::Error;
 use crate::line::Lines;
 use crate::polynomial::Polynomial;
-use crate::structure::{Carrier, QUANTITIES, Quantity, Structure, deflection_axis, end_effects};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure, deflection_axis, end_effects};
 
 /// Loads that stay.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -41,7 +41,7 @@ pub(crate) struct DeadLoad {
 }
 
 impl DeadLoad {
-    /// Quantity k at a place that is a polynomial itself.
+    /// GirderResponse k at a place that is a polynomial itself.
     pub fn along(&self, k: usize, place: &Polynomial) -> Polynomial {
         let [a, b, c] = self.forces[k];
         if [a, b, c] == [0.0; 3] {
@@ -57,7 +57,7 @@ impl DeadLoad {
     }
 
     /// Value of a quantity at a place.
-    pub fn at(&self, quantity: Quantity, s: f64) -> f64 {
+    pub fn at(&self, quantity: GirderResponse, s: f64) -> f64 {
         let value = |c: &[f64]| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
         match (quantity as usize).checked_sub(QUANTITIES) {
             None => value(&self.forces[quantity as usize]),
@@ -171,7 +171,9 @@ impl Structure {
         for (carrier, load) in carriers.iter().zip(out) {
             let interior = self.interior_motion(carrier, load);
             for (direction, quantity) in
-                [Quantity::VerticalDeflection, Quantity::LateralDeflection].into_iter().enumerate()
+                [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection]
+                    .into_iter()
+                    .enumerate()
             {
                 let (axis, sign) = deflection_axis(quantity);
                 if !self.frame.resists(carrier.rail, axis) {
@@ -210,7 +212,7 @@ impl Structure {
         let section = &self.model.sections[self.model.members[carrier.member].section];
         let theory: BeamTheory = self.model.theory;
         let flexibility = section.flexibility(theory);
-        let quantity = |q: Quantity| load.forces[q as usize];
+        let quantity = |q: GirderResponse| load.forces[q as usize];
         let y_axis = carrier.local[1];
         let z_axis = t.cross(&y_axis);
         let mut out = [Vector3::zeros(); 5];
@@ -220,8 +222,9 @@ impl Structure {
             }
         };
         // Moment and force on the face that looks along +t, in the planes of the section's axes.
-        let [vertical, lateral] = [quantity(Quantity::VerticalMoment), quantity(Quantity::LateralMoment)];
-        let shears = [quantity(Quantity::VerticalShear), quantity(Quantity::LateralShear)];
+        let [vertical, lateral] =
+            [quantity(GirderResponse::VerticalMoment), quantity(GirderResponse::LateralMoment)];
+        let shears = [quantity(GirderResponse::VerticalShear), quantity(GirderResponse::LateralShear)];
         let planes = [
             (y_axis, z_axis, 1.0, flexibility.bending_z, flexibility.shear_y),
             (z_axis, y_axis, -1.0, flexibility.bending_y, flexibility.shear_z),
@@ -236,7 +239,7 @@ impl Structure {
                 add(direction, second);
             }
         }
-        let twist = load.forces[Quantity::Torsion as usize][1];
+        let twist = load.forces[GirderResponse::Torsion as usize][1];
         if twist != 0.0 && flexibility.torsion.is_finite() {
             let stretch = self.rails[carrier.rail].stretches.iter().find(|s| s.element == carrier.element);
             let offset = stretch
@@ -259,7 +262,7 @@ fn integral(cubic: &[f64; 4], [from, to]: [f64; 2]) -> f64 {
 
 /// Quantities along a member by those at its first end and their jump per length.
 fn along(start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES]) -> [[f64; 3]; QUANTITIES] {
-    std::array::from_fn(|k| match Quantity::ALL[k].slope() {
+    std::array::from_fn(|k| match GirderResponse::ALL[k].slope() {
         Some(shear) => [start[k], start[shear] + jump[k], 0.5 * jump[shear]],
         None => [start[k], jump[k], 0.0],
     })

@@ -30,7 +30,7 @@ use crate::pieces::Pieces;
 use crate::plan::{Arrangement, CasePlan};
 use crate::polynomial::Polynomial;
 use crate::search::{Bend, Search};
-use crate::structure::{Carrier, QUANTITIES, Quantity, Structure, deflection_axis};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure, deflection_axis};
 use crate::train::{COMPONENTS, PlacedTrain, axis};
 
 /// Most evaluations for one extreme under several trains, whose slope jumps under wheels.
@@ -73,12 +73,17 @@ impl<'a> Deflections<'a> {
     }
 
     /// Whether the structure resists a deflection, so that there is one.
-    fn exists(&self, rail: usize, quantity: Quantity) -> bool {
+    fn exists(&self, rail: usize, quantity: GirderResponse) -> bool {
         self.structure.frame.resists(rail, deflection_axis(quantity).0)
     }
 
     /// Influence line of a weighted sum of deflections of a rail at several places.
-    fn line(&self, rail: usize, places: &[[f64; 2]], quantity: Quantity) -> Result<Rc<Lines<1>>, Error> {
+    fn line(
+        &self,
+        rail: usize,
+        places: &[[f64; 2]],
+        quantity: GirderResponse,
+    ) -> Result<Rc<Lines<1>>, Error> {
         let key = (rail, quantity as usize, places.iter().map(|place| place.map(f64::to_bits)).collect());
         if let Some(known) = self.lines.borrow().by_place.get(&key) {
             return Ok(Rc::clone(known));
@@ -99,7 +104,7 @@ impl<'a> Deflections<'a> {
         case: usize,
         rail: usize,
         places: &[[f64; 2]],
-        quantity: Quantity,
+        quantity: GirderResponse,
         sign: f64,
     ) -> Result<Option<Arrangement>, Error> {
         let line = self.line(rail, places, quantity)?;
@@ -116,7 +121,7 @@ impl<'a> Deflections<'a> {
         case: usize,
         rail: usize,
         x: f64,
-        quantity: Quantity,
+        quantity: GirderResponse,
         sign: f64,
     ) -> Result<Option<(Governing, Arrangement)>, Error> {
         if !self.exists(rail, quantity) {
@@ -137,7 +142,7 @@ impl<'a> Deflections<'a> {
     }
 
     /// Deflection by the dead load, with factor 1.
-    fn dead(&self, rail: usize, x: f64, quantity: Quantity) -> f64 {
+    fn dead(&self, rail: usize, x: f64, quantity: GirderResponse) -> f64 {
         let slack = self.structure.slack();
         let here = |c: &Carrier| c.rail == rail && x >= c.x[0] - slack && x <= c.x[1] + slack;
         let found = self.carriers.iter().find(|(carrier, ..)| here(carrier));
@@ -150,7 +155,7 @@ impl<'a> Deflections<'a> {
         case: usize,
         rail: usize,
         x: f64,
-        quantity: Quantity,
+        quantity: GirderResponse,
         arrangement: &Arrangement,
     ) -> Result<f64, Error> {
         if !self.exists(rail, quantity) {
@@ -171,7 +176,7 @@ impl<'a> Deflections<'a> {
             for (carrier, lines, load) in self.carriers {
                 let over = Overrun::new(self.structure, &self.plans[case], carrier, lines)?;
                 for (span, window) in spans_of(self.request, self.structure, carrier) {
-                    for quantity in [Quantity::VerticalDeflection, Quantity::LateralDeflection] {
+                    for quantity in [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection] {
                         if !self.exists(carrier.rail, quantity) {
                             continue;
                         }
@@ -217,7 +222,7 @@ impl<'a> Deflections<'a> {
                     continue;
                 }
                 let ends = [spans[span - 1], spans[span]];
-                for quantity in [Quantity::VerticalDeflection, Quantity::LateralDeflection] {
+                for quantity in [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection] {
                     if !self.exists(carrier.rail, quantity) {
                         continue;
                     }
@@ -272,10 +277,10 @@ impl<'a> Deflections<'a> {
         carrier: &Carrier,
         span: usize,
         all: &Accumulated,
-        quantity: Quantity,
+        quantity: GirderResponse,
         load: &DeadLoad,
     ) -> Bend {
-        let most = |quantity: Quantity| -> f64 {
+        let most = |quantity: GirderResponse| -> f64 {
             let own =
                 all.list.iter().filter(|e| (e.rail, e.span, e.quantity) == (carrier.rail, span, quantity));
             own.filter_map(|e| e.governing.as_ref()).map(|g| g.value.abs() + g.dead.abs()).fold(0.0, f64::max)
@@ -294,16 +299,16 @@ impl<'a> Deflections<'a> {
         let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
         let along = |v: &Vector3<f64>| negligible(v.dot(&direction));
         // Moments and shear forces about and along the axes of the section are at most the sums of their projections.
-        let project = |plane: [Quantity; 2], axis: &Vector3<f64>, other: [&Vector3<f64>; 2]| {
+        let project = |plane: [GirderResponse; 2], axis: &Vector3<f64>, other: [&Vector3<f64>; 2]| {
             most(plane[0]) * negligible(axis.dot(other[0])) + most(plane[1]) * negligible(axis.dot(other[1]))
         };
-        let moments = [Quantity::VerticalMoment, Quantity::LateralMoment];
-        let shears = [Quantity::VerticalShear, Quantity::LateralShear];
+        let moments = [GirderResponse::VerticalMoment, GirderResponse::LateralMoment];
+        let shears = [GirderResponse::VerticalShear, GirderResponse::LateralShear];
         let (moment_z, moment_y) = (project(moments, &z_axis, [&z, &u]), project(moments, &y_axis, [&z, &u]));
         let (shear_y, shear_z) = (project(shears, &y_axis, [&u, &z]), project(shears, &z_axis, [&u, &z]));
         let [bending_z, bending_y] = [flexibility.bending_z, flexibility.bending_y].map(finite);
-        let rate = |k: Quantity| load.quadratic(k as usize)[1].abs() * self.plans[case].dead.abs();
-        let distributed = rate(Quantity::VerticalShear) + rate(Quantity::LateralShear);
+        let rate = |k: GirderResponse| load.quadratic(k as usize)[1].abs() * self.plans[case].dead.abs();
+        let distributed = rate(GirderResponse::VerticalShear) + rate(GirderResponse::LateralShear);
         let [sheared_y, sheared_z, twisted, stretched] =
             [flexibility.shear_y, flexibility.shear_z, flexibility.torsion, flexibility.axial].map(finite);
         let turned = along(&t.cross(&arm));
@@ -311,8 +316,8 @@ impl<'a> Deflections<'a> {
             + along(&z_axis) * (moment_y * bending_y + distributed * sheared_z)
             + along(&z_axis.cross(&arm)) * shear_y * bending_z
             + along(&y_axis.cross(&arm)) * shear_z * bending_y
-            + turned * twisted * rate(Quantity::Torsion)
-            + along(&t) * stretched * rate(Quantity::Normal);
+            + turned * twisted * rate(GirderResponse::Torsion)
+            + along(&t) * stretched * rate(GirderResponse::Normal);
         // Jumps of the slope at all wheels together.
         let wheels = self.plans[case].trains.iter().map(|stances| stances[0].wheels.iter());
         let (mut force, mut couple) = (0.0, 0.0);
@@ -338,7 +343,7 @@ impl<'a> Deflections<'a> {
         carrier: &Carrier,
         over: &Overrun,
         window: [f64; 2],
-        quantity: Quantity,
+        quantity: GirderResponse,
         sign: f64,
         load: &DeadLoad,
     ) -> Result<Option<Governing>, Error> {

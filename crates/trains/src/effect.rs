@@ -21,13 +21,13 @@ use crate::train::{COMPONENTS, TrainCase};
 /// # Example
 /// ```
 /// use fea::{Effect, Girder};
-/// use trains::{DeadLoads, Structure, Train, TrainCase, Wheel, effects};
+/// use trains::{DeadLoads, Structure, Train, TrainCase, TrainWheel, effects};
 ///
 /// // The reaction of a simple beam of 8 m is largest with the first of two wheels over the support.
 /// let girder = Girder { spans: vec![8.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
 /// let (model, rail) = girder.model_and_rail()?;
 /// let structure = Structure::new(&model, &[rail], false)?;
-/// let wheel = |x: f64| Wheel { rail: 0, x, vertical: 100.0, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 };
+/// let wheel = |x: f64| TrainWheel { rail: 0, x, vertical: 100.0, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 };
 /// let train = Train {
 ///     wheels: vec![wheel(0.0), wheel(2.0)], ends: [0.0; 2], turned: true, reverses: true, enters: false,
 /// };

@@ -3,7 +3,7 @@
 use fea::Effect;
 
 use crate::follow::SectionSide;
-use crate::structure::Quantity;
+use crate::structure::GirderResponse;
 use crate::train::Stance;
 
 /// What is asked of a structure beside the envelopes along its rails.
@@ -51,7 +51,7 @@ pub struct EnvelopeValue {
     /// Index of the rail.
     pub rail: usize,
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: GirderResponse,
     /// Whether it is the largest value; otherwise the smallest.
     pub is_max: bool,
     /// The value.
@@ -66,7 +66,7 @@ pub struct SpanExtreme {
     /// Number of the span from 1; 0 and one more than the last for overhangs.
     pub span: usize,
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: GirderResponse,
     /// Whether it is the largest value; otherwise the smallest.
     pub is_max: bool,
     /// The value.
@@ -86,7 +86,7 @@ pub struct SpanDeflection {
     /// Coordinates of its ends.
     pub ends: [f64; 2],
     /// Vertical or lateral deflection.
-    pub quantity: Quantity,
+    pub quantity: GirderResponse,
     /// The value of largest size, with the place and the position; `dead` is 0.
     pub governing: Governing,
 }

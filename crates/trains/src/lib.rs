@@ -49,5 +49,5 @@ pub use extremes::{
     CaseEnvelopes, EnvelopeValue, Governing, Request, SpanDeflection, SpanExtreme, TrainPosition,
 };
 pub use follow::SectionSide;
-pub use structure::{Quantity, Structure};
-pub use train::{Stance, Train, TrainCase, Wheel};
+pub use structure::{GirderResponse, Structure};
+pub use train::{Stance, Train, TrainCase, TrainWheel};

@@ -6,7 +6,7 @@
 
 use crate::error::Error;
 use crate::pieces::{Piece, Pieces};
-use crate::structure::{Carrier, QUANTITIES, Quantity, Structure};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 use nalgebra::Vector3;
 
@@ -52,7 +52,7 @@ impl WheelOnMember {
 
 /// Index of the shear force that belongs to a moment.
 pub(crate) fn slope_index(k: usize) -> Option<usize> {
-    Quantity::ALL[k].slope()
+    GirderResponse::ALL[k].slope()
 }
 
 impl TrainOnCarrier {

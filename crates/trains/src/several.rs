@@ -13,7 +13,7 @@ use crate::overrun::Overrun;
 use crate::plan::CasePlan;
 use crate::search::{Bend, Search};
 use crate::section::slope_index;
-use crate::structure::{Carrier, Quantity};
+use crate::structure::{Carrier, GirderResponse};
 
 /// Most evaluations of a bisection before the largest value is polished.
 const MOST: usize = 120;
@@ -27,7 +27,7 @@ pub(crate) fn enclosed(
     target: &Target<'_>,
 ) -> Result<Option<(Governing, f64)>, Error> {
     let Some(shear) = slope_index(target.k) else { return Ok(None) };
-    let quantity = Quantity::ALL[target.k];
+    let quantity = GirderResponse::ALL[target.k];
     let rate = carrier.rate();
     let wheels = plan.trains.iter().flat_map(|stances| &stances[0].wheels);
     let forces: f64 = wheels.map(|wheel| wheel.load[..3].iter().map(|f| f * f).sum::<f64>().sqrt()).sum();

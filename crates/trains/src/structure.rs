@@ -10,7 +10,7 @@ use crate::error::Error;
 use crate::line::{LineCell, Lines, Stretch, cubics};
 use crate::train::{COMPONENTS, axis};
 
-/// Number of quantities of a section: [`Quantity::ALL`].
+/// Number of quantities of a section: [`GirderResponse::ALL`].
 pub(crate) const QUANTITIES: usize = 6;
 
 /// An internal force of a member that carries a rail, or the deflection of the rail.
@@ -20,7 +20,7 @@ pub(crate) const QUANTITIES: usize = 6;
 /// in tension, torsion right-handed about the rail's x on the face that looks along +x. Deflections are positive
 /// downwards and along +z.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Quantity {
+pub enum GirderResponse {
     /// Normal force.
     Normal,
     /// Torsional moment.
@@ -39,34 +39,42 @@ pub enum Quantity {
     LateralDeflection,
 }
 
-impl Quantity {
+impl GirderResponse {
     /// All of them: six internal forces and two deflections.
-    pub const ALL: [Quantity; QUANTITIES + 2] = [
-        Quantity::Normal,
-        Quantity::Torsion,
-        Quantity::VerticalShear,
-        Quantity::LateralShear,
-        Quantity::VerticalMoment,
-        Quantity::LateralMoment,
-        Quantity::VerticalDeflection,
-        Quantity::LateralDeflection,
+    pub const ALL: [GirderResponse; QUANTITIES + 2] = [
+        GirderResponse::Normal,
+        GirderResponse::Torsion,
+        GirderResponse::VerticalShear,
+        GirderResponse::LateralShear,
+        GirderResponse::VerticalMoment,
+        GirderResponse::LateralMoment,
+        GirderResponse::VerticalDeflection,
+        GirderResponse::LateralDeflection,
     ];
 
     /// Moment, shear and deflection of the plane of a quantity; of the vertical plane for normal force and torsion.
-    pub(crate) const fn coincident(self) -> [Quantity; 3] {
+    pub(crate) const fn coincident(self) -> [GirderResponse; 3] {
         match self {
-            Quantity::LateralShear | Quantity::LateralMoment | Quantity::LateralDeflection => {
-                [Quantity::LateralMoment, Quantity::LateralShear, Quantity::LateralDeflection]
-            }
-            _ => [Quantity::VerticalMoment, Quantity::VerticalShear, Quantity::VerticalDeflection],
+            GirderResponse::LateralShear
+            | GirderResponse::LateralMoment
+            | GirderResponse::LateralDeflection => [
+                GirderResponse::LateralMoment,
+                GirderResponse::LateralShear,
+                GirderResponse::LateralDeflection,
+            ],
+            _ => [
+                GirderResponse::VerticalMoment,
+                GirderResponse::VerticalShear,
+                GirderResponse::VerticalDeflection,
+            ],
         }
     }
 
     /// The shear force whose integral along the rail the moment is.
     pub(crate) const fn slope(self) -> Option<usize> {
         match self {
-            Quantity::VerticalMoment => Some(Quantity::VerticalShear as usize),
-            Quantity::LateralMoment => Some(Quantity::LateralShear as usize),
+            GirderResponse::VerticalMoment => Some(GirderResponse::VerticalShear as usize),
+            GirderResponse::LateralMoment => Some(GirderResponse::LateralShear as usize),
             _ => None,
         }
     }
@@ -113,12 +121,12 @@ impl Carrier {
     pub fn jump(&self, force: &Vector3<f64>, couple: &Vector3<f64>) -> [f64; QUANTITIES] {
         let [t, u, z] = &self.triad;
         let mut out = [0.0; QUANTITIES];
-        out[Quantity::Normal as usize] = -force.dot(t);
-        out[Quantity::Torsion as usize] = -couple.dot(t);
-        out[Quantity::VerticalShear as usize] = force.dot(u);
-        out[Quantity::LateralShear as usize] = -force.dot(z);
-        out[Quantity::VerticalMoment as usize] = -couple.dot(z);
-        out[Quantity::LateralMoment as usize] = -couple.dot(u);
+        out[GirderResponse::Normal as usize] = -force.dot(t);
+        out[GirderResponse::Torsion as usize] = -couple.dot(t);
+        out[GirderResponse::VerticalShear as usize] = force.dot(u);
+        out[GirderResponse::LateralShear as usize] = -force.dot(z);
+        out[GirderResponse::VerticalMoment as usize] = -couple.dot(z);
+        out[GirderResponse::LateralMoment as usize] = -couple.dot(u);
         out
     }
 
@@ -379,7 +387,7 @@ impl Structure {
         &self,
         rail: usize,
         places: &[[f64; 2]],
-        quantity: Quantity,
+        quantity: GirderResponse,
         used: [bool; COMPONENTS],
     ) -> Result<Lines<1>, Error> {
         let surface = self.surface()?;
@@ -416,8 +424,8 @@ impl Structure {
 }
 
 /// Axis of a deflection, and the sign with which it counts.
-pub(crate) fn deflection_axis(quantity: Quantity) -> (Axis, f64) {
-    if quantity == Quantity::LateralDeflection { (Axis::Lateral, 1.0) } else { (Axis::Vertical, -1.0) }
+pub(crate) fn deflection_axis(quantity: GirderResponse) -> (Axis, f64) {
+    if quantity == GirderResponse::LateralDeflection { (Axis::Lateral, 1.0) } else { (Axis::Vertical, -1.0) }
 }
 
 /// The six components of the internal force just inside the end of a carrier at its smaller coordinate.

@@ -8,7 +8,7 @@ pub const COMPONENTS: usize = 5;
 
 /// A wheel of a train and its forces.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Wheel {
+pub struct TrainWheel {
     /// Index of the rail on which it stands.
     pub rail: usize,
     /// Distance ahead of the train's position, length, for a train that is not turned.
@@ -27,7 +27,7 @@ pub struct Wheel {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Train {
     /// The wheels; the position of the train is the coordinate of the first one.
-    pub wheels: Vec<Wheel>,
+    pub wheels: Vec<TrainWheel>,
     /// Distances from the outermost wheels to the ends of the train on each side, length: before, behind.
     pub ends: [f64; 2],
     /// Whether the train also stands the other way round (x of a wheel becomes -x; the forces stay with the wheels).
@@ -83,7 +83,8 @@ impl Train {
     /// The stances to try: unturned first, all signs positive first. A sign is tried only where it changes a load, and
     /// a train is turned only where that changes it.
     pub(crate) fn stances(&self) -> Vec<Stance> {
-        let any = |of: fn(&Wheel) -> f64| self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0);
+        let any =
+            |of: fn(&TrainWheel) -> f64| self.reverses && self.wheels.iter().any(|wheel| of(wheel) != 0.0);
         let both = |varies: bool| if varies { &[1.0, -1.0][..] } else { &[1.0] };
         let eccentric =
             any(
@@ -110,7 +111,7 @@ impl Train {
     /// The wheels in a stance. A wheel on rail r stands at position + x + shift r, turned at position - x + shift r.
     pub(crate) fn placed(&self, stance: Stance, shifts: &[f64]) -> Vec<PlacedWheel> {
         let [lateral, longitudinal, side] = stance.signs;
-        let place = |wheel: &Wheel| {
+        let place = |wheel: &TrainWheel| {
             let along = longitudinal * wheel.longitudinal;
             let lever = side * wheel.eccentricity;
             PlacedWheel {

@@ -2,11 +2,12 @@
 
 use fea::{BeamTheory, Effect, Girder};
 use trains::{
-    CaseEnvelopes, DeadLoads, Quantity, Request, SpanExtreme, Structure, Train, TrainCase, Wheel, envelopes,
+    CaseEnvelopes, DeadLoads, GirderResponse, Request, SpanExtreme, Structure, Train, TrainCase, TrainWheel,
+    envelopes,
 };
 
-fn wheel(x: f64, vertical: f64) -> Wheel {
-    Wheel { rail: 0, x, vertical, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 }
+fn wheel(x: f64, vertical: f64) -> TrainWheel {
+    TrainWheel { rail: 0, x, vertical, lateral: 0.0, longitudinal: 0.0, eccentricity: 0.0 }
 }
 
 fn train(wheels: &[(f64, f64)]) -> Train {
@@ -31,7 +32,7 @@ fn solve(girder: &Girder, trains: Vec<Train>, dead: &DeadLoads, places: Vec<f64>
     envelopes(&structure, dead, &[case], &request).expect("the train fits").remove(0)
 }
 
-fn extreme(found: &CaseEnvelopes, span: usize, quantity: Quantity, is_max: bool) -> &SpanExtreme {
+fn extreme(found: &CaseEnvelopes, span: usize, quantity: GirderResponse, is_max: bool) -> &SpanExtreme {
     let same = |e: &&SpanExtreme| (e.span, e.quantity, e.is_max) == (span, quantity, is_max);
     found.extremes.iter().find(same).expect("there is an extreme for every span")
 }
@@ -52,12 +53,12 @@ fn runway_over_three_spans() {
     };
     let found =
         solve(&girder, vec![train(&[(0.0, 180.0), (3.6, 180.0)])], &DeadLoads::default(), vec![6.0, 9.75]);
-    let largest = extreme(&found, 2, Quantity::VerticalMoment, true);
+    let largest = extreme(&found, 2, GirderResponse::VerticalMoment, true);
     assert!((largest.governing.value - 241.2377).abs() < 5e-5, "{largest:?}");
     assert!((largest.governing.x - 9.2442).abs() < 5e-5);
     let at = |x: f64, is_max: bool| {
         let same = |e: &&trains::EnvelopeValue| {
-            e.governing.x == x && e.quantity == Quantity::VerticalMoment && e.is_max == is_max
+            e.governing.x == x && e.quantity == GirderResponse::VerticalMoment && e.is_max == is_max
         };
         found.envelopes.iter().find(same).expect("the place was asked for").governing.value
     };
@@ -69,7 +70,7 @@ fn runway_over_three_spans() {
     for (found, known) in vertical.iter().flatten().zip([235.687, -28.335, 317.259, -26.143]) {
         assert!((found - known).abs() < 1e-3, "{found}, not {known}");
     }
-    let sag = extreme(&found, 2, Quantity::VerticalDeflection, true);
+    let sag = extreme(&found, 2, GirderResponse::VerticalDeflection, true);
     assert!((sag.governing.value - 9.385e-3).abs() < 1e-6, "{sag:?}");
     assert!(sag.bound >= sag.governing.value && sag.bound < sag.governing.value * (1.0 + 1e-9));
 }
@@ -79,10 +80,10 @@ fn runway_over_three_spans() {
 fn two_wheels_on_a_simple_beam() {
     let girder = Girder { spans: vec![10.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
     let found = solve(&girder, vec![train(&[(0.0, 90.0), (3.0, 90.0)])], &DeadLoads::default(), Vec::new());
-    let largest = &extreme(&found, 1, Quantity::VerticalMoment, true).governing;
+    let largest = &extreme(&found, 1, GirderResponse::VerticalMoment, true).governing;
     assert!((largest.value - 90.0 * 8.5 * 8.5 / 20.0).abs() < 1e-11, "{largest:?}");
     assert!((largest.x - 4.25).abs() < 1e-9, "{largest:?}");
-    let shear = &extreme(&found, 1, Quantity::VerticalShear, true).governing;
+    let shear = &extreme(&found, 1, GirderResponse::VerticalShear, true).governing;
     assert!((shear.value - 90.0 * (1.0 + 0.7)).abs() < 1e-11, "{shear:?}");
 }
 
@@ -98,14 +99,14 @@ fn dead_load_adds_its_own() {
     };
     let dead = DeadLoads { gravity: 10.0, lines: vec![1.0] };
     let found = solve(&girder, vec![train(&[(0.0, 100.0)])], &dead, vec![4.0]);
-    let largest = &extreme(&found, 1, Quantity::VerticalMoment, true).governing;
+    let largest = &extreme(&found, 1, GirderResponse::VerticalMoment, true).governing;
     assert!((largest.value - (200.0 + 3.0 * 8.0)).abs() < 1e-10, "{largest:?}");
     assert!((largest.dead - 24.0).abs() < 1e-11 && (largest.x - 4.0).abs() < 1e-9);
-    let sag = &extreme(&found, 1, Quantity::VerticalDeflection, true).governing;
+    let sag = &extreme(&found, 1, GirderResponse::VerticalDeflection, true).governing;
     let stiffness = 2.1e8 * 5e-4;
     let known = 100.0 * 512.0 / (48.0 * stiffness) + 5.0 * 3.0 * 4096.0 / (384.0 * stiffness);
     assert!((sag.value / known - 1.0).abs() < 1e-9, "{sag:?}, not {known}");
     // The smallest moment: wheel at a support, dead load alone.
-    let least = &extreme(&found, 1, Quantity::VerticalMoment, false).governing;
+    let least = &extreme(&found, 1, GirderResponse::VerticalMoment, false).governing;
     assert!(least.value.abs() < 1e-11, "{least:?}");
 }

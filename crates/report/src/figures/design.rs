@@ -6,7 +6,7 @@ use crate::chart::{Chart, ChartAxis, Series, Style, Svg};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
 use formats::units::{Dimension, Length};
-use trains::{Governing, Quantity};
+use trains::{GirderResponse, Governing};
 
 /// Width of a sketch in pixels.
 const WIDTH: f64 = 860.0;
@@ -28,14 +28,16 @@ pub(crate) fn deflection_unit(design: &Design) -> (&'static str, f64) {
 }
 
 /// Unit of a quantity for reading, and the factor from the units of the design.
-pub(crate) fn unit_of(design: &Design, quantity: Quantity) -> (String, f64) {
+pub(crate) fn unit_of(design: &Design, quantity: GirderResponse) -> (String, f64) {
     let plain = |dimension| (design.units.label(dimension), 1.0);
     match quantity {
-        Quantity::VerticalDeflection | Quantity::LateralDeflection => {
+        GirderResponse::VerticalDeflection | GirderResponse::LateralDeflection => {
             let (unit, factor) = deflection_unit(design);
             (unit.to_owned(), factor)
         }
-        Quantity::Normal | Quantity::VerticalShear | Quantity::LateralShear => plain(Dimension::FORCE),
+        GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear => {
+            plain(Dimension::FORCE)
+        }
         _ => plain(Dimension::MOMENT),
     }
 }
@@ -121,14 +123,14 @@ pub(crate) fn envelope_charts(
     rail: usize,
 ) -> Vec<(Chart, String)> {
     let order = [
-        Quantity::VerticalMoment,
-        Quantity::VerticalShear,
-        Quantity::VerticalDeflection,
-        Quantity::LateralMoment,
-        Quantity::LateralShear,
-        Quantity::LateralDeflection,
-        Quantity::Normal,
-        Quantity::Torsion,
+        GirderResponse::VerticalMoment,
+        GirderResponse::VerticalShear,
+        GirderResponse::VerticalDeflection,
+        GirderResponse::LateralMoment,
+        GirderResponse::LateralShear,
+        GirderResponse::LateralDeflection,
+        GirderResponse::Normal,
+        GirderResponse::Torsion,
     ];
     let rows = &result.cases[case].envelopes.envelopes;
     let mut out = Vec::new();
@@ -143,13 +145,13 @@ pub(crate) fn envelope_charts(
             continue;
         }
         let word = quantity_word(quantity);
-        let is_torsion = matches!(quantity, Quantity::Normal | Quantity::Torsion);
+        let is_torsion = matches!(quantity, GirderResponse::Normal | GirderResponse::Torsion);
         let name = if is_torsion { word.to_owned() } else { format!("{} {word}", plane_word(quantity)) };
         let title = format!("Envelope of {name}, case {}, rail {}", case + 1, design.spec.rails()[rail].name);
         let length = design.units.label(Dimension::LENGTH);
         let mut y = ChartAxis::new(word, &unit);
         // Sagging moments and deflections are drawn downwards, as engineers draw them.
-        if matches!(quantity, Quantity::VerticalMoment | Quantity::VerticalDeflection) {
+        if matches!(quantity, GirderResponse::VerticalMoment | GirderResponse::VerticalDeflection) {
             y = y.downwards();
         }
         let chart = Chart::new(title, ChartAxis::new("x along the rail", length), y)

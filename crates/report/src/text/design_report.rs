@@ -5,7 +5,7 @@ use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, LoadKind, ReactionExtremes, SolvedCase, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
-use trains::{Governing, Quantity, SectionSide, SpanExtreme};
+use trains::{GirderResponse, Governing, SectionSide, SpanExtreme};
 
 /// Significant digits of values in the report.
 const DIGITS: usize = 4;
@@ -34,14 +34,14 @@ pub fn design_report(design: &Design, result: &DesignResult) -> Report {
 }
 
 /// Which governing values stand on the first page, with their words.
-const GOVERNING: [(Quantity, bool, &str); 7] = [
-    (Quantity::VerticalMoment, true, "largest sagging moment"),
-    (Quantity::VerticalMoment, false, "largest hogging moment"),
-    (Quantity::VerticalShear, true, "largest shear force"),
-    (Quantity::VerticalShear, false, "smallest shear force"),
-    (Quantity::LateralMoment, true, "largest lateral moment"),
-    (Quantity::Torsion, true, "largest torsion"),
-    (Quantity::VerticalDeflection, true, "largest deflection downwards"),
+const GOVERNING: [(GirderResponse, bool, &str); 7] = [
+    (GirderResponse::VerticalMoment, true, "largest sagging moment"),
+    (GirderResponse::VerticalMoment, false, "largest hogging moment"),
+    (GirderResponse::VerticalShear, true, "largest shear force"),
+    (GirderResponse::VerticalShear, false, "smallest shear force"),
+    (GirderResponse::LateralMoment, true, "largest lateral moment"),
+    (GirderResponse::Torsion, true, "largest torsion"),
+    (GirderResponse::VerticalDeflection, true, "largest deflection downwards"),
 ];
 
 /// The first page: what governs, whether limits are kept, and the position that causes the largest moment.
@@ -93,7 +93,7 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     if !result.limits.is_empty() {
         section = section.table(limits(result));
     }
-    if let Some((case, found)) = largest(result, Quantity::VerticalMoment, true) {
+    if let Some((case, found)) = largest(result, GirderResponse::VerticalMoment, true) {
         let caption = format!(
             "The position that causes the largest sagging moment, {} {} at x = {} (case {}); wheel forces without \
              factors.",
@@ -132,7 +132,7 @@ fn sentence(result: &DesignResult) -> String {
 }
 
 /// The extreme of largest size over all cases, rails and spans.
-fn largest(result: &DesignResult, quantity: Quantity, is_max: bool) -> Option<(usize, &SpanExtreme)> {
+fn largest(result: &DesignResult, quantity: GirderResponse, is_max: bool) -> Option<(usize, &SpanExtreme)> {
     let sign = if is_max { 1.0 } else { -1.0 };
     let all = result
         .cases
@@ -263,7 +263,7 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
     };
     let rails = design.spec.rails();
     let all = &case.envelopes.extremes;
-    let size = |quantity: Quantity| {
+    let size = |quantity: GirderResponse| {
         let own = all.iter().filter(|e| e.quantity == quantity);
         own.map(|e| e.governing.value.abs()).fold(0.0, f64::max)
     };
@@ -274,7 +274,7 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
         }
         let (unit, factor) = unit_of(design, found.quantity);
         let word = quantity_word(found.quantity);
-        let is_plain = matches!(found.quantity, Quantity::Normal | Quantity::Torsion);
+        let is_plain = matches!(found.quantity, GirderResponse::Normal | GirderResponse::Torsion);
         let name = if is_plain { word.to_owned() } else { format!("{} {word}", plane_word(found.quantity)) };
         table.rows.push(vec![
             TableCell::from(rails[found.rail].name.clone()),

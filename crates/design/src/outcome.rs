@@ -1,0 +1,80 @@
+//! What the calculation of a design gives.
+
+use trains::{CaseEnvelopes, Governing};
+
+use crate::loads::LoadKind;
+
+/// The results of a design.
+#[derive(Clone, Debug)]
+pub struct DesignResult {
+    /// One for each case, in the order of the design.
+    pub cases: Vec<SolvedCase>,
+    /// Limits of codes against the results.
+    pub limits: Vec<LimitCheck>,
+    /// What the user should know.
+    pub warnings: Vec<String>,
+    /// Bound of the relative error of the influence coefficients.
+    pub error_bound: f64,
+}
+
+/// The results of one case.
+#[derive(Clone, Debug)]
+pub struct SolvedCase {
+    /// Its name.
+    pub name: String,
+    /// Envelopes and extremes along the rails.
+    pub envelopes: CaseEnvelopes,
+    /// Reactions under all loads.
+    pub reactions: Vec<ReactionExtremes>,
+    /// Reactions under each kind of load alone.
+    pub by_load: Vec<(LoadKind, Vec<ReactionExtremes>)>,
+    /// Internal forces of the named sections, in the order of the design.
+    pub sections: Vec<[Governing; 2]>,
+}
+
+/// Largest and smallest value of a reaction.
+#[derive(Clone, Debug)]
+pub struct ReactionExtremes {
+    /// Which reaction.
+    pub name: ReactionName,
+    /// Largest and smallest value.
+    pub extremes: [Governing; 2],
+}
+
+/// Name of a reaction.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ReactionName {
+    /// The supported point, named as in the columns of a history.
+    pub support: String,
+    /// Its global direction, `ux` to `rz`.
+    pub direction: String,
+}
+
+/// A limit of a code against a result.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LimitCheck {
+    /// The code with its edition.
+    pub code: String,
+    /// Clause or table.
+    pub clause: String,
+    /// What is limited, in words.
+    pub quantity: String,
+    /// The result, in the units of the design.
+    pub value: f64,
+    /// Its limit.
+    pub limit: f64,
+    /// Number of the case from 1.
+    pub case: usize,
+    /// Name of the rail.
+    pub rail: String,
+    /// Number of the span from 1.
+    pub span: usize,
+}
+
+impl LimitCheck {
+    /// Whether the limit is kept.
+    #[must_use]
+    pub fn within(&self) -> bool {
+        self.value.abs() <= self.limit
+    }
+}
