@@ -41,7 +41,7 @@ pub(crate) struct DeadLoad {
 }
 
 impl DeadLoad {
-    /// GirderResponse k at a place that is a polynomial itself.
+    /// Response k at a place that is a polynomial itself.
     pub fn along(&self, k: usize, place: &Polynomial) -> Polynomial {
         let [a, b, c] = self.forces[k];
         if [a, b, c] == [0.0; 3] {

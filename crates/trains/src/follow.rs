@@ -138,7 +138,7 @@ struct State<'a> {
 }
 
 impl State<'_> {
-    /// GirderResponse k at a place that is linear in the distance from position `from` of the piece, the first `count` wheels
+    /// Response k at a place that is linear in the distance from position `from` of the piece, the first `count` wheels
     /// counted as before it.
     fn quantity(&self, k: usize, place: &Polynomial, from: f64, count: usize) -> Polynomial {
         let base = |k: usize| {
