@@ -100,7 +100,8 @@ fn finished(all: &Accumulated, envelopes: &[EnvelopeValue], slack: f64) -> Vec<S
                     && (e.governing.x - governing.x).abs() <= slack
             });
             governing.coincident = same.map_or([0.0; 3], |e| e.governing.coincident);
-            let bound = entry.bound.map_or(governing.value, |bound| sign_of(entry.is_max) * bound);
+            let sign = sign_of(entry.is_max);
+            let bound = entry.bound.map_or(governing.value, |bound| sign * bound.max(sign * governing.value));
             let Entry { rail, span, quantity, is_max, .. } = *entry;
             Some(SpanExtreme { rail, span, quantity, is_max, governing, bound })
         })
@@ -150,9 +151,12 @@ impl Analysis<'_> {
                         if plan.trains.len() == 1 {
                             let found = follow_one(plan, &over, carrier, &target, entry.governing.as_ref());
                             offer(&mut entry.governing, found, sign);
-                        } else if let Some((found, bound)) = several::enclosed(plan, &over, carrier, &target)?
+                            continue;
+                        }
+                        let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                        if let Some((found, bound)) = several::enclosed(plan, &over, carrier, &target, known)?
                         {
-                            offer(&mut entry.governing, Some(found), sign);
+                            offer(&mut entry.governing, found, sign);
                             entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
                         }
                     }
@@ -291,7 +295,10 @@ impl Section<'_> {
         } else {
             dead + deflections.value(case, rail, x, deflection, &arrangement)?
         };
-        governing.coincident = [self.value(moment, &arrangement), self.value(shear, &arrangement), bent];
+        let force = |k: GirderResponse| {
+            if k == quantity { governing.value } else { self.value(k, &arrangement) }
+        };
+        governing.coincident = [force(moment), force(shear), bent];
         Ok(Some(governing))
     }
 

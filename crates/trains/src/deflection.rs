@@ -183,16 +183,18 @@ impl<'a> Deflections<'a> {
                         let bend = self.bend(case, carrier, span, all, quantity, load);
                         for is_max in [true, false] {
                             let sign = sign_of(is_max);
-                            let mut search = Search::new(sign, bend, window, |x| {
+                            let follows = bend.kinks > 0.0 && self.plans[case].trains.len() == 1;
+                            let bend = Bend { kinks: if follows { 0.0 } else { bend.kinks }, ..bend };
+                            let margin = Box::new(move |x| Bend::margin(x, bend));
+                            let mut search = Search::new(sign, margin, window, |x| {
                                 Ok(self.best(case, carrier.rail, x, quantity, sign)?.map(|(found, _)| found))
                             });
-                            if bend.kinks > 0.0 && self.plans[case].trains.len() == 1 {
-                                search.bend.kinks = 0.0;
+                            if follows {
                                 let under =
                                     self.under_wheels(case, carrier, &over, window, quantity, sign, load)?;
                                 search.offer(under);
                             }
-                            let several = search.bend.kinks > 0.0;
+                            let several = bend.kinks > 0.0;
                             if several {
                                 search.most = MOST_OF_SEVERAL;
                             }
@@ -228,7 +230,8 @@ impl<'a> Deflections<'a> {
                     }
                     let bend = self.bend(case, carrier, span, all, quantity, load);
                     for sign in [1.0, -1.0] {
-                        let mut search = Search::new(sign, bend, window, |x| {
+                        let margin = Box::new(move |x| Bend::margin(x, bend));
+                        let mut search = Search::new(sign, margin, window, |x| {
                             let r = (x - ends[0]) / (ends[1] - ends[0]);
                             let places = [[x, 1.0], [ends[0], r - 1.0], [ends[1], -r]];
                             let found = self.arrangement(case, carrier.rail, &places, quantity, sign)?;
@@ -318,21 +321,45 @@ impl<'a> Deflections<'a> {
             + along(&y_axis.cross(&arm)) * shear_z * bending_y
             + turned * twisted * rate(GirderResponse::Torsion)
             + along(&t) * stretched * rate(GirderResponse::Normal);
-        // Jumps of the slope at all wheels together.
-        let wheels = self.plans[case].trains.iter().map(|stances| stances[0].wheels.iter());
-        let (mut force, mut couple) = (0.0, 0.0);
-        for wheel in wheels.flatten() {
-            let size = Vector3::new(wheel.load[0], wheel.load[1], wheel.load[2]).norm();
-            force += size;
-            couple += size * arm.norm() + Vector3::new(wheel.load[3], wheel.load[4], 0.0).norm();
+        // Jumps of the slope at all wheels together. A couple in a plane of bending makes the moment jump, and with it
+        // only the curvature.
+        let jump = |[force, couple]: &[Vector3<f64>; 2]| {
+            let sheared = force.dot(&y_axis) * y_axis * sheared_y + force.dot(&z_axis) * z_axis * sheared_z;
+            let turned = couple.dot(&t) * twisted * t
+                + couple.dot(&z_axis) * bending_z * z_axis
+                + couple.dot(&y_axis) * bending_y * y_axis;
+            let size = force.norm() * (sheared_y + sheared_z + stretched) + turned.norm() * arm.norm();
+            let slope = (sheared + force.dot(&t) * stretched * t + turned.cross(&arm)).dot(&direction);
+            if slope.abs() > 1e-12 * size { slope.abs() } else { 0.0 }
+        };
+        let mut kinks = 0.0;
+        for stances in &self.plans[case].trains {
+            let sum = |train: &PlacedTrain| -> f64 { self.loads_on(carrier, train).iter().map(jump).sum() };
+            kinks += stances.iter().map(sum).fold(0.0, f64::max);
         }
-        // A couple in a plane of bending makes the moment jump, and with it only the curvature.
-        let kinks = force * (along(&y_axis) * sheared_y + along(&z_axis) * sheared_z + along(&t) * stretched)
-            + couple
-                * (turned * twisted
-                    + along(&z_axis.cross(&arm)) * bending_z
-                    + along(&y_axis.cross(&arm)) * bending_y);
         Bend { curvature, kinks }
+    }
+
+    /// Force and couple about the axis of the member of a carrier from each wheel that can stand on it, global.
+    fn loads_on(&self, carrier: &Carrier, train: &PlacedTrain) -> Vec<[Vector3<f64>; 2]> {
+        let rails = self.structure.carriers.iter().filter(|other| other.member == carrier.member);
+        let stretches = rails.filter_map(|other| {
+            let own = &self.structure.rails[other.rail].stretches;
+            own.iter().find(|stretch| stretch.element == other.element)
+        });
+        let mut out = Vec::new();
+        for stretch in stretches {
+            for wheel in train.wheels.iter().filter(|wheel| wheel.rail == stretch.rail) {
+                let mut total = [Vector3::zeros(); 2];
+                for (component, load) in wheel.load.iter().enumerate().filter(|(_, load)| **load != 0.0) {
+                    if let Ok(unit) = self.structure.load(stretch, component) {
+                        total.iter_mut().zip(unit).for_each(|(sum, unit)| *sum += unit * *load);
+                    }
+                }
+                out.push(total);
+            }
+        }
+        out
     }
 
     /// The largest deflection under the wheels of a single train.

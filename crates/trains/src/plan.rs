@@ -148,8 +148,15 @@ impl CasePlan {
         ok
     }
 
+    /// Calls `each` with every order of the trains of each group and every choice among their listed stances.
+    pub fn for_each_arrangement(&self, listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize], &[usize])) {
+        for order in self.groups.iter().flat_map(|group| &group.orders) {
+            choices(order, listed, &mut |stances| each(order, stances));
+        }
+    }
+
     /// Least distance from train k - 1 of an order to train k.
-    fn distance(&self, order: &[usize], stances: &[usize], k: usize) -> f64 {
+    pub fn distance(&self, order: &[usize], stances: &[usize], k: usize) -> f64 {
         self.distances[order[k - 1]][stances[k - 1]][order[k]][stances[k]]
     }
 
@@ -218,7 +225,11 @@ impl CasePlan {
             let piece = list.partition_point(|piece| piece.position[1] < position).min(list.len() - 1);
             out.push((order[at], Standing { stance: stances[at], position, piece }));
             if at > 0 {
-                position = sums[at - 1].largest(position - self.distance(order, stances, at))?.0;
+                let distance = self.distance(order, stances, at);
+                // A train that touches the next may stand exactly where its response jumps.
+                let rounding =
+                    if distance.is_finite() { TIE * position.abs().max(distance.abs()) } else { 0.0 };
+                position = sums[at - 1].largest(position - distance + rounding)?.0;
             }
         }
         Some((value, out))

@@ -22,7 +22,7 @@ impl PiecewiseFunction {
         let mut best: Option<(f64, f64)> = None;
         for ([from, to], cubic) in self.pieces.iter().filter(|([from, _], _)| *from <= last) {
             let floor = best.map_or(f64::NEG_INFINITY, |(_, value)| value);
-            if let Some((t, value)) = cubic.largest_above(to.min(last) - from, floor)
+            if let Some((t, value)) = cubic.largest_above((to.min(last) - from).max(0.0), floor)
                 && value > floor
             {
                 best = Some((from + t, value));

@@ -1,7 +1,7 @@
 //! The largest value of an envelope along a window, enclosed by bisection.
 //!
-//! On an interval of length h whose ends have the values a and b, no value exceeds max(a, b) + k h^2/8 + s h/4, where k
-//! bounds the second derivative of every state between its wheels and s the sum of the jumps of its slope at wheels.
+//! On an interval whose ends have the values a and b, no value exceeds max(a, b) plus a margin that depends on the
+//! interval alone. Intervals that cannot hold more than the best value are left out, the others are halved.
 
 use crate::collect::offer;
 use crate::error::Error;
@@ -16,20 +16,35 @@ const MOST_EVALUATIONS: usize = 3000;
 /// Golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
-/// Bounds of what a quantity does between two places: its second derivative between wheels, and the sum of the jumps
-/// of its slope at wheels.
+/// By how much an envelope may exceed the larger of its values at the ends of an interval.
+pub(crate) type Margin<'a> = Box<dyn Fn([f64; 2]) -> f64 + 'a>;
+
+/// Bounds of what every state of a quantity does between two places: its second derivative between wheels, and the sum
+/// of the jumps of its slope at wheels.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Bend {
     pub curvature: f64,
     pub kinks: f64,
 }
 
+impl Bend {
+    /// k h^2/8 + s h/4 on an interval of length h.
+    pub fn margin([from, to]: [f64; 2], bend: Bend) -> f64 {
+        let h = to - from;
+        bend.curvature * h * h / 8.0 + bend.kinks * h / 4.0
+    }
+}
+
 /// The search for the largest value over a window by bisection.
-pub(crate) struct Search<F> {
+pub(crate) struct Search<'a, F> {
     sign: f64,
-    pub bend: Bend,
+    margin: Margin<'a>,
     window: [f64; 2],
     pub gap: f64,
+    /// Values below this size count as zero for the gap.
+    pub size: f64,
+    /// Sign times a value that is known already; smaller ones are not sought.
+    pub known: f64,
     pub most: usize,
     value: F,
     pub best: Option<Governing>,
@@ -37,13 +52,15 @@ pub(crate) struct Search<F> {
     pub bound: f64,
 }
 
-impl<F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<F> {
-    pub fn new(sign: f64, bend: Bend, window: [f64; 2], value: F) -> Search<F> {
+impl<'a, F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<'a, F> {
+    pub fn new(sign: f64, margin: Margin<'a>, window: [f64; 2], value: F) -> Search<'a, F> {
         Search {
             sign,
-            bend,
+            margin,
             window,
             gap: GAP,
+            size: 0.0,
+            known: f64::NEG_INFINITY,
             most: MOST_EVALUATIONS,
             value,
             best: None,
@@ -85,6 +102,10 @@ impl<F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<F> {
         Ok(())
     }
 
+    fn interval(&self, x: [f64; 2], values: [f64; 2]) -> Interval {
+        Interval { x, values, bound: values[0].max(values[1]) + (self.margin)(x) }
+    }
+
     /// Divides the intervals that may hold more than the best, widest bound first.
     pub fn run(&mut self) -> Result<(), Error> {
         let [from, to] = self.window;
@@ -93,14 +114,13 @@ impl<F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<F> {
         for k in 0..=PARTS {
             values.push(self.at(place(k))?);
         }
-        let mut open: Vec<Interval> = (0..PARTS)
-            .map(|k| Interval::new([place(k), place(k + 1)], [values[k], values[k + 1]], self.bend))
-            .collect();
+        let mut open: Vec<Interval> =
+            (0..PARTS).map(|k| self.interval([place(k), place(k + 1)], [values[k], values[k + 1]])).collect();
         let mut evaluations = PARTS + 1;
         let largest = values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         loop {
-            let best = self.best.as_ref().map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
-            let limit = best + self.gap * largest.max(best.abs());
+            let best = self.best.as_ref().map_or(self.known, |g| self.known.max(self.sign * g.value));
+            let limit = best + self.gap * largest.max(self.size);
             open.retain(|interval| interval.bound > limit);
             let Some(widest) = (0..open.len()).max_by(|&a, &b| open[a].bound.total_cmp(&open[b].bound))
             else {
@@ -115,8 +135,8 @@ impl<F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<F> {
             let middle = 0.5 * (x[0] + x[1]);
             let value = self.at(middle)?;
             evaluations += 1;
-            open.push(Interval::new([x[0], middle], [values[0], value], self.bend));
-            open.push(Interval::new([middle, x[1]], [value, values[1]], self.bend));
+            open.push(self.interval([x[0], middle], [values[0], value]));
+            open.push(self.interval([middle, x[1]], [value, values[1]]));
         }
     }
 }
@@ -126,12 +146,4 @@ struct Interval {
     x: [f64; 2],
     values: [f64; 2],
     bound: f64,
-}
-
-impl Interval {
-    fn new(x: [f64; 2], values: [f64; 2], bend: Bend) -> Interval {
-        let h = x[1] - x[0];
-        let bound = values[0].max(values[1]) + bend.curvature * h * h / 8.0 + bend.kinks * h / 4.0;
-        Interval { x, values, bound }
-    }
 }

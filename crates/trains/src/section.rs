@@ -13,6 +13,7 @@ use nalgebra::Vector3;
 /// A rail element on the member of a carrier: how its coordinate counts along the carrier.
 #[derive(Clone, Debug)]
 struct Mapping {
+    rail: usize,
     element: usize,
     /// Rail coordinate of its first end, and the place on the carrier there.
     x: f64,
@@ -27,8 +28,9 @@ struct Mapping {
 #[derive(Clone, Debug)]
 pub(crate) struct TrainOnCarrier {
     mappings: Vec<Mapping>,
-    /// Rail coordinates of the wheels less the position of the train.
+    /// Rail coordinates of the wheels less the position of the train, and their rails.
     offsets: Vec<f64>,
+    rails: Vec<usize>,
     length: f64,
 }
 
@@ -80,6 +82,7 @@ impl TrainOnCarrier {
                 carrier.jump(&total(0), &total(1))
             };
             mappings.push(Mapping {
+                rail: other.rail,
                 element: other.element,
                 x: other.x[0],
                 s: if same { 0.0 } else { carrier.length },
@@ -88,7 +91,36 @@ impl TrainOnCarrier {
             });
         }
         let offsets = train.wheels.iter().map(|wheel| wheel.offset).collect();
-        Ok(TrainOnCarrier { mappings, offsets, length: carrier.length })
+        let rails = train.wheels.iter().map(|wheel| wheel.rail).collect();
+        Ok(TrainOnCarrier { mappings, offsets, rails, length: carrier.length })
+    }
+
+    /// The rail elements of the member with the wheels that can stand on them.
+    fn reaching(&self) -> impl Iterator<Item = (&Mapping, usize)> {
+        let wheels = self.rails.iter().enumerate();
+        let pairs =
+            wheels.flat_map(|(wheel, rail)| self.mappings.iter().map(move |mapping| (mapping, wheel, *rail)));
+        pairs.filter(|(mapping, _, rail)| mapping.rail == *rail).map(|(mapping, wheel, _)| (mapping, wheel))
+    }
+
+    /// By how much quantity k changes where each wheel that can stand on the member has been passed.
+    pub fn jumps(&self, k: usize) -> impl Iterator<Item = f64> {
+        self.reaching().map(move |(mapping, wheel)| mapping.jumps[wheel][k])
+    }
+
+    /// Whether wheels can stand on a rail of the member that runs against the carrier.
+    pub fn has_opposed_wheels(&self) -> bool {
+        self.reaching().any(|(mapping, _)| mapping.rate < 0.0)
+    }
+
+    /// Adds the rail coordinates of the carrier opposite to the wheels that stand on the member with the train at a position.
+    pub fn coordinates(&self, carrier: &Carrier, position: f64, out: &mut Vec<f64>) {
+        for (mapping, wheel) in self.reaching() {
+            let s = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
+            if (-1e-9 * self.length..=(1.0 + 1e-9) * self.length).contains(&s) {
+                out.push(carrier.coordinate(s.clamp(0.0, self.length)));
+            }
+        }
     }
 
     /// Length of the member.

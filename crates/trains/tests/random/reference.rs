@@ -157,7 +157,9 @@ impl<'a> Reference<'a> {
             let rail = self.beside[&(load.rail, (load.eccentricity + 0.0).to_bits())];
             for (force, axis) in load.force.iter().zip([Axis::Longitudinal, Axis::Vertical, Axis::Lateral]) {
                 if *force != 0.0 {
-                    lines.fill(Probe { rail, x: load.x, axis }, work).expect("the load is on a rail that resists it");
+                    lines
+                        .fill(Probe { rail, x: load.x, axis }, work)
+                        .expect("the load is on a rail that resists it");
                     out.iter_mut().zip(work.iter()).for_each(|(out, one)| *out += force * one);
                 }
             }
@@ -179,7 +181,11 @@ impl<'a> Reference<'a> {
             for segment in &self.scene.rails[rail].segments {
                 let [a, b] = segment_ends(&self.scene.model, &self.scene.rails[rail], segment.member);
                 ends.extend([a, b]);
-                ends.extend(cuts.iter().filter(|cut| cut.member == segment.member).map(|cut| a + cut.fraction * (b - a)));
+                ends.extend(
+                    cuts.iter()
+                        .filter(|cut| cut.member == segment.member)
+                        .map(|cut| a + cut.fraction * (b - a)),
+                );
             }
             ends.sort_by(f64::total_cmp);
             // In a gap the nearer end carries the rail: it is cut in its middle.
@@ -256,7 +262,14 @@ impl<'a> Reference<'a> {
     }
 
     /// Deflection of a rail at a coordinate under loads.
-    pub fn deflection(&self, surface: &dyn Compliance, rail: usize, x: f64, quantity: GirderResponse, loads: &[Load]) -> f64 {
+    pub fn deflection(
+        &self,
+        surface: &dyn Compliance,
+        rail: usize,
+        x: f64,
+        quantity: GirderResponse,
+        loads: &[Load],
+    ) -> f64 {
         let (axis, sign) = match quantity {
             GirderResponse::LateralDeflection => (Axis::Lateral, 1.0),
             _ => (Axis::Vertical, -1.0),

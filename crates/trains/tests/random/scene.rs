@@ -21,11 +21,13 @@ pub struct Scene {
 pub fn scene(seed: u64) -> Scene {
     let mut dice = Rng::with_seed(seed);
     let theory = if dice.bool() { BeamTheory::Timoshenko } else { BeamTheory::EulerBernoulli };
-    let (model, rails, spans) = if dice.u8(..3) == 0 { girder(&mut dice, theory) } else { frame(&mut dice, theory) };
+    let (model, rails, spans) =
+        if dice.u8(..3) == 0 { girder(&mut dice, theory) } else { frame(&mut dice, theory) };
     let ranges: Vec<[f64; 2]> = rails.iter().map(|rail| covered(&model, rail)).collect();
     let case = case(&mut dice, &rails, &ranges);
     let dead = if dice.bool() {
-        let lines = rails.iter().map(|_| if dice.bool() { between(&mut dice, 0.1, 4.0) } else { 0.0 }).collect();
+        let lines =
+            rails.iter().map(|_| if dice.bool() { between(&mut dice, 0.1, 4.0) } else { 0.0 }).collect();
         DeadLoads { gravity: if dice.bool() { 9.81 } else { 0.0 }, lines }
     } else {
         DeadLoads::default()
@@ -120,13 +122,18 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
         let mut supports = Vec::new();
         let origin = [start + between(dice, -5.0, 5.0), y, 6.0];
         for bay in 0..=bays {
-            let height = 6.0 + slope * (x - start) + if dice.u8(..4) == 0 { between(dice, -0.1, 0.1) } else { 0.0 };
+            let height =
+                6.0 + slope * (x - start) + if dice.u8(..4) == 0 { between(dice, -0.1, 0.1) } else { 0.0 };
             model.points.push([x, y, 0.0]);
             let foot = model.points.len() - 1;
             let fixed = [true, true, true, true, dice.bool(), true];
             model.supports.push(Support { point: foot, fixed });
             if !fixed[4] {
-                model.springs.push(GroundSpring { point: foot, dof: Dof::Ry, stiffness: between(dice, 1e3, 1e5) });
+                model.springs.push(GroundSpring {
+                    point: foot,
+                    dof: Dof::Ry,
+                    stiffness: between(dice, 1e3, 1e5),
+                });
             }
             model.points.push([x, y, height]);
             let mut head = model.points.len() - 1;

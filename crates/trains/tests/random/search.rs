@@ -37,7 +37,8 @@ impl<'a> Draw<'a> {
             })
             .collect();
         let limits: Vec<[f64; 2]> = (0..trains.len()).map(|t| self.limits(t, stances[t])).collect();
-        let extents: Vec<Vec<Option<[f64; 2]>>> = (0..trains.len()).map(|t| self.extents(t, stances[t])).collect();
+        let extents: Vec<Vec<Option<[f64; 2]>>> =
+            (0..trains.len()).map(|t| self.extents(t, stances[t])).collect();
         let least = |a: usize, b: usize| {
             let shared = extents[a].iter().zip(&extents[b]).filter_map(|(a, b)| Some((*a)?[1] - (*b)?[0]));
             shared.map(|d| d + self.scene.case.gap).fold(f64::NEG_INFINITY, f64::max)
@@ -103,7 +104,8 @@ impl<'a> Draw<'a> {
             .map(|rail| {
                 let own = of.wheels.iter().filter(|wheel| wheel.rail == rail);
                 let places = own.map(|w| if stance.turned { -w.x } else { w.x } + self.shift(train, rail));
-                let [low, high] = places.fold([f64::INFINITY, f64::NEG_INFINITY], |r, x| [r[0].min(x), r[1].max(x)]);
+                let [low, high] =
+                    places.fold([f64::INFINITY, f64::NEG_INFINITY], |r, x| [r[0].min(x), r[1].max(x)]);
                 (low <= high).then_some([low - before, high + behind])
             })
             .collect()

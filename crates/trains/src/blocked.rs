@@ -1,0 +1,211 @@
+//! Positions at which the trains of a case cannot all move on together, and what then bounds an envelope between two places.
+//!
+//! Let D(x) be the envelope of an internal force at the section x, and S a state that attains it. If every train can be
+//! moved along by up to h either way together with the section, its response changes smoothly: no wheel passes the section,
+//! and the second derivative is at least -C. So between two places that are h apart
+//!
+//! D(x) <= max(D at both ends) + C h^2/8.
+//!
+//! A train is blocked where it stands within h of the end of its positions or of a position at which one of its influence
+//! lines has a kink or a jump, or, in turn, within h of touching a blocked train. Blocked trains are held while the others
+//! move. The section then passes their wheels, which adds K h/4 to a moment, K being the sum of the jumps of its slope, and
+//! G h to the other forces, G being the largest slope of their influence lines. As blocked wheels are near few known places
+//! only, this term is absent from all other intervals.
+
+use crate::follow::Target;
+use crate::overrun::Overrun;
+use crate::pieces::{Piece, Pieces};
+use crate::plan::CasePlan;
+use crate::section::{TrainOnCarrier, slope_index};
+use crate::structure::{Carrier, QUANTITIES};
+
+/// Changes of an influence line at a position that are not taken for kinks or jumps, relative to its size.
+const SMOOTH: f64 = 1e-9;
+
+/// What bounds a quantity of a carrier between two places.
+#[derive(Debug)]
+pub(crate) struct Blocked {
+    /// Bounds of the second derivative, the slope, the jumps of the slope and the jumps of the value, all by rail
+    /// coordinate.
+    curvature: f64,
+    slope: f64,
+    kinks: f64,
+    jumps: f64,
+    /// Rail coordinates of the carrier near which a blocked wheel may stand, increasing.
+    places: Vec<f64>,
+    /// Whether wheels on opposed rails of the member move against each other, so that nothing moves along together.
+    opposed: bool,
+    /// Number of trains.
+    trains: f64,
+    is_moment: bool,
+}
+
+impl Blocked {
+    /// Collects the bounds for a target on a carrier.
+    pub fn new(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_>) -> Blocked {
+        let rate = carrier.rate();
+        let shear = slope_index(target.k);
+        let (mut curvature, mut slope, mut kinks, mut jumps) = (0.0, 0.0, 0.0, 0.0);
+        for (pieces, on) in over.pieces.iter().zip(&over.on) {
+            let bends = pieces.iter().map(|pieces| bends(pieces, target, rate));
+            let [bend, steep] = bends.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
+            curvature += bend;
+            slope += steep;
+            let most =
+                |k: usize| on.iter().map(|on| on.jumps(k).map(f64::abs).sum::<f64>()).fold(0.0, f64::max);
+            kinks += shear.map_or(0.0, most) * rate;
+            jumps += most(target.k);
+        }
+        let [_, b, c] = target.dead.quadratic(target.k);
+        curvature += (-2.0 * target.sign * c * rate * rate).max(0.0);
+        slope += (b.abs() + 2.0 * c.abs() * carrier.length) * rate;
+        let mut places = places(plan, over, carrier, target);
+        places.sort_by(f64::total_cmp);
+        places.dedup_by(|b, a| *b - *a <= 1e-12 * carrier.x[1].abs().max(carrier.x[0].abs()));
+        let trains = plan.trains.len() as f64;
+        let opposed = over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels);
+        Blocked { curvature, slope, kinks, jumps, places, opposed, trains, is_moment: shear.is_some() }
+    }
+
+    /// By how much the envelope may exceed its values at the ends of an interval.
+    pub fn margin(&self, [from, to]: [f64; 2]) -> f64 {
+        let h = to - from;
+        let reach = self.trains * h;
+        let first = self.places.partition_point(|x| *x < from - reach);
+        let near = self.places[first..].iter().take_while(|x| **x <= to + reach).take(2).count();
+        let near = if self.opposed { 2 } else { near };
+        let smooth = self.curvature * h * h / 8.0;
+        match (near, self.is_moment) {
+            (0, _) => smooth,
+            (_, true) => smooth + self.kinks * h / 4.0,
+            (1, false) => smooth + self.slope * h,
+            (_, false) => smooth + self.slope * h + self.jumps,
+        }
+    }
+}
+
+/// Bounds of minus the second derivative and of the slope of sign times a response while train and section move along
+/// together, by rail coordinate: the response at place s is B(p) + s V(p), V being the shear at the end of the member.
+fn bends(pieces: &Pieces<QUANTITIES>, target: &Target<'_>, rate: f64) -> [f64; 2] {
+    let mut out = [0.0_f64; 2];
+    for piece in &pieces.list {
+        let h = piece.length();
+        let [_, b, c, d] = piece.cubics[target.k].map(|c| target.sign * c);
+        let [_, e, f, g] =
+            slope_index(target.k).map_or([0.0; 4], |shear| piece.cubics[shear].map(|c| target.sign * c));
+        // Bernstein coefficients of the slope of a cubic on 0..=h enclose it.
+        let slopes = |b: f64, c: f64, d: f64| [b, b + c * h, b + 2.0 * c * h + 3.0 * d * h * h];
+        let turning = slopes(e, f, g).into_iter().fold(f64::INFINITY, f64::min);
+        for s in target.window {
+            for t in [0.0, h] {
+                let second = 2.0 * (c + s * f) + 6.0 * (d + s * g) * t;
+                out[0] = out[0].max(-(second + 2.0 * rate * turning));
+            }
+            for (own, shear) in slopes(b, c, d).into_iter().zip(slopes(e, f, g)) {
+                out[1] = out[1].max((own + s * shear).abs());
+            }
+        }
+    }
+    out
+}
+
+/// Rail coordinates of the carrier near which a wheel of a blocked train may stand.
+fn places(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_>) -> Vec<f64> {
+    // Signs of forces do not move wheels: one stance each way round, with the barriers of all.
+    let mut ways = Vec::new();
+    let mut all: Vec<Vec<Vec<f64>>> = Vec::new();
+    for (train, stances) in plan.trains.iter().enumerate() {
+        let mut own: Vec<usize> = Vec::new();
+        let mut barriers = vec![Vec::new(); stances.len()];
+        for (stance, placed) in stances.iter().enumerate() {
+            let known = own.iter().copied().find(|&k| stances[k].stance.turned == placed.stance.turned);
+            let way = known.unwrap_or(stance);
+            if known.is_none() {
+                own.push(stance);
+                barriers[way].extend(placed.range);
+            }
+            let (pieces, on) = (&over.pieces[train][stance], &over.on[train][stance]);
+            barriers[way].extend(sharp_positions(pieces, on, target));
+        }
+        for list in &mut barriers {
+            list.sort_by(f64::total_cmp);
+            list.dedup();
+        }
+        ways.push(own);
+        all.push(barriers);
+    }
+    let mut out = Vec::new();
+    plan.for_each_arrangement(&ways, &mut |order, stances| {
+        let mut add = |k: usize, position: f64| {
+            if position.is_finite() {
+                over.on[order[k]][stances[k]].coordinates(carrier, position, &mut out);
+            }
+        };
+        for k in 0..order.len() {
+            for &barrier in &all[order[k]][stances[k]] {
+                add(k, barrier);
+                // Trains that touch it, and those that touch them, on either side.
+                let mut position = barrier;
+                for next in k + 1..order.len() {
+                    position += plan.distance(order, stances, next);
+                    add(next, position);
+                }
+                position = barrier;
+                for next in (0..k).rev() {
+                    position -= plan.distance(order, stances, next + 1);
+                    add(next, position);
+                }
+            }
+        }
+    });
+    out
+}
+
+/// Positions at which the response of a section to a train has a kink or a jump although no wheel passes the section.
+fn sharp_positions(pieces: &Pieces<QUANTITIES>, on: &TrainOnCarrier, target: &Target<'_>) -> Vec<f64> {
+    let mut out = Vec::new();
+    let [from, to] = target.window;
+    // The response is linear in the place: two sections tell for all.
+    for third in [1.0, 2.0] {
+        let s = from + (to - from) * third / 3.0;
+        let list = on.section(pieces, s);
+        let size = |k: usize| {
+            list.iter().map(|piece| start(piece, k)[0].abs().max(end(piece, k)[0].abs())).fold(0.0, f64::max)
+        };
+        let sizes: [f64; QUANTITIES] = std::array::from_fn(size);
+        let length = list.last().map_or(0.0, |last| last.position[1]) - list[0].position[0];
+        let shear = slope_index(target.k);
+        let breaks = pieces.list.iter().skip(1).map(|piece| piece.position[0]);
+        for position in breaks {
+            let after = list.partition_point(|piece| piece.position[0] < position);
+            let Some([before, behind]) = after.checked_sub(1).and_then(|k| list.get(k..k + 2)) else {
+                continue;
+            };
+            let change = |k: usize| {
+                let ([a, b], [c, d]) = (end(before, k), start(behind, k));
+                [c - a, d - b]
+            };
+            let [jump, kink] = change(target.k);
+            let sharp = jump.abs() > SMOOTH * sizes[target.k]
+                || kink.abs() * length > 10.0 * SMOOTH * sizes[target.k]
+                || shear.is_some_and(|shear| change(shear)[0].abs() > SMOOTH * sizes[shear]);
+            if sharp {
+                out.push(position);
+            }
+        }
+    }
+    out
+}
+
+/// Value and slope of a response where a piece begins.
+fn start<const N: usize>(piece: &Piece<N>, k: usize) -> [f64; 2] {
+    let [a, b, ..] = piece.cubics[k];
+    [a, b]
+}
+
+/// Value and slope of a response where a piece ends.
+fn end<const N: usize>(piece: &Piece<N>, k: usize) -> [f64; 2] {
+    let h = piece.length();
+    let [a, b, c, d] = piece.cubics[k];
+    [a + h * (b + h * (c + h * d)), b + h * (2.0 * c + 3.0 * d * h)]
+}
