@@ -39,6 +39,11 @@ impl DesignError {
                 "its trains must fit on the rails beside each other".to_owned(),
                 "fewer trains, a smaller gap, or \"enters\": true",
             ),
+            trains::Error::Ring { case } => fault(
+                path(&[("cases", *case)]),
+                "its trains hinder each other in a ring, which cannot be arranged exactly".to_owned(),
+                "leave out a train that shares a rail with only some of the others",
+            ),
             trains::Error::NoStiffness { train, wheel, axis } => fault(
                 path(&[("trains", *train), ("wheels", *wheel)]),
                 format!("must have no {} force: the structure does not resist one on this rail", word(*axis)),

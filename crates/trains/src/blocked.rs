@@ -9,7 +9,7 @@
 //! A train is blocked where it stands within h of the end of its positions or of a position at which one of its influence
 //! lines has a kink or a jump, or, in turn, within h of touching a blocked train. Blocked trains are held while the others
 //! move. The section then passes their wheels, which adds K h/4 to a moment, K being the sum of the jumps of its slope, and
-//! G h to the other forces, G being the largest slope of their influence lines. As blocked wheels are near few known places
+//! G h to what jumps at wheels, G being its largest slope elsewhere. As blocked wheels are near few known places
 //! only, this term is absent from all other intervals.
 
 use crate::follow::Target;
@@ -37,7 +37,8 @@ pub(crate) struct Blocked {
     opposed: bool,
     /// Number of trains.
     trains: f64,
-    is_moment: bool,
+    /// Whether held wheels change the slope alone, as forces without couples do with a moment.
+    only_kinks: bool,
 }
 
 impl Blocked {
@@ -53,8 +54,13 @@ impl Blocked {
             slope += steep;
             let most =
                 |k: usize| on.iter().map(|on| on.jumps(k).map(f64::abs).sum::<f64>()).fold(0.0, f64::max);
-            kinks += shear.map_or(0.0, most) * rate;
             jumps += most(target.k);
+            if let Some(shear) = shear {
+                kinks += most(shear) * rate;
+                // A section that moves past held wheels changes its moment by the shear force.
+                let largest = pieces.iter().map(|pieces| largest(pieces, shear)).fold(0.0, f64::max);
+                slope += (largest + most(shear)) * rate;
+            }
         }
         let [_, b, c] = target.dead.quadratic(target.k);
         curvature += (-2.0 * target.sign * c * rate * rate).max(0.0);
@@ -64,7 +70,8 @@ impl Blocked {
         places.dedup_by(|b, a| *b - *a <= 1e-12 * carrier.x[1].abs().max(carrier.x[0].abs()));
         let trains = plan.trains.len() as f64;
         let opposed = over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels);
-        Blocked { curvature, slope, kinks, jumps, places, opposed, trains, is_moment: shear.is_some() }
+        let only_kinks = shear.is_some() && jumps == 0.0;
+        Blocked { curvature, slope, kinks, jumps, places, opposed, trains, only_kinks }
     }
 
     /// By how much the envelope may exceed its values at the ends of an interval.
@@ -75,7 +82,7 @@ impl Blocked {
         let near = self.places[first..].iter().take_while(|x| **x <= to + reach).take(2).count();
         let near = if self.opposed { 2 } else { near };
         let smooth = self.curvature * h * h / 8.0;
-        match (near, self.is_moment) {
+        match (near, self.only_kinks) {
             (0, _) => smooth,
             (_, true) => smooth + self.kinks * h / 4.0,
             (1, false) => smooth + self.slope * h,
@@ -109,6 +116,16 @@ fn bends(pieces: &Pieces<QUANTITIES>, target: &Target<'_>, rate: f64) -> [f64; 2
     out
 }
 
+/// Bound of the size of response k.
+fn largest(pieces: &Pieces<QUANTITIES>, k: usize) -> f64 {
+    let size = |piece: &Piece<QUANTITIES>| {
+        let h = piece.length();
+        let [a, b, c, d] = piece.cubics[k].map(f64::abs);
+        a + h * (b + h * (c + h * d))
+    };
+    pieces.list.iter().map(size).fold(0.0, f64::max)
+}
+
 /// Rail coordinates of the carrier near which a wheel of a blocked train may stand.
 fn places(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_>) -> Vec<f64> {
     // Signs of forces do not move wheels: one stance each way round, with the barriers of all.
@@ -137,23 +154,28 @@ fn places(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_
     let mut out = Vec::new();
     plan.for_each_arrangement(&ways, &mut |order, stances| {
         let mut add = |k: usize, position: f64| {
-            if position.is_finite() {
-                over.on[order[k]][stances[k]].coordinates(carrier, position, &mut out);
-            }
+            over.on[order[k]][stances[k]].coordinates(carrier, position, &mut out);
         };
+        let step = |j: usize, k: usize| plan.distance((order[j], stances[j]), (order[k], stances[k]));
         for k in 0..order.len() {
             for &barrier in &all[order[k]][stances[k]] {
                 add(k, barrier);
                 // Trains that touch it, and those that touch them, on either side.
-                let mut position = barrier;
+                let mut reached = vec![Vec::new(); order.len()];
+                reached[k].push(barrier);
                 for next in k + 1..order.len() {
-                    position += plan.distance(order, stances, next);
-                    add(next, position);
+                    let from = (k..next).flat_map(|j| reached[j].iter().map(move |p| (j, *p)));
+                    let touching: Vec<f64> =
+                        from.map(|(j, p)| p + step(j, next)).filter(|p| p.is_finite()).collect();
+                    touching.iter().for_each(|p| add(next, *p));
+                    reached[next] = touching;
                 }
-                position = barrier;
                 for next in (0..k).rev() {
-                    position -= plan.distance(order, stances, next + 1);
-                    add(next, position);
+                    let from = (next + 1..=k).flat_map(|j| reached[j].iter().map(move |p| (j, *p)));
+                    let touching: Vec<f64> =
+                        from.map(|(j, p)| p - step(next, j)).filter(|p| p.is_finite()).collect();
+                    touching.iter().for_each(|p| add(next, *p));
+                    reached[next] = touching;
                 }
             }
         }

@@ -29,6 +29,14 @@ pub enum Error {
         /// Index of the case.
         case: usize,
     },
+    /// Trains of a case hinder each other in a ring.
+    #[error(
+        "the trains of the case hinder each other in a ring: each shares a rail with two others that do not share it with each other"
+    )]
+    Ring {
+        /// Index of the case.
+        case: usize,
+    },
     /// A wheel has a force in a direction that the structure does not resist.
     #[error("the structure has no stiffness against {axis:?} forces on the rail")]
     NoStiffness {

@@ -6,11 +6,13 @@
 //! F_1 = f_1,    F_(j+1)(q) = f_(j+1)(q) + max over p <= q - c of F_j(p),
 //!
 //! and the running maximum of piecewise cubics is piecewise cubic or constant, so that the result is exact. Orders and
-//! stances are enumerated. Trains that share no rail do not hinder each other; each such group is treated by itself.
+//! turns are enumerated; f_j is the larger of all signs. Trains that share no rail do not hinder each other; each such
+//! group is treated by itself. A train may follow several others that do not share rails with each other, and their running
+//! maxima are added; where one is followed by several, positions are counted backwards.
 
 use crate::error::Error;
 use crate::pieces::Piece;
-use crate::running::{PiecewiseFunction, running_maximum, sum_of};
+use crate::running::{PiecewiseFunction, larger_of, running_maximum, sum_of};
 use crate::structure::Structure;
 use crate::train::{COMPONENTS, PlacedTrain, TrainCase};
 
@@ -36,7 +38,25 @@ pub(crate) struct CasePlan {
 /// Trains that hinder each other, in every order.
 #[derive(Clone, Debug)]
 struct Group {
-    orders: Vec<Vec<usize>>,
+    orders: Vec<Order>,
+}
+
+/// Trains in an order in which each is followed by at most one other.
+#[derive(Clone, Debug)]
+struct Order {
+    trains: Vec<usize>,
+    /// Places in the order of the trains that each one follows directly.
+    before: Vec<Vec<usize>>,
+    /// Whether positions are counted backwards.
+    mirrored: bool,
+}
+
+/// A train one way round: its response, the largest of all signs of its forces.
+struct Way {
+    /// The first stance of this way round.
+    stance: usize,
+    /// As a function of the position, and of the position counted backwards.
+    function: [PiecewiseFunction; 2],
 }
 
 /// Where one train stands in the best arrangement.
@@ -122,7 +142,26 @@ impl CasePlan {
             .collect();
         let share = |a: usize, b: usize| distances[a][0][b][0] > f64::NEG_INFINITY;
         let equal = |a: usize, b: usize| case.trains[a] == case.trains[b];
-        let groups = groups(trains.len(), share, equal, case.ordered);
+        // Whether two trains cannot hinder each other while a third between them hinders neither.
+        let implied = |j: usize, m: usize, k: usize| {
+            share(j, m)
+                && share(m, k)
+                && distances[j].iter().all(|from| {
+                    (0..distances[m].len()).all(|way| {
+                        let onward = distances[m][way][k].iter();
+                        let both =
+                            onward.zip(&from[k]).map(|(onward, direct)| (from[m][way] + onward, direct));
+                        both.into_iter().all(|(sum, direct)| sum >= direct - structure.slack())
+                    })
+                })
+        };
+        let orders = groups(trains.len(), share, equal, case.ordered);
+        let mut groups = Vec::with_capacity(orders.len());
+        for group in orders {
+            let orders: Option<Vec<Order>> =
+                group.into_iter().map(|order| Order::new(order, &share, &implied)).collect();
+            groups.push(Group { orders: orders.ok_or(Error::Ring { case: index })? });
+        }
         let plan = CasePlan { trains, groups, distances, dead: case.dead };
         let room = plan
             .groups
@@ -132,32 +171,44 @@ impl CasePlan {
     }
 
     /// Whether the trains fit in an order in some stances.
-    fn fits(&self, order: &[usize], slack: f64) -> bool {
+    fn fits(&self, order: &Order, slack: f64) -> bool {
         let mut ok = false;
         let all: Vec<Vec<usize>> = self.trains.iter().map(|stances| (0..stances.len()).collect()).collect();
-        choices(order, &all, &mut |stances| {
-            let mut lowest = f64::NEG_INFINITY;
-            let fits = order.iter().enumerate().all(|(k, &train)| {
-                let [first, last] = self.trains[train][stances[k]].range;
-                let least = if k == 0 { first } else { first.max(lowest + self.distance(order, stances, k)) };
-                lowest = least;
+        choices(&order.trains, &all, &mut |stances| {
+            let mut lowest: Vec<f64> = Vec::with_capacity(stances.len());
+            ok |= order.trains.iter().enumerate().all(|(k, &train)| {
+                let [a, b] = self.trains[train][stances[k]].range;
+                let [first, last] = if order.mirrored { [-b, -a] } else { [a, b] };
+                let before = order.before[k].iter().map(|&j| lowest[j] + self.step(order, stances, j, k));
+                let least = before.fold(first, f64::max);
+                lowest.push(least);
                 least <= last + slack
             });
-            ok |= fits;
         });
         ok
     }
 
-    /// Calls `each` with every order of the trains of each group and every choice among their listed stances.
+    /// Calls `each` with every order of the trains of each group, by increasing position, and every choice among their
+    /// listed stances.
     pub fn for_each_arrangement(&self, listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize], &[usize])) {
         for order in self.groups.iter().flat_map(|group| &group.orders) {
-            choices(order, listed, &mut |stances| each(order, stances));
+            let mut trains = order.trains.clone();
+            if order.mirrored {
+                trains.reverse();
+            }
+            choices(&trains, listed, &mut |stances| each(&trains, stances));
         }
     }
 
-    /// Least distance from train k - 1 of an order to train k.
-    pub fn distance(&self, order: &[usize], stances: &[usize], k: usize) -> f64 {
-        self.distances[order[k - 1]][stances[k - 1]][order[k]][stances[k]]
+    /// Least distance from a train in a stance to one behind it; minus infinity where they share no rail.
+    pub fn distance(&self, (train, stance): (usize, usize), (next, other): (usize, usize)) -> f64 {
+        self.distances[train][stance][next][other]
+    }
+
+    /// Least distance from the train at place j of an order to the one at place k that follows it.
+    fn step(&self, order: &Order, stances: &[usize], j: usize, k: usize) -> f64 {
+        let [first, second] = [j, k].map(|at| (order.trains[at], stances[at]));
+        if order.mirrored { self.distance(second, first) } else { self.distance(first, second) }
     }
 
     /// The arrangement with the largest value of sign times response `k`; `pieces[train][stance]` are the responses to
@@ -174,65 +225,132 @@ impl CasePlan {
             return best_of_one(stances, distinct, k, sign, floor);
         }
         let mut out = Arrangement { signed: 0.0, trains: vec![Standing::default(); pieces.len()] };
+        let mut ways: Vec<Vec<Way>> = pieces.iter().map(|_| Vec::new()).collect();
         for group in &self.groups {
-            if let [train] = group.orders[0][..] {
+            if let [train] = group.orders[0].trains[..] {
                 let one = best_of_one(&pieces[train], &distinct[train], k, sign, f64::NEG_INFINITY)?;
                 out.signed += one.signed;
                 out.trains[train] = one.trains[0];
                 continue;
             }
-            let mut best: Option<(f64, Vec<(usize, Standing)>)> = None;
+            for &train in &group.orders[0].trains {
+                ways[train] = self.ways(&pieces[train], &distinct[train], train, k, sign);
+            }
+            let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
+            let mut best: Option<(f64, Vec<(usize, usize, f64)>)> = None;
             for order in &group.orders {
-                choices(order, &distinct, &mut |stances| {
+                choices(&order.trains, &listed, &mut |chosen| {
                     let limit =
                         best.as_ref().map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
-                    if let Some(found) = self.chain(pieces, order, stances, k, sign, limit) {
+                    let of: Vec<&Way> =
+                        order.trains.iter().zip(chosen).map(|(&train, &way)| &ways[train][way]).collect();
+                    if let Some(found) = self.chain(order, &of, limit) {
                         best = Some(found);
                     }
                 });
             }
             let (signed, trains) = best?;
             out.signed += signed;
-            trains.into_iter().for_each(|(train, standing)| out.trains[train] = standing);
+            for (train, stance, position) in trains {
+                let list = &pieces[train][stance];
+                let piece = list.partition_point(|piece| piece.position[1] < position).min(list.len() - 1);
+                out.trains[train] = Standing { stance, position, piece };
+            }
         }
         (out.signed >= floor).then_some(out)
     }
 
-    /// The best positions of trains in one order and in given stances, if the value is above `limit`.
-    fn chain<const N: usize>(
+    /// Sign times response k to a train each way round.
+    fn ways<const N: usize>(
         &self,
-        pieces: &[Vec<Vec<Piece<N>>>],
-        order: &[usize],
-        stances: &[usize],
+        pieces: &[Vec<Piece<N>>],
+        distinct: &[usize],
+        train: usize,
         k: usize,
         sign: f64,
-        limit: f64,
-    ) -> Option<(f64, Vec<(usize, Standing)>)> {
-        let own = |at: usize| PiecewiseFunction::of(&pieces[order[at]][stances[at]], k, sign);
-        let mut sums = vec![own(0)];
-        for at in 1..order.len() {
-            let before = running_maximum(&sums[at - 1], self.distance(order, stances, at));
-            sums.push(sum_of(&own(at), &before)?);
-        }
-        let last = order.len() - 1;
-        let (mut position, value) = sums[last].largest(f64::INFINITY)?;
-        if value <= limit {
-            return None;
-        }
-        let mut out = Vec::with_capacity(order.len());
-        for at in (0..=last).rev() {
-            let list = &pieces[order[at]][stances[at]];
-            let piece = list.partition_point(|piece| piece.position[1] < position).min(list.len() - 1);
-            out.push((order[at], Standing { stance: stances[at], position, piece }));
-            if at > 0 {
-                let distance = self.distance(order, stances, at);
-                // A train that touches the next may stand exactly where its response jumps.
-                let rounding =
-                    if distance.is_finite() { TIE * position.abs().max(distance.abs()) } else { 0.0 };
-                position = sums[at - 1].largest(position - distance + rounding)?.0;
+    ) -> Vec<Way> {
+        let mut out: Vec<(bool, usize, PiecewiseFunction)> = Vec::new();
+        for &stance in distinct {
+            let turned = self.trains[train][stance].stance.turned;
+            let own = PiecewiseFunction::of(&pieces[stance], k, sign, stance);
+            match out.iter_mut().find(|(known, ..)| *known == turned) {
+                Some((_, _, function)) => *function = larger_of(function, &own),
+                None => out.push((turned, stance, own)),
             }
         }
-        Some((value, out))
+        let both = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
+            let mirrored = function.mirrored();
+            Way { stance, function: [function, mirrored] }
+        };
+        out.into_iter().map(both).collect()
+    }
+
+    /// The best positions of trains in one order and one way round each, if the value is above `limit`: train, stance and
+    /// position.
+    fn chain(&self, order: &Order, ways: &[&Way], limit: f64) -> Option<(f64, Vec<(usize, usize, f64)>)> {
+        let stances: Vec<usize> = ways.iter().map(|way| way.stance).collect();
+        let mut sums: Vec<PiecewiseFunction> = Vec::with_capacity(ways.len());
+        for (at, way) in ways.iter().enumerate() {
+            let mut sum = way.function[usize::from(order.mirrored)].clone();
+            for &j in &order.before[at] {
+                sum = sum_of(&sum, &running_maximum(&sums[j], self.step(order, &stances, j, at)))?;
+            }
+            sums.push(sum);
+        }
+        let followed: Vec<usize> = order.before.iter().flatten().copied().collect();
+        let mut value = 0.0;
+        let mut found = Vec::with_capacity(ways.len());
+        for last in (0..ways.len()).filter(|at| !followed.contains(at)) {
+            let mut open = vec![(last, f64::INFINITY)];
+            while let Some((at, most)) = open.pop() {
+                let largest = sums[at].largest(most)?;
+                if at == last {
+                    value += largest.value;
+                }
+                let position = if order.mirrored { -largest.position } else { largest.position };
+                found.push((order.trains[at], largest.stance, position));
+                for &j in &order.before[at] {
+                    let step = self.step(order, &stances, j, at);
+                    // A train that touches the next may stand exactly where its response jumps.
+                    let rounding = TIE * position.abs().max(step.abs());
+                    open.push((j, largest.position - step + rounding));
+                }
+            }
+        }
+        (value > limit).then_some((value, found))
+    }
+}
+
+impl Order {
+    /// Finds for each train which ones it follows directly, forwards or backwards; `None` where neither way each is
+    /// followed by at most one.
+    fn new(
+        trains: Vec<usize>,
+        share: &impl Fn(usize, usize) -> bool,
+        implied: &impl Fn(usize, usize, usize) -> bool,
+    ) -> Option<Order> {
+        let direct = |trains: &[usize], mirrored: bool| -> Vec<Vec<usize>> {
+            let follows = |k: usize, j: usize| {
+                let [from, to] = if mirrored { [k, j] } else { [j, k] };
+                share(trains[j], trains[k])
+                    && !(j + 1..k).any(|m| implied(trains[from], trains[m], trains[to]))
+            };
+            (0..trains.len()).map(|k| (0..k).filter(|&j| follows(k, j)).collect()).collect()
+        };
+        let once = |before: &Vec<Vec<usize>>| {
+            let mut all: Vec<usize> = before.iter().flatten().copied().collect();
+            let count = all.len();
+            all.sort_unstable();
+            all.dedup();
+            all.len() == count
+        };
+        let before = direct(&trains, false);
+        if once(&before) {
+            return Some(Order { trains, before, mirrored: false });
+        }
+        let trains: Vec<usize> = trains.into_iter().rev().collect();
+        let before = direct(&trains, true);
+        once(&before).then_some(Order { trains, before, mirrored: true })
     }
 }
 
@@ -306,7 +424,7 @@ fn groups(
     share: impl Fn(usize, usize) -> bool,
     equal: impl Fn(usize, usize) -> bool,
     ordered: bool,
-) -> Vec<Group> {
+) -> Vec<Vec<Vec<usize>>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for train in 0..count {
         let (met, apart): (Vec<_>, Vec<_>) =
@@ -321,9 +439,9 @@ fn groups(
     let increasing = |order: &Vec<usize>| {
         (0..order.len()).all(|i| (0..i).all(|j| order[j] < order[i] || !equal(order[i], order[j])))
     };
-    let orders = |group: Vec<usize>| {
+    let orders = |group: Vec<usize>| -> Vec<Vec<usize>> {
         let all = if ordered { vec![group] } else { permutations(&group) };
-        Group { orders: all.into_iter().filter(|order| ordered || increasing(order)).collect() }
+        all.into_iter().filter(|order| ordered || increasing(order)).collect()
     };
     groups.into_iter().map(orders).collect()
 }

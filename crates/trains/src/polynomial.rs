@@ -59,6 +59,13 @@ impl Polynomial {
         Polynomial::new(&out)
     }
 
+    /// The polynomial p(-t).
+    pub fn reversed(&self) -> Polynomial {
+        let mut out = *self;
+        out.coefficients.iter_mut().skip(1).step_by(2).for_each(|c| *c = -*c);
+        out
+    }
+
     /// The polynomial p(t/h).
     pub fn stretched(&self, h: f64) -> Polynomial {
         let mut out = self.coefficients;

@@ -6,46 +6,123 @@ use crate::polynomial::Polynomial;
 /// A function that is cubic between increasing positions and may jump at them, where the larger of both limits counts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PiecewiseFunction {
-    /// First and last position of each piece, and the cubic in the distance from the first.
-    pieces: Vec<([f64; 2], Polynomial)>,
+    pieces: Vec<Part>,
+}
+
+/// A piece of a function.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    /// First and last position.
+    position: [f64; 2],
+    /// In the distance from the first position.
+    cubic: Polynomial,
+    /// The stance of the train whose response it is.
+    stance: usize,
+}
+
+/// The largest value of a function, and where it is.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Largest {
+    pub position: f64,
+    pub value: f64,
+    pub stance: usize,
+}
+
+impl Part {
+    fn new(position: [f64; 2], cubic: Polynomial, stance: usize) -> Part {
+        Part { position, cubic, stance }
+    }
+
+    fn length(&self) -> f64 {
+        self.position[1] - self.position[0]
+    }
+
+    /// The part between two positions.
+    fn between(&self, [from, to]: [f64; 2]) -> Part {
+        let by = from - self.position[0];
+        let cubic = if by.is_finite() && by != 0.0 { self.cubic.shifted(by) } else { self.cubic };
+        Part::new([from, to], cubic, self.stance)
+    }
 }
 
 impl PiecewiseFunction {
-    /// Sign times response k of a list of pieces.
-    pub fn of<const N: usize>(pieces: &[Piece<N>], k: usize, sign: f64) -> PiecewiseFunction {
+    /// Sign times response k of a list of pieces in a stance.
+    pub fn of<const N: usize>(pieces: &[Piece<N>], k: usize, sign: f64, stance: usize) -> PiecewiseFunction {
         let cubic = |piece: &Piece<N>| Polynomial::default().plus(&piece.polynomial(k), sign);
-        PiecewiseFunction { pieces: pieces.iter().map(|piece| (piece.position, cubic(piece))).collect() }
+        PiecewiseFunction {
+            pieces: pieces.iter().map(|piece| Part::new(piece.position, cubic(piece), stance)).collect(),
+        }
     }
 
     /// The largest value at positions up to `last`, with the first position that has it.
-    pub fn largest(&self, last: f64) -> Option<(f64, f64)> {
-        let mut best: Option<(f64, f64)> = None;
-        for ([from, to], cubic) in self.pieces.iter().filter(|([from, _], _)| *from <= last) {
-            let floor = best.map_or(f64::NEG_INFINITY, |(_, value)| value);
-            if let Some((t, value)) = cubic.largest_above((to.min(last) - from).max(0.0), floor)
+    pub fn largest(&self, last: f64) -> Option<Largest> {
+        let mut best: Option<Largest> = None;
+        for part in self.pieces.iter().filter(|part| part.position[0] <= last) {
+            let [from, to] = part.position;
+            let floor = best.map_or(f64::NEG_INFINITY, |best| best.value);
+            if let Some((t, value)) = part.cubic.largest_above((to.min(last) - from).max(0.0), floor)
                 && value > floor
             {
-                best = Some((from + t, value));
+                best = Some(Largest { position: from + t, value, stance: part.stance });
             }
         }
         best
     }
+
+    /// p -> f(-p).
+    pub fn mirrored(&self) -> PiecewiseFunction {
+        let turn = |part: &Part| {
+            let back = part.cubic.shifted(part.length()).reversed();
+            Part::new([-part.position[1], -part.position[0]], back, part.stance)
+        };
+        PiecewiseFunction { pieces: self.pieces.iter().rev().map(turn).collect() }
+    }
+}
+
+/// Calls `each` with the parts of two functions where both are defined. Parts that only touch have a common limit, which
+/// counts where one of them has no length.
+fn overlaps(f: &PiecewiseFunction, g: &PiecewiseFunction, mut each: impl FnMut(Part, Part)) {
+    let mut first = 0;
+    for a in &f.pieces {
+        first += g.pieces[first..].iter().take_while(|b| b.position[1] < a.position[0]).count();
+        for b in g.pieces[first..].iter().take_while(|b| b.position[0] <= a.position[1]) {
+            let both = [a.position[0].max(b.position[0]), a.position[1].min(b.position[1])];
+            let touch = both[0] == both[1] && a.length() != 0.0 && b.length() != 0.0;
+            if both[0] <= both[1] && !touch {
+                each(a.between(both), b.between(both));
+            }
+        }
+    }
+}
+
+/// The larger of two functions of the same positions.
+pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> PiecewiseFunction {
+    let mut out = PiecewiseFunction::default();
+    overlaps(f, g, |a, b| {
+        let difference = a.cubic.plus(&b.cubic, -1.0);
+        let roots = difference.roots(a.length());
+        let mut from = 0.0;
+        for &to in roots.list().iter().chain(&[a.length()]) {
+            if to > from || a.length() == 0.0 {
+                let more = if difference.at(0.5 * (from + to)) >= 0.0 { &a } else { &b };
+                let end = if to >= a.length() { a.position[1] } else { a.position[0] + to };
+                out.pieces.push(more.between([a.position[0] + from, end]));
+                from = to;
+            }
+        }
+    });
+    out
 }
 
 /// q -> max over p <= q - distance of f(p), for q from the first position of f on; beyond the last it is constant up to
-/// infinity. A `distance` of minus infinity stands for no restriction.
+/// infinity.
 pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> PiecewiseFunction {
-    let whole = [f64::NEG_INFINITY, f64::INFINITY];
-    if distance == f64::NEG_INFINITY {
-        let most = f.largest(f64::INFINITY).map_or(f64::NEG_INFINITY, |(_, value)| value);
-        return PiecewiseFunction { pieces: vec![(whole, Polynomial::new(&[most]))] };
-    }
     let mut out = PiecewiseFunction::default();
     let mut most = f64::NEG_INFINITY;
     let mut add = |from: f64, to: f64, cubic: Polynomial| {
-        out.pieces.push(([from + distance, to + distance], cubic));
+        out.pieces.push(Part::new([from + distance, to + distance], cubic, 0));
     };
-    for ([start, end], cubic) in &f.pieces {
+    for Part { position: [start, end], cubic, .. } in &f.pieces {
         let places = cubic.candidates(end - start);
         most = most.max(cubic.at(0.0));
         for ends in places.list().windows(2) {
@@ -66,7 +143,7 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
             add(*start, *end, Polynomial::new(&[most]));
         }
     }
-    let end = f.pieces.last().map_or(0.0, |([_, end], _)| *end);
+    let end = f.pieces.last().map_or(0.0, |part| part.position[1]);
     add(end, f64::INFINITY, Polynomial::new(&[most]));
     out
 }
@@ -85,21 +162,10 @@ fn crossing(cubic: &Polynomial, level: f64, ends: &[f64]) -> f64 {
     b
 }
 
-/// The sum of two functions where both are defined; `None` where they nowhere are.
+/// The sum of two functions where both are defined, with the stances of the first; `None` where they nowhere are.
 pub(crate) fn sum_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Option<PiecewiseFunction> {
     let mut out = PiecewiseFunction::default();
-    for ([a, b], first) in &f.pieces {
-        for ([c, d], second) in g.pieces.iter().filter(|([c, d], _)| *c <= *b && *d >= *a) {
-            let (from, to) = (a.max(*c), b.min(*d));
-            // Pieces that only touch give their common limit, which counts where one of them has no length.
-            if from > to || (from == to && a != b && c != d) {
-                continue;
-            }
-            let second = if c.is_finite() { second.shifted(from - c) } else { *second };
-            out.pieces.push(([from, to], first.shifted(from - a).plus(&second, 1.0)));
-        }
-    }
-    out.pieces.sort_by(|x, y| x.0[0].total_cmp(&y.0[0]));
+    overlaps(f, g, |a, b| out.pieces.push(Part { cubic: a.cubic.plus(&b.cubic, 1.0), ..a }));
     (!out.pieces.is_empty()).then_some(out)
 }
 
@@ -107,23 +173,51 @@ pub(crate) fn sum_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Option<Pie
 mod tests {
     use super::*;
 
+    fn value_of(f: &PiecewiseFunction, at: f64) -> f64 {
+        let part = f.pieces.iter().find(|part| part.position[0] <= at && at <= part.position[1]);
+        let part = part.expect("the function is defined there");
+        part.cubic.at(at - part.position[0])
+    }
+
+    fn random(random: &mut fastrand::Rng, breaks: &[f64]) -> PiecewiseFunction {
+        let mut f = PiecewiseFunction::default();
+        for ends in breaks.windows(2) {
+            let c: [f64; 4] = std::array::from_fn(|_| 2.0 * random.f64() - 1.0);
+            f.pieces.push(Part::new([ends[0], ends[1]], Polynomial::new(&c), 0));
+        }
+        f
+    }
+
+    /// The larger of two functions, their sum, and a mirrored one against samples.
+    #[test]
+    fn combined_functions_against_samples() {
+        let mut dice = fastrand::Rng::with_seed(12);
+        for _ in 0..50 {
+            let f = random(&mut dice, &[0.0, 1.0, 2.5, 4.0]);
+            let g = random(&mut dice, &[0.0, 0.7, 2.5, 3.0, 4.0]);
+            let (larger, sum, mirrored) =
+                (larger_of(&f, &g), sum_of(&f, &g).expect("both are defined"), f.mirrored());
+            for k in 0..400 {
+                let p = f64::from(k) / 100.0 + 0.003;
+                let (a, b) = (value_of(&f, p), value_of(&g, p));
+                assert!((value_of(&larger, p) - a.max(b)).abs() < 1e-11, "at {p}");
+                assert!((value_of(&sum, p) - (a + b)).abs() < 1e-11, "at {p}");
+                assert!((value_of(&mirrored, -p) - a).abs() < 1e-11, "at {p}");
+            }
+        }
+    }
+
     /// The running maximum of a random piecewise cubic against samples.
     #[test]
     fn running_maximum_against_samples() {
-        let mut random = fastrand::Rng::with_seed(11);
+        let mut dice = fastrand::Rng::with_seed(11);
         for _ in 0..50 {
-            let mut f = PiecewiseFunction::default();
-            for k in 0..6 {
-                let c: [f64; 4] = std::array::from_fn(|_| 2.0 * random.f64() - 1.0);
-                f.pieces.push(([f64::from(k), f64::from(k + 1)], Polynomial::new(&c)));
-            }
+            let f = random(&mut dice, &[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
             let running = running_maximum(&f, 0.5);
             for k in 0..600 {
                 let p = f64::from(k) / 100.0 + 0.003;
-                let known = f.largest(p).expect("p is within f").1;
-                let at = running.pieces.iter().find(|([a, b], _)| *a <= p + 0.5 && p + 0.5 <= *b);
-                let ([a, _], cubic) = at.expect("q is within the maximum");
-                assert!((cubic.at(p + 0.5 - a) - known).abs() < 1e-13, "at {p}");
+                let known = f.largest(p).expect("p is within f").value;
+                assert!((value_of(&running, p + 0.5) - known).abs() < 1e-13, "at {p}");
             }
         }
     }

@@ -18,7 +18,7 @@ use crate::structure::{Carrier, GirderResponse};
 
 /// Size of a force, relative to all wheels together, or of a moment, relative to them and the length of the member, below
 /// which it counts as zero.
-const ZERO: f64 = 1e-3;
+const ZERO: f64 = 1e-4;
 
 /// The largest value of a target under several trains, with the bound of sign times all values; `None` where the extremes
 /// are those at the ends of the window. Values that do not exceed `known`, sign times a value, are not sought.

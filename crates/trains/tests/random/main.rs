@@ -256,6 +256,7 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
     let effects = holds.into_iter().map(|hold| vec![Effect::Reaction(hold)]).collect();
     let request = Request { spans: scene.spans.clone(), places, effects };
     worst.scenes += 1;
+    let begin = std::time::Instant::now();
     let found = match envelopes(&structure, &scene.dead, std::slice::from_ref(&scene.case), &request) {
         Ok(mut found) => found.remove(0),
         Err(Error::NoRoom { .. } | Error::TooLong { .. } | Error::NoStiffness { .. }) => {
@@ -264,6 +265,11 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
         }
         Err(error) => panic!("seed {seed}: {error}"),
     };
+    if std::env::var_os("GIRDERWAY_TRACE").is_some() {
+        let trains = &scene.case.trains;
+        let wheels: Vec<usize> = trains.iter().map(|train| train.wheels.len()).collect();
+        eprintln!("seed {seed}: {:.3} s, wheels {wheels:?}", begin.elapsed().as_secs_f64());
+    }
     let mut sizes = [1e-300; 8];
     for e in &found.envelopes {
         let k = GirderResponse::ALL.iter().position(|q| *q == e.quantity).expect("it is one of them");
