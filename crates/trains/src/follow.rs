@@ -9,6 +9,7 @@
 use crate::dead::DeadLoad;
 use crate::pieces::Pieces;
 use crate::polynomial::Polynomial;
+use crate::running::PiecewiseFunction;
 use crate::section::{TrainOnCarrier, WheelOnMember, slope_index};
 use crate::structure::QUANTITIES;
 
@@ -82,6 +83,39 @@ impl TrainOnCarrier {
             self.vertices(&state, [piece.position[0], h], target, floor, &mut best);
         }
         best
+    }
+
+    /// Sign times the target, a force without dead load's curvature, at the section beside a wheel while it is within the
+    /// window, as a function of the position.
+    pub fn beside(
+        &self,
+        pieces: &Pieces<QUANTITIES>,
+        target: &Target<'_>,
+        wheel: usize,
+        side: SectionSide,
+        stance: usize,
+    ) -> PiecewiseFunction {
+        let mut out = PiecewiseFunction::default();
+        let mut wheels = Vec::new();
+        for (index, piece) in pieces.list.iter().enumerate() {
+            self.wheels(pieces, index, &mut wheels);
+            let Some(j) = wheels.iter().position(|on| on.wheel == wheel) else { continue };
+            let times = target.window.map(|s| (s - wheels[j].start) / wheels[j].rate);
+            let from = times[0].min(times[1]).max(0.0);
+            let to = times[0].max(times[1]).min(piece.length());
+            if from > to {
+                continue;
+            }
+            let state = State { base: &piece.cubics, wheels: &wheels };
+            let place = Polynomial::new(&[wheels[j].start + wheels[j].rate * from, wheels[j].rate]);
+            let live = state.quantity(target.k, &place, from, j + usize::from(side == SectionSide::Behind));
+            let dead = target.dead.along(target.k, &place);
+            let total = Polynomial::default().plus(&live, target.sign).plus(&dead, target.sign);
+            let first = piece.position[0];
+            let last = if to >= piece.length() { piece.position[1] } else { first + to };
+            out.push([first + from, last], total, stance);
+        }
+        out
     }
 
     /// Vertices of a moment between neighbouring loads, where the dead load bends it.

@@ -52,12 +52,15 @@ struct Order {
 }
 
 /// A train one way round: its response, the largest of all signs of its forces.
-struct Way {
+pub(crate) struct Way {
     /// The first stance of this way round.
-    stance: usize,
+    pub stance: usize,
     /// As a function of the position, and of the position counted backwards.
     function: [PiecewiseFunction; 2],
 }
+
+/// Value, and train, stance and position of each train of a group.
+type Chain = (f64, Vec<(usize, usize, f64)>);
 
 /// Where one train stands in the best arrangement.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -234,19 +237,16 @@ impl CasePlan {
                 continue;
             }
             for &train in &group.orders[0].trains {
-                ways[train] = self.ways(&pieces[train], &distinct[train], train, k, sign);
+                let own = |stance: usize| PiecewiseFunction::of(&pieces[train][stance], k, sign, stance);
+                ways[train] = self.ways(train, &distinct[train], own);
             }
             let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
-            let mut best: Option<(f64, Vec<(usize, usize, f64)>)> = None;
+            let mut best: Option<Chain> = None;
             for order in &group.orders {
                 choices(&order.trains, &listed, &mut |chosen| {
-                    let limit =
-                        best.as_ref().map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
                     let of: Vec<&Way> =
                         order.trains.iter().zip(chosen).map(|(&train, &way)| &ways[train][way]).collect();
-                    if let Some(found) = self.chain(order, &of, limit) {
-                        best = Some(found);
-                    }
+                    self.improve(order, &of, &mut best);
                 });
             }
             let (signed, trains) = best?;
@@ -260,19 +260,72 @@ impl CasePlan {
         (out.signed >= floor).then_some(out)
     }
 
-    /// Sign times response k to a train each way round.
-    fn ways<const N: usize>(
+    /// The best positions for a train whose response is known only where one of its wheels is at the section, with the
+    /// others entirely before it or entirely behind it: `following`, `passed` and `ahead` are their responses by way, and
+    /// all trains are of one group.
+    pub fn best_around(
         &self,
-        pieces: &[Vec<Piece<N>>],
-        distinct: &[usize],
         train: usize,
-        k: usize,
-        sign: f64,
-    ) -> Vec<Way> {
+        following: &[Way],
+        passed: &[Vec<Way>],
+        ahead: &[Vec<Way>],
+    ) -> Option<Arrangement> {
+        let group = self.groups.iter().find(|group| group.orders[0].trains.contains(&train))?;
+        let listed: Vec<Vec<usize>> = (0..passed.len())
+            .map(|other| {
+                let count = if other == train { following.len() } else { passed[other].len() };
+                (0..count).collect()
+            })
+            .collect();
+        let mut best: Option<Chain> = None;
+        for order in &group.orders {
+            let at = order.trains.iter().position(|&other| other == train)?;
+            choices(&order.trains, &listed, &mut |chosen| {
+                let of = |(k, (&other, &way)): (usize, (&usize, &usize))| {
+                    let is_passed = (k < at) != order.mirrored;
+                    match k == at {
+                        true => &following[way],
+                        false if is_passed => &passed[other][way],
+                        false => &ahead[other][way],
+                    }
+                };
+                let ways: Vec<&Way> = order.trains.iter().zip(chosen).enumerate().map(of).collect();
+                self.improve(order, &ways, &mut best);
+            });
+        }
+        let (signed, found) = best?;
+        let mut trains = vec![Standing::default(); self.trains.len()];
+        for (train, stance, position) in found {
+            trains[train] = Standing { stance, position, piece: 0 };
+        }
+        Some(Arrangement { signed, trains })
+    }
+
+    /// Whether all trains are of one group, in which each shares a rail with each other.
+    pub fn is_one_queue(&self) -> bool {
+        self.groups.len() == 1
+            && self.groups[0].orders.iter().all(|order| order.before.iter().all(|b| b.len() < 2))
+            && self
+                .distances
+                .iter()
+                .enumerate()
+                .all(|(a, from)| from[0].iter().enumerate().all(|(b, to)| a == b || to[0].is_finite()))
+    }
+
+    /// Takes the best positions in one order and in given ways if they are better.
+    fn improve(&self, order: &Order, ways: &[&Way], best: &mut Option<Chain>) {
+        let limit = best.as_ref().map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
+        if let Some(found) = self.chain(order, ways, limit) {
+            *best = Some(found);
+        }
+    }
+
+    /// A response to a train each way round, from that in each of the listed stances.
+    pub fn ways(&self, train: usize, listed: &[usize], own: impl Fn(usize) -> PiecewiseFunction) -> Vec<Way> {
         let mut out: Vec<(bool, usize, PiecewiseFunction)> = Vec::new();
-        for &stance in distinct {
+        for &stance in listed {
             let turned = self.trains[train][stance].stance.turned;
-            let own = PiecewiseFunction::of(&pieces[stance], k, sign, stance);
+            let own = own(stance);
             match out.iter_mut().find(|(known, ..)| *known == turned) {
                 Some((_, _, function)) => *function = larger_of(function, &own),
                 None => out.push((turned, stance, own)),
@@ -287,7 +340,7 @@ impl CasePlan {
 
     /// The best positions of trains in one order and one way round each, if the value is above `limit`: train, stance and
     /// position.
-    fn chain(&self, order: &Order, ways: &[&Way], limit: f64) -> Option<(f64, Vec<(usize, usize, f64)>)> {
+    fn chain(&self, order: &Order, ways: &[&Way], limit: f64) -> Option<Chain> {
         let stances: Vec<usize> = ways.iter().map(|way| way.stance).collect();
         let mut sums: Vec<PiecewiseFunction> = Vec::with_capacity(ways.len());
         for (at, way) in ways.iter().enumerate() {

@@ -46,6 +46,15 @@ impl Part {
 }
 
 impl PiecewiseFunction {
+    /// Adds a piece behind the others.
+    pub fn push(&mut self, position: [f64; 2], cubic: Polynomial, stance: usize) {
+        self.pieces.push(Part::new(position, cubic, stance));
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.pieces.is_empty()
+    }
+
     /// Sign times response k of a list of pieces in a stance.
     pub fn of<const N: usize>(pieces: &[Piece<N>], k: usize, sign: f64, stance: usize) -> PiecewiseFunction {
         let cubic = |piece: &Piece<N>| Polynomial::default().plus(&piece.polynomial(k), sign);
@@ -114,15 +123,20 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
     out
 }
 
-/// q -> max over p <= q - distance of f(p), for q from the first position of f on; beyond the last it is constant up to
-/// infinity.
+/// q -> max over p <= q - distance of f(p), for q from the first position of f on; where f is not defined, and beyond its
+/// last position up to infinity, it is constant.
 pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> PiecewiseFunction {
     let mut out = PiecewiseFunction::default();
     let mut most = f64::NEG_INFINITY;
     let mut add = |from: f64, to: f64, cubic: Polynomial| {
         out.pieces.push(Part::new([from + distance, to + distance], cubic, 0));
     };
+    let mut reached_to = f64::INFINITY;
     for Part { position: [start, end], cubic, .. } in &f.pieces {
+        if *start > reached_to {
+            add(reached_to, *start, Polynomial::new(&[most]));
+        }
+        reached_to = *end;
         let places = cubic.candidates(end - start);
         most = most.max(cubic.at(0.0));
         for ends in places.list().windows(2) {

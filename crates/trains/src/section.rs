@@ -37,6 +37,8 @@ pub(crate) struct TrainOnCarrier {
 /// A wheel on the member, in one piece of the positions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WheelOnMember {
+    /// Its index in the train.
+    pub wheel: usize,
     /// Its place at the first position of the piece.
     pub start: f64,
     /// Change of the place by the position.
@@ -108,6 +110,11 @@ impl TrainOnCarrier {
         self.reaching().map(move |(mapping, wheel)| mapping.jumps[wheel][k])
     }
 
+    /// The rails of the member on which wheels of the train can stand.
+    pub fn reached_rails(&self) -> impl Iterator<Item = usize> {
+        self.reaching().map(|(mapping, _)| mapping.rail)
+    }
+
     /// Whether wheels can stand on a rail of the member that runs against the carrier.
     pub fn has_opposed_wheels(&self) -> bool {
         self.reaching().any(|(mapping, _)| mapping.rate < 0.0)
@@ -115,7 +122,12 @@ impl TrainOnCarrier {
 
     /// Adds the rail coordinates of the carrier opposite to the wheels that stand on the member with the train at a position.
     pub fn coordinates(&self, carrier: &Carrier, position: f64, out: &mut Vec<f64>) {
-        for (mapping, wheel) in self.reaching() {
+        (0..self.offsets.len()).for_each(|wheel| self.coordinate_of(carrier, position, wheel, out));
+    }
+
+    /// Adds the rail coordinates of the carrier opposite to a wheel that stands on the member.
+    pub fn coordinate_of(&self, carrier: &Carrier, position: f64, wheel: usize, out: &mut Vec<f64>) {
+        for mapping in self.mappings.iter().filter(|mapping| mapping.rail == self.rails[wheel]) {
             let s = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
             if (-1e-9 * self.length..=(1.0 + 1e-9) * self.length).contains(&s) {
                 out.push(carrier.coordinate(s.clamp(0.0, self.length)));
@@ -137,7 +149,7 @@ impl TrainOnCarrier {
                 continue;
             };
             let start = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
-            out.push(WheelOnMember { start, rate: mapping.rate, jump: mapping.jumps[wheel] });
+            out.push(WheelOnMember { wheel, start, rate: mapping.rate, jump: mapping.jumps[wheel] });
         }
         out.sort_by(|a, b| a.start.total_cmp(&b.start));
     }

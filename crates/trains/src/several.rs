@@ -2,19 +2,23 @@
 //!
 //! At a fixed section the best arrangement of several trains is exact (`plan`). Along the member the internal force of every
 //! state changes by steps at wheels. Where these steps and the dead load all lower a normal, shear or torsional force, or
-//! all bend a moment downwards, the envelope has its extremes at the ends of the window. Otherwise its largest value is
-//! enclosed by bisection (`search`), with the bounds of `blocked`, and then polished by golden sections.
+//! all bend a moment downwards, the envelope has its extremes at the ends of the window. Another force is extreme beside a
+//! wheel. All trains before it have been passed and all others have not, so that the response to each is a function of its
+//! own position, and the best arrangement is exact again. Moments, and trains on several rails of a member, are enclosed by
+//! bisection (`search`), with the bounds of `blocked`, and then polished by golden sections.
 
 use crate::blocked::Blocked;
-use crate::collect::standings;
+use crate::collect::{offer, standings};
 use crate::error::Error;
 use crate::extremes::Governing;
 use crate::follow::{SectionSide, Target};
 use crate::overrun::Overrun;
-use crate::plan::CasePlan;
+use crate::pieces::Piece;
+use crate::plan::{CasePlan, Way};
+use crate::running::PiecewiseFunction;
 use crate::search::Search;
-use crate::section::slope_index;
-use crate::structure::{Carrier, GirderResponse};
+use crate::section::{TrainOnCarrier, slope_index};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES};
 
 /// Size of a force, relative to all wheels together, or of a moment, relative to them and the length of the member, below
 /// which it counts as zero.
@@ -31,6 +35,11 @@ pub(crate) fn enclosed(
 ) -> Result<Option<(Option<Governing>, f64)>, Error> {
     if is_extreme_at_ends(over, target) {
         return Ok(None);
+    }
+    if slope_index(target.k).is_none() && plan.is_one_queue() && has_one_rail(over) {
+        let found = beside_wheels(plan, over, carrier, target);
+        let value = found.as_ref().map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
+        return Ok(Some((found, value)));
     }
     let quantity = GirderResponse::ALL[target.k];
     let window = target.window.map(|s| carrier.coordinate(s));
@@ -61,6 +70,56 @@ pub(crate) fn enclosed(
     let bound = search.bound;
     let value = search.best.as_ref().map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
     Ok(Some((search.best, bound.max(value))))
+}
+
+/// Whether all wheels that can stand on the member stand on one rail.
+fn has_one_rail(over: &Overrun) -> bool {
+    let mut rails = over.on.iter().flatten().flat_map(TrainOnCarrier::reached_rails);
+    let first = rails.next();
+    rails.all(|rail| Some(rail) == first) && !over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels)
+}
+
+/// The largest value of a force beside any wheel within the window.
+fn beside_wheels(
+    plan: &CasePlan,
+    over: &Overrun,
+    carrier: &Carrier,
+    target: &Target<'_>,
+) -> Option<Governing> {
+    let all = |s: f64| -> Vec<Vec<Way>> {
+        let sections = over.section(s);
+        let of = |(train, stances): (usize, &Vec<Vec<Piece<QUANTITIES>>>)| {
+            let listed: Vec<usize> = (0..stances.len()).collect();
+            let own = |stance: usize| PiecewiseFunction::of(&stances[stance], target.k, target.sign, stance);
+            plan.ways(train, &listed, own)
+        };
+        sections.iter().enumerate().map(of).collect()
+    };
+    let (ahead, passed) = (all(0.0), all(carrier.length));
+    let mut best: Option<Governing> = None;
+    for (train, stances) in plan.trains.iter().enumerate() {
+        for wheel in 0..stances[0].wheels.len() {
+            for side in [SectionSide::Before, SectionSide::Behind] {
+                let own = |stance: usize| {
+                    over.on[train][stance].beside(&over.pieces[train][stance], target, wheel, side, stance)
+                };
+                let listed: Vec<usize> =
+                    (0..stances.len()).filter(|&stance| !own(stance).is_empty()).collect();
+                let following = plan.ways(train, &listed, own);
+                let Some(found) = plan.best_around(train, &following, &passed, &ahead) else { continue };
+                let standing = found.trains[train];
+                let mut at = Vec::new();
+                over.on[train][standing.stance].coordinate_of(carrier, standing.position, wheel, &mut at);
+                let Some(x) = at.first().copied() else { continue };
+                let dead = target.dead.at(GirderResponse::ALL[target.k], carrier.place(x));
+                let value = target.sign * found.signed;
+                let trains = standings(plan, &found);
+                let governing = Governing { value, dead, x, side, trains, coincident: [0.0; 3] };
+                offer(&mut best, Some(governing), target.sign);
+            }
+        }
+    }
+    best
 }
 
 /// Sum of the forces of all wheels.
