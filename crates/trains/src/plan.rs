@@ -270,6 +270,9 @@ impl CasePlan {
         passed: &[Vec<Way>],
         ahead: &[Vec<Way>],
     ) -> Option<Arrangement> {
+        if following.is_empty() {
+            return None;
+        }
         let group = self.groups.iter().find(|group| group.orders[0].trains.contains(&train))?;
         let listed: Vec<Vec<usize>> = (0..passed.len())
             .map(|other| {

@@ -135,7 +135,7 @@ impl<'a> Reference<'a> {
             let shift: f64 = (0..3).map(|k| (first.origin[k] - own.origin[k]) * axis[k]).sum();
             let x = position + if stance.turned { -wheel.x } else { wheel.x } + shift;
             let [low, high] = self.ranges[wheel.rail];
-            let slack = 1e-9;
+            let slack = if train.enters { 1e-12 } else { 1e-9 };
             if x < low - slack || x > high + slack {
                 assert!(train.enters, "a wheel at {x} is beyond its rail {low} to {high}");
                 continue;
