@@ -64,19 +64,19 @@ static RAILS: LazyLock<Vec<RailProfile>> =
 /// bending in cm4, height of the centroid in mm.
 fn rail(row: Vec<&'static str>) -> RailProfile {
     let [head, base, height, mass] = [2, 3, 4, 6].map(|cell| required(&row, cell));
-    let optional = |cell: usize, unit: f64| number(&row, cell).map(|value| value * unit);
+    let optional = |cell: usize, unit: f64| number(&row, cell).map(|value| (value * unit).round());
     RailProfile {
         name: row[0],
         standard: row[1],
         head,
         base,
         height,
-        web: optional(5, 1.0),
+        web: number(&row, 5),
         mass,
         area: optional(7, 1e2),
         i_vertical: optional(8, 1e4),
         i_lateral: optional(9, 1e4),
-        centroid: optional(10, 1.0),
+        centroid: number(&row, 10),
     }
 }
 
