@@ -18,7 +18,7 @@
 //! assert_eq!(sections::nearest_rolled("HEB 410")[0], "HEB 400");
 //! ```
 //!
-//! Wings, lowest first: names, table, properties, rolled, rail, composite.
+//! Wings, lowest first: names, table, properties, rolled, composite, rail.
 
 mod composite;
 mod names;
