@@ -69,7 +69,12 @@ fn of_girder(raw: &RawGirder, units: Units) -> Vec<String> {
     if let Some(rail) = raw.crane_rail.as_deref().and_then(crane_rail) {
         let found = filled(raw, units);
         let height = quantity(found.rail_height.unwrap_or_default(), Dimension::LENGTH, units);
-        notes.push(format!("girder: {}; rail_height is {height}", adds(rail, "to rail_height", units)));
+        let unstated =
+            raw.rail_height.is_none().then(|| flange_height(raw, units)).flatten().unwrap_or_default();
+        notes.push(format!(
+            "girder: {}; rail_height is {height}{unstated}",
+            adds(rail, "to rail_height", units)
+        ));
         if raw.composite == Some(true) {
             let numbers = [
                 ("A", None, found.area, Dimension::AREA),
@@ -81,6 +86,17 @@ fn of_girder(raw: &RawGirder, units: Units) -> Vec<String> {
         }
     }
     notes
+}
+
+/// Where the upper flange of a girder by name lies, for a file that states no `rail_height`.
+fn flange_height(raw: &RawGirder, units: Units) -> Option<String> {
+    let section = raw.section.as_deref().and_then(rolled)?;
+    let height = 0.5 * section.dimensions.height * Length::Millimetre.in_units_of(units.length);
+    let height = quantity(height, Dimension::LENGTH, units);
+    Some(format!(
+        " (the file states none; the upper flange of {} lies {height} above the elastic axis)",
+        section.name
+    ))
 }
 
 /// A girder without faults with the numbers that follow from its names.
