@@ -2,6 +2,8 @@
 
 /// Number of near names in a hint.
 const NEAR: usize = 4;
+/// Length of a name above which no name is near, since all are shorter.
+const LONG: usize = 24;
 
 /// A name without blanks, in capitals: `HEB400` for `heb 400`, `W24X94` for `W 24x94`.
 pub fn plain(name: &str) -> String {
@@ -20,6 +22,9 @@ pub fn matches(name: &str, pattern: &str) -> bool {
 /// The names that are nearest to `wrong` by edit distance, and of these by the numbers in them; empty if all are far.
 pub fn nearest(wrong: &str, names: impl Iterator<Item = &'static str>) -> Vec<&'static str> {
     let own = plain(wrong);
+    if own.len() > LONG {
+        return Vec::new();
+    }
     let allowed = (own.chars().count() / 2).clamp(1, 3);
     let mut found: Vec<(usize, u64, &'static str)> = names
         .map(|name| {
@@ -74,6 +79,7 @@ mod tests {
         let names = ["HEB 360", "HEB 400", "HEB 450", "IPE 400"];
         assert_eq!(nearest("HEB 410", names.into_iter()), ["HEB 400", "HEB 450", "HEB 360"]);
         assert!(nearest("oak beam", names.into_iter()).is_empty());
+        assert!(nearest(&"HEB400".repeat(1000), names.into_iter()).is_empty());
         assert_eq!(distance("kitten", "sitting"), 3);
     }
 }

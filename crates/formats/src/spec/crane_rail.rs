@@ -1,7 +1,9 @@
 //! Crane rails on the members of a frame: their height, their mass, and their part in the section.
 
-use fea::{CrossSection, MemberKind, Model};
-use sections::{PlaneSection, RailProfile};
+use std::collections::{BTreeMap, BTreeSet};
+
+use fea::{CrossSection, MemberKind, Model, Rail};
+use sections::PlaneSection;
 
 use super::raw::RawSpec;
 use super::rolled;
@@ -25,66 +27,90 @@ const IN_PLANE: f64 = 1e-6;
 pub(super) fn add(raw: &RawSpec, root: &Place<'_>, frame: &mut FrameSpec, check: &mut Check<'_>) {
     let is_sound = check.faults.0.is_empty();
     let list = root.key("rails");
-    let mut combined = Vec::new();
+    let mut changed = Changed::default();
     for (index, (name, raw)) in raw.rails.iter().flat_map(|rails| &rails.0).enumerate() {
         let at = list.key(name);
         let Some((profile, composite)) = rolled::carried(&raw.crane_rail, raw.composite, &at, check) else {
             continue;
         };
-        let part = if composite {
-            let Some(part) = rolled::plane_section(profile, check.scale.to.length, &at, check) else {
+        let mut part = None;
+        if composite {
+            part = rolled::plane_section(profile, check.scale.to.length, &at, check);
+            if part.is_none() {
                 continue;
-            };
-            Some(part)
-        } else {
-            None
+            }
+        }
+        let Some((_, rail)) = frame.rails.get_mut(index).filter(|_| is_sound) else { continue };
+        let crane_rail = CraneRail {
+            mass: rolled::from_si(profile.mass, Dimension::LINE_MASS, check.scale.to),
+            height: profile.height * Length::Millimetre.in_units_of(check.scale.to.length),
+            part,
         };
-        if is_sound {
-            place(frame, index, profile, part, &mut combined, &at, check);
+        if let Err((expected, hint)) = crane_rail.place(&mut frame.model, rail, &mut changed) {
+            check.faults.add(Fault::new(&at.key("composite"), expected).at_key().hint(hint));
         }
     }
 }
 
-/// Adds one crane rail to the rail with this index. `combined` has the members that are already a plane section with a rail.
-fn place(
-    frame: &mut FrameSpec,
-    index: usize,
-    profile: &RailProfile,
+/// Sections and members that crane rails have changed so far.
+#[derive(Default)]
+struct Changed {
+    /// Indices of the sections that were added to the model, by the bits of their numbers.
+    sections: BTreeMap<Vec<u64>, usize>,
+    /// Members that are a plane section with a rail.
+    combined: BTreeSet<usize>,
+}
+
+impl Changed {
+    /// Index of a section with these properties, which is appended to the model if no rail has made it before.
+    fn index_of(&mut self, model: &mut Model, section: CrossSection) -> usize {
+        let CrossSection { e, g, area, iy, iz, j, shear_y, shear_z, mass } = section;
+        // no shear area is 0, so that 0 stands for one that is absent
+        let shear = [shear_y, shear_z].map(Option::unwrap_or_default);
+        let bits = [e, g, area, iy, iz, j, shear[0], shear[1], mass].map(f64::to_bits).to_vec();
+        *self.sections.entry(bits).or_insert_with(|| {
+            model.sections.push(section);
+            model.sections.len() - 1
+        })
+    }
+}
+
+/// An expectation of a composite rail that is not met, and a hint.
+type Unmet = (&'static str, &'static str);
+
+/// A crane rail in the units of the model.
+struct CraneRail {
+    /// Mass per length.
+    mass: f64,
+    /// Height.
+    height: f64,
+    /// If it is a part of the section: its plane section, and the height of its centroid above its base.
     part: Option<(PlaneSection, f64)>,
-    combined: &mut Vec<usize>,
-    at: &Place<'_>,
-    check: &mut Check<'_>,
-) {
-    let FrameSpec { model, rails, .. } = frame;
-    let Some((_, rail)) = rails.get_mut(index) else { return };
-    let Some(along) = unit(rail.axis) else { return };
-    let lift = dot(model.up, along);
-    let Some(up) = unit(minus(model.up, along.map(|part| part * lift))) else { return };
-    let mass = rolled::from_si(profile.mass, Dimension::LINE_MASS, check.scale.to);
-    let height = profile.height * Length::Millimetre.in_units_of(check.scale.to.length);
-    let mut done = Vec::new();
-    for segment in &mut rail.segments {
-        let member = segment.member;
-        if !done.contains(&member) {
-            done.push(member);
-            let mut section = model.sections[model.members[member].section];
-            let axis = axis_of(model, member);
-            section.mass += mass * axis.map_or(1.0, |axis| dot(axis, along).abs());
-            if let Some((part, centroid)) = &part {
-                let carrier =
-                    Carrier { axis, along, up, offset: segment.offset, taken: combined.contains(&member) };
-                match carrier.with_rail(model, member, part, *centroid) {
-                    Ok(whole) => section = CrossSection { mass: section.mass, ..whole },
-                    Err((expected, hint)) => {
-                        check.faults.add(Fault::new(&at.key("composite"), expected).at_key().hint(hint));
-                        return;
-                    }
+}
+
+impl CraneRail {
+    /// Places the rail on the segments of `rail`.
+    fn place(&self, model: &mut Model, rail: &mut Rail, changed: &mut Changed) -> Result<(), Unmet> {
+        let Some(along) = unit(rail.axis) else { return Ok(()) };
+        let lift = dot(model.up, along);
+        let Some(up) = unit(minus(model.up, along.map(|part| part * lift))) else { return Ok(()) };
+        let mut members = BTreeSet::new();
+        for segment in &mut rail.segments {
+            let member = segment.member;
+            if members.insert(member) {
+                let axis = axis_of(model, member);
+                let mut section = model.sections[model.members[member].section];
+                if let Some((part, centroid)) = &self.part {
+                    let taken = !changed.combined.insert(member);
+                    let carrier = Carrier { axis, along, up, offset: segment.offset, taken };
+                    section = carrier.with_rail(model, member, part, *centroid)?;
                 }
-                combined.push(member);
+                section.mass += self.mass * axis.map_or(1.0, |axis| dot(axis, along).abs());
+                model.members[member].section = changed.index_of(model, section);
             }
-            model.members[member].section = index_of(model, section);
+            segment.offset = std::array::from_fn(|k| segment.offset[k] + self.height * up[k]);
         }
-        segment.offset = std::array::from_fn(|k| segment.offset[k] + height * up[k]);
+        Ok(())
     }
 }
 
@@ -96,14 +122,6 @@ fn axis_of(model: &Model, member: usize) -> Option<[f64; 3]> {
         [point[0] + offset[0], point[1] + offset[1], point[2] + offset[2]]
     });
     unit(minus(b, a))
-}
-
-/// Index of a section with these properties, which is appended to the model if it has none.
-fn index_of(model: &mut Model, section: CrossSection) -> usize {
-    model.sections.iter().position(|other| *other == section).unwrap_or_else(|| {
-        model.sections.push(section);
-        model.sections.len() - 1
-    })
 }
 
 /// A member with the rail that is to be a part of its section.
@@ -121,14 +139,14 @@ struct Carrier {
 }
 
 impl Carrier {
-    /// The section of the member and the rail; an expectation that is not met, with a hint.
+    /// The section of the member with the rail, and the mass of the member.
     fn with_rail(
         &self,
         model: &Model,
         member: usize,
         rail: &PlaneSection,
         centroid: f64,
-    ) -> Result<CrossSection, (&'static str, &'static str)> {
+    ) -> Result<CrossSection, Unmet> {
         let own = &model.members[member];
         let section = model.sections[own.section];
         let hint = "leave `composite` out and give the properties of the whole section as numbers";
