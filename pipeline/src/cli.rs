@@ -71,6 +71,9 @@ pub enum Command {
     /// Envelopes, extremes and reactions of wheel trains on a structure, statically and exactly, with limits of codes
     #[command(after_help = "Example:\n  girderway design examples/runway/design.json -o out")]
     Design(DesignArgs),
+    /// List rolled sections and crane rails by name, with dimensions and properties
+    #[command(after_help = "Example:\n  girderway sections heb")]
+    Sections(SectionsArgs),
     /// Print the JSON Schema of a format, with which editors complete and check files
     #[command(after_help = "Example:\n  girderway schema scene -o scene.schema.json")]
     Schema(SchemaArgs),
@@ -93,6 +96,14 @@ pub struct DesignArgs {
     /// Exit with status 1 where a limit of the code is exceeded
     #[arg(long)]
     pub fail_on_limit: bool,
+}
+
+/// Arguments of `sections`.
+#[derive(Clone, Debug, Args)]
+pub struct SectionsArgs {
+    /// Part of the names to list, where blanks and case do not count [default: all]
+    #[arg(value_name = "PATTERN")]
+    pub pattern: Vec<String>,
 }
 
 /// Arguments of `schema`.

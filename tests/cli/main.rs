@@ -14,6 +14,7 @@ mod notes;
 mod rides;
 mod ropes;
 mod schema;
+mod sections;
 mod slips;
 mod specs;
 mod stops;

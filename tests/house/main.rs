@@ -15,14 +15,15 @@ use crates::Crate;
 use wings::Wings;
 
 /// Normal dependencies that each crate may have on others of ours, lowest crate first.
-const DEPENDENCIES: [(&str, &[&str]); 15] = [
+const DEPENDENCIES: [(&str, &[&str]); 16] = [
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
+    ("sections", &[]),
     ("fea", &["splines"]),
     ("sim", &["splines"]),
     ("trains", &["fea", "splines"]),
-    ("formats", &["adams", "fea", "practice", "sim", "splines"]),
+    ("formats", &["adams", "fea", "practice", "sections", "sim", "splines"]),
     ("import", &["formats", "fea"]),
     ("design", &["formats", "trains", "practice", "fea", "splines"]),
     ("foundations", &["formats", "fea", "sim", "splines"]),
@@ -55,6 +56,7 @@ const DEPENDENCIES: [(&str, &[&str]); 15] = [
             "results",
             "foundations",
             "practice",
+            "sections",
             "formats",
             "fea",
             "sim",

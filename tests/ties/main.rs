@@ -123,6 +123,7 @@ fn rail_on_two_ties_over_a_girder_is_the_sum_of_its_parts() {
         theory: BeamTheory::EulerBernoulli,
         form: Form::Girder(girder),
         effects: Vec::new(),
+        notes: Vec::new(),
     };
     let (first, spacing) = (100.0, 420.0);
     let mut given = Ties { first: Some(first), k: 5e4, ..ties(spacing, 1.0) };

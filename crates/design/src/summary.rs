@@ -39,7 +39,7 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
             })
         })
         .collect();
-    json!({
+    let mut summary = json!({
         "format": FORMAT,
         "name": design.name,
         "status": "done",
@@ -52,7 +52,11 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
         "deflections": deflections,
         "limits": result.limits.iter().map(limit).collect::<Vec<_>>(),
         "warnings": result.warnings,
-    })
+    });
+    if !design.spec.notes.is_empty() {
+        summary["notes"] = json!(design.spec.notes);
+    }
+    summary
 }
 
 /// Names of the trains of a case, numbered where a train occurs several times.

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::design::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 use crate::grid::file::RawGrid;
 use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
-use crate::spec::{Block, RawDetail, RawSpec, Reference};
+use crate::spec::{Block, RawDetail, RawSectionShape, RawShape, RawSpec, Reference};
 use crate::text::entries::Entries;
 
 /// The schema of beam specs.
@@ -68,6 +68,10 @@ macro_rules! schemas {
 
 schemas! {
     Reference, "Reference", |_generator| json_schema!({ "anyOf": [{ "type": "integer", "minimum": 0 }, { "type": "string" }] });
+    RawSectionShape, "SectionShape", |generator| {
+        let dimensions = generator.subschema_for::<RawShape>();
+        json_schema!({ "anyOf": [{ "type": "string" }, dimensions] })
+    };
     RawDetail, "Detail", |_generator| json_schema!({ "type": ["number", "string"] });
     RawColumns, "Columns", |_generator| json_schema!({ "anyOf": [{ "type": "boolean" }, { "type": "array", "items": { "type": "string" } }] });
     RawForces, "Forces", |_generator| json_schema!({ "anyOf": [{ "type": "number" }, { "type": "object", "additionalProperties": { "type": "number" } }] });

@@ -71,7 +71,7 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
     if !warnings.is_empty() {
         result["warnings"] = json!(warnings);
     }
-    let notes = warning::accuracy_notes(scene, outcome);
+    let notes = warning::case_notes(scene, outcome);
     if !notes.is_empty() {
         result["notes"] = json!(notes);
     }

@@ -34,6 +34,9 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     if let Some(theory) = args.theory {
         spec = spec.with_theory(theory.into());
     }
+    for note in &spec.notes {
+        progress.say(&format!("note: {note}"));
+    }
     let planned = PlannedFiles {
         names: vec!["crosscheck.json".to_owned(), "crosscheck.txt".to_owned()],
         plots: vec!["difference-".to_owned()],

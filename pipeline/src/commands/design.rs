@@ -44,6 +44,9 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     for warning in &result.warnings {
         progress.say(&format!("warning: {warning}"));
     }
+    for note in &read.spec.notes {
+        progress.say(&format!("note: {note}"));
+    }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
         let all = json!({ "output": written.display().to_string(), "summary": summary });

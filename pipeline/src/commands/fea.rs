@@ -43,7 +43,7 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     for warning in warning::spec_warnings(&spec) {
         progress.say(&format!("warning: {warning}"));
     }
-    for note in &solved.grid.notes {
+    for note in spec.notes.iter().chain(&solved.grid.notes) {
         progress.say(&format!("note: {note}"));
     }
     if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.summary()) {

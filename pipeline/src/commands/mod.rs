@@ -12,6 +12,7 @@ pub mod init;
 mod planned;
 pub mod run;
 pub mod schema;
+pub mod sections;
 pub mod sim;
 pub mod splines;
 pub mod study;

@@ -156,7 +156,7 @@ fn finish(
         for warning in warning::case_warnings(&case.scene, outcome) {
             progress.say(&format!("warning: {}: {warning}", outcome.label));
         }
-        for note in warning::accuracy_notes(&case.scene, outcome) {
+        for note in warning::case_notes(&case.scene, outcome) {
             progress.say(&format!("note: {}: {note}", outcome.label));
         }
     }

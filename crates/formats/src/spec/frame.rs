@@ -9,7 +9,7 @@ use super::shape::ShapeTaper;
 use super::stress::{self, StressPoint};
 use super::structure::FrameSpec;
 use super::words::DOF_WORDS;
-use super::{members, rails, sections};
+use super::{crane_rail, members, rails, sections};
 use crate::check::Check;
 use crate::text::fault::Fault;
 use crate::text::place::Place;
@@ -74,12 +74,14 @@ pub(super) fn read(
         supports,
         pads: Vec::new(),
     };
-    if cells.complete {
+    let (mut frame, cuts) = if cells.complete {
         let shapes = shapes(raw, &frame.model, &cells.tapers, check);
         in_parts(frame, cuts, &cells.tapers, &shapes)
     } else {
         (frame, cuts)
-    }
+    };
+    crane_rail::add(raw, root, &mut frame, check);
+    (frame, cuts)
 }
 
 /// The shapes of each tapered member whose sections have shapes of one kind.

@@ -1,13 +1,14 @@
 //! Beam specs: reading, checking, and conversion to the requested units.
 //!
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
-//! arrays (`references`, `column`); its parts (`sections` with `shape` and [`cross_section`], `tapers`, `members`,
-//! `rails`, `stress`, `cuts`, `girder`); the checked [`Spec`] (`structure`); the readers of the general form
+//! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
+//! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `cuts`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
 //! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), places of
 //! solver errors (`locate`) and rails on ties ([`ties`]).
 
 mod block;
 mod column;
+mod crane_rail;
 pub mod cross_section;
 mod cuts;
 mod frame;
@@ -15,10 +16,12 @@ mod girder;
 mod grounds;
 mod locate;
 mod members;
+mod notes;
 mod rails;
 mod raw;
 mod read;
 mod references;
+mod rolled;
 mod sections;
 mod shape;
 mod stress;
@@ -33,7 +36,7 @@ pub(crate) use block::{Block, Reference};
 pub use cuts::{Cut, CutPlace};
 pub use grounds::SupportedPoint;
 pub use locate::SolveError;
-pub(crate) use raw::{RawDetail, RawSpec};
+pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};
 pub use read::{FORMAT, format, stem};
 pub use stress::{Detail, StressPoint};
 pub use structure::{Form, FrameSpec, GIRDER_RAIL, RailOutline, Spec};

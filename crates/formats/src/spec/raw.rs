@@ -4,7 +4,8 @@ use std::fmt;
 
 use schemars::JsonSchema;
 use serde::Deserialize;
-use serde::de::{Deserializer, Error, Visitor};
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserializer, Error, MapAccess, Visitor};
 
 use super::block::{Block, Reference};
 use crate::text::entries::Entries;
@@ -111,11 +112,32 @@ pub(crate) struct RawGirder {
     pub ka_lateral: Option<f64>,
     /// Height of the rail above the elastic axis, length; by default 0.
     pub rail_height: Option<f64>,
-    /// Mass per length, mass / length; by default 0.
+    /// Mass per length, mass / length; by default 0, with `section` the area times the density.
     pub mass_per_length: Option<f64>,
+    /// Name of a rolled section, such as "HEB 400" or "W24x94", from whose dimensions properties that are left out are computed.
+    pub section: Option<String>,
+    /// With `section`: mass density, mass / length^3; by default that of steel, as are `E` and `G`.
+    pub density: Option<f64>,
+    /// Name of a crane rail, such as "A75" or "ASCE 85": its height is added to `rail_height`, its mass to that of the girder.
+    pub crane_rail: Option<String>,
+    /// Whether girder and crane rail resist bending as one plane section; by default false.
+    pub composite: Option<bool>,
     /// Points of the cross section at which stresses are evaluated.
     #[serde(default)]
     pub points: Vec<RawPoint>,
+}
+
+impl RawGirder {
+    /// The girder without its points.
+    pub fn numbers(&self) -> RawGirder {
+        RawGirder {
+            spans: self.spans.clone(),
+            section: self.section.clone(),
+            crane_rail: self.crane_rail.clone(),
+            points: Vec::new(),
+            ..*self
+        }
+    }
 }
 
 /// A block of cells of one type.
@@ -196,8 +218,8 @@ pub struct RawSection {
     /// Effective shear area for forces along local z, length^2; without it the section is rigid in this shear.
     #[serde(rename = "Asz")]
     pub asz: Option<f64>,
-    /// Dimensions of the section, from which missing properties are computed.
-    pub shape: Option<RawShape>,
+    /// Dimensions of the section, or the name of a rolled one, from which missing properties are computed.
+    pub shape: Option<RawSectionShape>,
     /// Points of the section at which stresses are evaluated.
     #[serde(default)]
     pub points: Vec<RawPoint>,
@@ -245,6 +267,38 @@ pub(crate) struct RawShape {
     pub diameter: Option<f64>,
     /// Wall thickness of a tube.
     pub wall: Option<f64>,
+}
+
+/// The shape of a section: its dimensions, or the name of a rolled section.
+#[derive(Debug)]
+pub(crate) enum RawSectionShape {
+    Dimensions(Box<RawShape>),
+    Name(String),
+}
+
+impl<'de> Deserialize<'de> for RawSectionShape {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(ShapeVisitor)
+    }
+}
+
+struct ShapeVisitor;
+
+impl<'de> Visitor<'de> for ShapeVisitor {
+    type Value = RawSectionShape;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object with `kind`, or the name of a rolled section such as \"HEB 400\"")
+    }
+
+    fn visit_str<E: Error>(self, name: &str) -> Result<RawSectionShape, E> {
+        Ok(RawSectionShape::Name(name.to_owned()))
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawSectionShape, A::Error> {
+        RawShape::deserialize(MapAccessDeserializer::new(map))
+            .map(|shape| RawSectionShape::Dimensions(Box::new(shape)))
+    }
 }
 
 /// A point of a cross section at which the direct stress is evaluated.
@@ -359,6 +413,11 @@ pub(crate) struct RawRail {
     pub segments: Option<Vec<RawSegment>>,
     /// Coordinates at which grids and tables have values, length.
     pub stations: Option<Vec<f64>>,
+    /// Name of a crane rail, such as "A75" or "ASCE 85": its height is added to the offsets of the segments, its mass to that of their
+    /// members.
+    pub crane_rail: Option<String>,
+    /// Whether the members and the crane rail resist bending as one plane section; by default false.
+    pub composite: Option<bool>,
 }
 
 /// A segment of a rail on one member.

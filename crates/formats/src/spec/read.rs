@@ -5,7 +5,7 @@ use fea::BeamTheory;
 use super::raw::RawSpec;
 use super::structure::{Form, Spec};
 use super::words::THEORIES;
-use super::{cuts, frame, girder, stress};
+use super::{cuts, frame, girder, notes, stress};
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults};
@@ -63,7 +63,8 @@ impl Spec {
             }
         };
         let name = raw.name.clone().unwrap_or_else(|| stem(file));
-        Some(Spec { name, units: to, theory, form, effects })
+        let notes = if check.faults.0.is_empty() { notes::of(raw, from) } else { Vec::new() };
+        Some(Spec { name, units: to, theory, form, effects, notes })
     }
 }
 

@@ -3,7 +3,8 @@
 use fea::CrossSection;
 
 use super::cross_section::{Properties, section_properties};
-use super::raw::{RawSection, RawShape};
+use super::raw::{RawSection, RawSectionShape, RawShape};
+use super::rolled;
 use crate::check::Check;
 use crate::text::fault::{Fault, number};
 use crate::text::place::Place;
@@ -42,9 +43,15 @@ impl Kind {
 /// y is along the height: Iz = int y^2 dA, Iy = int z^2 dA.
 pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) -> RawSection {
     let mut section = raw.numbers();
-    let Some(shape) = &raw.shape else { return section };
     let place = at.key("shape");
-    let Some(found) = read(shape, &place, check) else {
+    let found = match &raw.shape {
+        None => return section,
+        Some(RawSectionShape::Dimensions(shape)) => read(shape, &place, check),
+        Some(RawSectionShape::Name(name)) => {
+            rolled::section(name, &place, check).map(|found| rolled::in_file_units(found, check.scale.from))
+        }
+    };
+    let Some(found) = found else {
         // the fault of the shape has been reported; placeholders prevent a second report that the section is
         // incomplete
         for number in [&mut section.area, &mut section.iy, &mut section.iz, &mut section.j] {
@@ -177,10 +184,10 @@ pub(super) struct ShapeTaper {
 }
 
 impl ShapeTaper {
-    /// The taper between two sections that were read without a fault; `None` unless their shapes have one kind.
+    /// The taper between two sections that were read without a fault; `None` unless their shapes have dimensions and one kind.
     pub fn between(a: &RawSection, b: &RawSection, scale: &Scale) -> Option<ShapeTaper> {
-        let (kind, from) = in_model_units(a.shape.as_ref()?, scale)?;
-        let (other, to) = in_model_units(b.shape.as_ref()?, scale)?;
+        let (kind, from) = in_model_units(dimensions(a)?, scale)?;
+        let (other, to) = in_model_units(dimensions(b)?, scale)?;
         let stated =
             |raw: &RawSection| [raw.area, raw.iy, raw.iz, raw.j, raw.asy, raw.asz].map(|q| q.is_some());
         let stated = [stated(a), stated(b)];
@@ -230,6 +237,14 @@ impl ShapeTaper {
         let [from, to] = self.ends;
         let found = properties(self.kind, std::array::from_fn(|k| from[k] + (to[k] - from[k]) * s))?;
         Some([found.area, found.i2, found.i1, found.j, found.k1 * found.area, found.k2 * found.area])
+    }
+}
+
+/// The shape of a section that is given by dimensions, not by a name.
+fn dimensions(raw: &RawSection) -> Option<&RawShape> {
+    match raw.shape.as_ref()? {
+        RawSectionShape::Dimensions(shape) => Some(shape),
+        RawSectionShape::Name(_) => None,
     }
 }
 

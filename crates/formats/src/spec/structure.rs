@@ -38,6 +38,9 @@ pub struct Spec {
     pub form: Form,
     /// Sections of members whose internal forces are requested.
     pub effects: Vec<Cut>,
+    /// Numbers that follow from names of rolled sections and crane rails, and defaults of steel, for the user to check, in words and in the
+    /// units of the file.
+    pub notes: Vec<String>,
 }
 
 /// The two forms of a spec.

@@ -82,3 +82,139 @@ fn equal_units_leave_every_bit() {
     let range = own.rails()[0].range;
     assert_eq!(range, [-1.0, 8.0]);
 }
+
+#[test]
+fn named_sections_and_rails_are_the_same_in_all_units() {
+    let text = |units: &str, [length, modulus, density]: [f64; 3]| {
+        let [span, offset] = [6.096, 0.3048].map(|metres: f64| metres / length);
+        format!(
+            r#"{{"format": "girderway-beam/1", "units": {units}, "points": [[0, 0, 0], [{span}, 0, 0]],
+              "cells": [{{"type": "line", "data": [[0, 1]]}}],
+              "materials": [{{"name": "steel", "E": {}, "G": {}, "density": {}}}],
+              "sections": [{{"name": "girder", "material": "steel", "shape": "W24X94"}}],
+              "supports": [{{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}}, {{"point": 1, "fix": ["uy", "uz", "rx"]}}],
+              "rails": {{"top": {{"axis": [1, 0, 0], "stations": [0, {span}], "crane_rail": "A100", "composite": true,
+                                "segments": [{{"cell": [0, 0], "offset": [0, {offset}, 0]}}]}}}}}}"#,
+            210e9 / modulus,
+            81e9 / modulus,
+            7850.0 / density
+        )
+    };
+    let own = |units: Units| {
+        let si = Scale { from: units, to: Units::SI };
+        [Dimension::LENGTH, Dimension::STRESS, Dimension::DENSITY].map(|dimension| si.factor(dimension))
+    };
+    let all = [
+        (r#"{"length": "m", "force": "N", "time": "s"}"#, Units::SI),
+        (r#"{"length": "ft", "force": "kip", "time": "s"}"#, FT_KIP),
+        (
+            r#"{"length": "in", "force": "lbf", "time": "s"}"#,
+            Units { length: Length::Inch, force: Force::Pound },
+        ),
+        (
+            r#"{"length": "mm", "force": "kN", "time": "s"}"#,
+            Units { length: Length::Millimetre, force: Force::Kilonewton },
+        ),
+    ];
+    let specs = all.map(|(words, units)| {
+        let source = Source { name: "frame.json".to_owned(), text: text(words, own(units)) };
+        assert_eq!(read(&source, None).notes.len(), 2);
+        let Form::Frame(frame) = read(&source, Some(Units::SI)).form else { panic!("a frame") };
+        (frame.model.sections[frame.model.members[0].section], frame.rails[0].1.segments[0].offset)
+    });
+    let (known, offset) = specs[0];
+    // an A100 of 95 mm on a base 304.8 mm above the axis
+    assert!((offset[1] - 0.3998).abs() < 1e-15);
+    assert!((known.mass - (7850.0 * (known.area - 94.7e-4) + 74.3)).abs() < 1e-9);
+    for (found, other) in specs {
+        let numbers = |section: fea::CrossSection| {
+            let shear = [section.shear_y, section.shear_z].map(|area| area.expect("a shear area"));
+            [
+                section.e,
+                section.g,
+                section.area,
+                section.iy,
+                section.iz,
+                section.j,
+                section.mass,
+                shear[0],
+                shear[1],
+            ]
+        };
+        for (one, two) in numbers(known).into_iter().zip(numbers(found)) {
+            assert!((one / two - 1.0).abs() < 1e-13, "{known:?} {found:?}");
+        }
+        assert!((other[1] - offset[1]).abs() < 1e-13);
+    }
+}
+
+/// A girder of HEB 400 in m and N on which two rails lie, with further keys of cells and of each rail.
+fn two_rails(cell_data: &str, keys: [&str; 2]) -> Source {
+    let text = format!(
+        r#"{{"format": "girderway-beam/1", "units": {{"length": "m", "force": "N", "time": "s"}}, "parts": 4,
+          "points": [[0, 0, 0], [6, 0, 0], [12, 0, 0]],
+          "cells": [{{"type": "line", "data": [[0, 1], [1, 2]]}}], "cell_data": {{{cell_data}}},
+          "materials": [{{"name": "steel", "E": 2.1e11, "G": 8.1e10, "density": 7850}}],
+          "sections": [{{"name": "girder", "material": "steel", "shape": "HEB 400"}},
+                       {{"name": "deep", "material": "steel", "shape": "HEB 800"}}],
+          "supports": [{{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}}, {{"point": 2, "fix": ["uy", "uz", "rx"]}}],
+          "rails": {{
+            "one": {{"axis": [1, 0, 0], "stations": [0, 6], "segments": [{{"cell": [0, 0], "offset": [0, 0.2, 0]}}]{}}},
+            "two": {{"axis": [-1, 0, 0], "stations": [-12, 0], "segments": [{{"cell": [0, 0], "offset": [0, 0.2, 0]}},
+                                                              {{"cell": [0, 1], "offset": [0, 0.2, 0]}}]{}}}}}}}"#,
+        keys[0], keys[1]
+    );
+    Source { name: "rails.json".to_owned(), text }
+}
+
+fn sections_of(source: &Source) -> Vec<fea::CrossSection> {
+    let Form::Frame(frame) = read(source, None).form else { panic!("a frame") };
+    frame.model.members.iter().map(|member| frame.model.sections[member.section]).collect()
+}
+
+#[test]
+fn each_rail_adds_its_mass_to_its_own_members() {
+    let uniform = r#""section": [0]"#;
+    let bare = sections_of(&two_rails(uniform, ["", ""]));
+    let railed = sections_of(&two_rails(uniform, [r#", "crane_rail": "A75""#, r#", "crane_rail": "A45""#]));
+    assert!((railed[0].mass - bare[0].mass - 56.2 - 22.1).abs() < 1e-10);
+    assert!((railed[1].mass - bare[1].mass - 22.1).abs() < 1e-10);
+    assert_eq!(fea::CrossSection { mass: bare[0].mass, ..railed[0] }, bare[0]);
+}
+
+#[test]
+fn a_composite_rail_stiffens_the_plane_that_is_upright() {
+    let rail = [r#", "crane_rail": "A75", "composite": true"#, ""];
+    let upright = sections_of(&two_rails(r#""section": [0]"#, rail));
+    let lying = sections_of(&two_rails(r#""section": [0], "orientation": [[0, 0, 1]]"#, rail));
+    let bare = sections_of(&two_rails(r#""section": [0]"#, ["", ""]))[0];
+    let (own, part, distance) = (bare.area, 71.6e-4, 0.2 + 35.27e-3);
+    let steiner = own * part / (own + part) * distance * distance;
+    for (section, vertical, lateral) in [
+        (upright[0], upright[0].iz - bare.iz, upright[0].iy - bare.iy),
+        (lying[0], lying[0].iy - bare.iy, lying[0].iz - bare.iz),
+    ] {
+        assert!((vertical / (531e-8 + steiner) - 1.0).abs() < 1e-12, "{section:?}");
+        assert!((lateral / 1011e-8 - 1.0).abs() < 1e-12, "{section:?}");
+        assert!((section.area - own - part).abs() < 1e-15);
+    }
+    assert_eq!(upright[1], bare);
+    let twice = r#", "crane_rail": "A75", "composite": true"#;
+    let faults =
+        Spec::read(&two_rails(r#""section": [0]"#, [twice; 2]), None).expect_err("two composite rails");
+    assert_eq!(faults.len(), 1, "{faults:?}");
+    assert_eq!(faults[0].path, "rails.two.composite");
+    assert_eq!(faults[0].expected, "a member can be a plane section with one rail only");
+}
+
+#[test]
+fn rails_lie_on_every_part_of_a_tapered_member() {
+    let tapered = r#""section": [0], "section_b": [[1, null]]"#;
+    let bare = sections_of(&two_rails(tapered, ["", ""]));
+    let railed = sections_of(&two_rails(tapered, ["", r#", "crane_rail": "A75""#]));
+    assert_eq!((bare.len(), railed.len()), (5, 5));
+    for (one, other) in bare.iter().zip(&railed) {
+        assert!((other.mass - one.mass - 56.2).abs() < 1e-10);
+    }
+    assert!(bare[0].iz < bare[3].iz);
+}

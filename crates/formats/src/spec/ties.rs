@@ -156,7 +156,8 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
         pads,
     };
     let (name, form) = (name.to_owned(), Form::Frame(frame));
-    Ok(Spec { name, units, theory: BeamTheory::EulerBernoulli, form, effects: Vec::new() })
+    let theory = BeamTheory::EulerBernoulli;
+    Ok(Spec { name, units, theory, form, effects: Vec::new(), notes: Vec::new() })
 }
 
 /// The structure with a rail on ties above each of its rails. The new rails have the names, coordinates and stations

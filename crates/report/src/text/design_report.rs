@@ -51,6 +51,9 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     for warning in &result.warnings {
         section = section.paragraph(format!("Warning: {warning}."));
     }
+    for note in &design.spec.notes {
+        section = section.paragraph(format!("Note: {note}."));
+    }
     let columns = ["", "value", "case", "rail or support", "span", "x", "position of the train"];
     let mut table = ReportTable {
         caption: "Governing values, dead load and factors included".to_owned(),

@@ -259,7 +259,7 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         for warning in warning::case_warnings(&case.scene, outcome) {
             section = section.paragraph(format!("Warning, {}: {warning}.", outcome.label));
         }
-        for note in warning::accuracy_notes(&case.scene, outcome) {
+        for note in warning::case_notes(&case.scene, outcome) {
             section = section.paragraph(format!("Note, {}: {note}.", outcome.label));
         }
     }

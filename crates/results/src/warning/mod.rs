@@ -9,7 +9,6 @@ mod tension;
 
 use std::f64::consts::PI;
 
-pub use scope::accuracy_notes;
 pub use spec::spec_warnings;
 
 use sim::{GapCause, Run};
@@ -41,6 +40,19 @@ pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
         let structure = &scene.structures[choice.structure];
         foundations::selection_doubt(&structure.name, choice, structure.tolerance)
     }));
+    all
+}
+
+/// Notes of a case: numbers of its specs that follow from names of rolled sections and crane rails, and what its `accuracy` holds for.
+#[must_use]
+pub fn case_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
+    let mut all = Vec::new();
+    for structure in &scene.structures {
+        if let Origin::Spec { spec, .. } = &structure.origin {
+            all.extend(spec.notes.iter().map(|note| format!("{}: {note}", structure.name)));
+        }
+    }
+    all.extend(scope::accuracy_notes(scene, outcome));
     all
 }
 
