@@ -1,9 +1,8 @@
 //! Groups of crane loads with their factors for one crane.
 
-use practice::asce::CraneOperation;
 use practice::combination::{DynamicFactors, LoadGroup, eurocode_groups};
 use practice::factor;
-use practice::mill_combination::{asce_group, mill_fatigue};
+use practice::mill_combination::mill_fatigue;
 use serde_json::{Map, Value, json};
 
 use super::case::CodeCase;
@@ -35,21 +34,16 @@ impl CraneLoadGroup {
     }
 }
 
-/// Groups 1 to 10 of EN 1991-3 where the hoisting factor phi2 is known, the crane loads of ASCE 7, and the fatigue
-/// combination of AIST TR-13.
+/// Groups 1 to 10 of EN 1991-3 where the hoisting factor phi2 is known, and the fatigue combination of AIST TR-13.
 pub(super) fn load_groups(case: &CodeCase) -> Vec<CraneLoadGroup> {
     let phi5 = factor::phi5(case.practice.drives)[1];
-    let operation: CraneOperation = case.operation();
     let of_phi2 = |phi2: f64| DynamicFactors::of_crane(phi2, phi5, case.practice.release).ok();
     let known = case.phi2.and_then(of_phi2);
     let mut groups: Vec<CraneLoadGroup> = Vec::new();
     if let Some(crane) = &known {
         groups.extend(eurocode_groups().into_iter().map(|group| CraneLoadGroup::new(group, crane)));
     }
-    // the factors of the others are numbers, which do not depend on phi2
-    if let Some(crane) = known.or_else(|| of_phi2(1.0)) {
-        groups
-            .extend([asce_group(operation), mill_fatigue()].map(|group| CraneLoadGroup::new(group, &crane)));
-    }
+    // the factors of TR-13 are numbers, which do not depend on phi2
+    groups.extend(known.or_else(|| of_phi2(1.0)).map(|crane| CraneLoadGroup::new(mill_fatigue(), &crane)));
     groups
 }
