@@ -49,8 +49,8 @@ pub mod fatigue;
 mod signals;
 
 pub use codes::{
-    aist, asce, buffer, clause, cmaa, combination, crane, drive, duty, factor, limits, local_stress,
-    mill_combination, osha, skew,
+    aist, asce, buffer, clause, cmaa, combination, crane, drive, duty, factor, limit_choice, limits,
+    local_stress, mill_combination, osha, skew,
 };
 pub use crane::{Crane, StaticWheelLoads};
 pub use error::{Argument, Error};

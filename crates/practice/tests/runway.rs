@@ -5,6 +5,7 @@ use practice::asce::{self, CraneOperation};
 use practice::clause::Evidence;
 use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadGroup, eurocode_groups};
 use practice::factor::{self, Release};
+use practice::limit_choice::{LIMIT_CODES, limits_of};
 use practice::limits::{
     CMAA_LIMITS, DeflectionLimit, EN_1993_6_LIMITS, GantryCrane, LimitedDisplacement, ServiceClass,
     design_guide_limits, is_800_limits, mill_limits,
@@ -70,6 +71,20 @@ fn limits_follow_classes() {
     let frame = LimitedDisplacement::FrameLateral;
     close(allowable(&is_800_limits(GantryCrane::Manual, false), frame, 10.0), 0.05, 1e-15);
     close(allowable(&is_800_limits(GantryCrane::Manual, true), frame, 10.0), 0.025, 1e-15);
+}
+
+#[test]
+fn limits_are_found_by_the_names_of_code_and_class() {
+    let classes = [None, None, None, Some("E"), Some("C"), Some("heavy")];
+    for (code, class) in LIMIT_CODES.into_iter().zip(classes) {
+        let limits = limits_of(code, class).expect(code);
+        assert!(limits.iter().any(|limit| limit.displacement == LimitedDisplacement::RunwayVertical));
+    }
+    assert_eq!(limits_of("EN 1993-6:2007", None), limits_of("EN 1991-3", Some("anything")));
+    assert_eq!(limits_of("AIST TR-13", Some("E")), None, "buildings have classes A to D");
+    assert_eq!(limits_of("AISC Design Guide 7", Some("G")), None);
+    assert_eq!(limits_of("IS 800", Some("A")), None);
+    assert_eq!(limits_of("DIN 4132", None), None);
 }
 
 /// By hand, for Q = 200, T = 40, B = 190 kN: 0.1 x 430 = 43 kN; 1.1 x 161.24 = 177.36 kN; 0.2 x 322.48 = 64.5 kN.

@@ -4,7 +4,7 @@
 //! `clause` names the code, edition and clause of a value, and how the value was checked. `crane` has the static
 //! wheel loads from which the others start. `factor`, `drive`, `skew`, `buffer` and `duty` are the chapters of EN
 //! 1991-3; `cmaa`, `aist`, `asce` and `osha` are one document each. `limits` has the limits of deflections of all
-//! codes, `combination` and `mill_combination` the groups of loads with their factors, `local_stress` the stresses
+//! codes, `limit_choice` chooses them by name, `combination` and `mill_combination` the groups of loads with their factors, `local_stress` the stresses
 //! in the web under a wheel.
 
 pub mod aist;
@@ -17,6 +17,7 @@ pub mod crane;
 pub mod drive;
 pub mod duty;
 pub mod factor;
+pub mod limit_choice;
 pub mod limits;
 pub mod local_stress;
 pub mod mill_combination;
