@@ -19,6 +19,7 @@ mod film;
 #[path = "../history.rs"]
 mod history;
 mod inertia;
+mod limits;
 mod parts;
 mod skew;
 

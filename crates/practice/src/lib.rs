@@ -36,7 +36,7 @@
 //! A file imports from its own wing and from those before it. The last three wings do not import each other.
 //!
 //! 1. `error`: numbers that a formula does not accept.
-//! 2. `codes`: values of EN 1991-3, CMAA 70, AIST TR-13, OSHA and FEM.
+//! 2. `codes`: values of EN 1991-3, EN 1993-6, CMAA 70, AIST TR-13, AISC, ASCE 7, IS 800, OSHA and FEM.
 //! 3. `fatigue`: stress at a point, rainflow cycles, strength curves and damage.
 //! 4. `signals`: means, filters, frequencies, damping, envelopes.
 
@@ -48,7 +48,10 @@ pub mod fatigue;
 
 mod signals;
 
-pub use codes::{aist, buffer, cmaa, crane, drive, duty, factor, osha, skew};
+pub use codes::{
+    aist, asce, buffer, clause, cmaa, combination, crane, drive, duty, factor, limit_choice, limits,
+    local_stress, mill_combination, osha, skew,
+};
 pub use crane::{Crane, StaticWheelLoads};
 pub use error::{Argument, Error};
 pub use fatigue::{

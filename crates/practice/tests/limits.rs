@@ -4,8 +4,8 @@ use practice::factor::{HoistingClass, Release};
 use practice::fatigue::Stress;
 use practice::skew::{Guide, WheelPairs};
 use practice::{
-    Crane, Error, Repetition, ResponseSettings, SectionPoint, SectionProperties, Strength, aist, buffer,
-    cmaa, drive, duty, factor, osha, rainflow, response, skew, stress,
+    Crane, Error, Repetition, ResponseSettings, SectionPoint, SectionProperties, Strength, aist, asce,
+    buffer, cmaa, drive, duty, factor, limits, local_stress, osha, rainflow, response, skew, stress,
 };
 
 const ODD: [f64; 13] = [
@@ -62,17 +62,34 @@ fn formulas_give_numbers_or_refuse() {
         tally.one(aist::drift(a));
         tally.one(aist::with_impact(aist::CraneKind::Ladle, a));
         tally.one(duty::fatigue_factor(a));
+        tally.one(factor::test_load(a));
+        tally.one(local_stress::cmaa_bearing_length(a));
+        for limit in limits::EN_1993_6_LIMITS.iter().chain(&limits::CMAA_LIMITS) {
+            tally.one(limit.allowable(a));
+        }
         for b in ODD {
             tally.one(factor::phi3(a, b, Release::Rapid));
             tally.one(skew::fem_coefficient(a, b));
             tally.one(cmaa::skew_coefficient(a, b));
             tally.one(buffer::trolley_force(a, b));
+            tally.one(asce::lateral_force(a, b));
+            tally.one(asce::longitudinal_force(&[a, b]));
             tally.one(drive::drive_force(a, &[b, b]));
             tally.one(cmaa::collision_energy([a, b], [b, a]));
             for c in ODD {
                 tally.one(duty::equivalent_load(a, b, c));
                 tally.one(skew::angle(Guide::Flanges, a, b, c));
                 tally.one(buffer::stopping_force(a, b, c, 0.5));
+                let seat = local_stress::RailSeat {
+                    fixing: local_stress::RailFixing::ElasticPad,
+                    inertia: a,
+                    flange_width: b,
+                    flange: c,
+                    web: a,
+                    rail_height: b,
+                    rail_foot: c,
+                };
+                tally.add(seat.stresses(b).map(|found| vec![found.vertical, found.shear]));
                 tally.one(buffer::buffer_force(1.25, a, b, c));
                 tally.one(Strength::new(Stress::Direct, a, b, 1.0).and_then(|curve| curve.damage(c)));
                 tally.one(Strength::new(Stress::Shear, a, 1.0, b).and_then(|curve| curve.equivalent(c)));

@@ -11,7 +11,7 @@ use sim::Foundation;
 
 use crate::Error;
 use crate::case_result::CaseResult;
-use crate::codes::CodeCheck;
+use crate::codes::{CodeCheck, SpanResponse};
 use crate::columns::NamedColumns;
 use crate::fatigue;
 use crate::observe::ColumnObserver;
@@ -122,7 +122,8 @@ fn run_case(
     }
     let foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
-    let codes = CodeCheck::new(&scene, &input, &record)?;
+    let spans = SpanResponse { history: &run.history, solved: &solved, deflections: &response.deflections };
+    let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
     let fatigue = fatigue::fatigue_results(&scene, &record)?;
     if let Some((column, time)) = record.first_not_finite() {
         return Err(Error::NotFinite { label, column: column.to_owned(), time });

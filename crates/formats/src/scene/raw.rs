@@ -694,9 +694,15 @@ pub(crate) struct RawFatigue {
 pub(crate) struct RawPractice {
     /// Name of the body that is the crane; it must run on two rails.
     pub crane: Option<String>,
-    /// Kind of crane in AIST TR-13: "mill" (default), "ladle", "bucket", "soaking pit", "stripping", "motor room"
-    /// or "stacker".
+    /// Kind of crane in AIST TR-13: "mill" (default), "ladle", "bucket", "soaking pit", "stripping", "motor room",
+    /// "stacker" or "pendant" (pendant-operated).
     pub kind: Option<String>,
+    /// Service class of the crane by CMAA 70, "A" to "F", for limits of deflections.
+    pub class: Option<String>,
+    /// Class of load effect history of EN 1991-3, "S0" to "S9", for damage-equivalent wheel loads.
+    pub s_class: Option<String>,
+    /// Class of the mill building in AIST TR-13, "A" to "D", for limits of deflections.
+    pub building_class: Option<String>,
     /// Hoisting class of EN 1991-3: "HC1" to "HC4".
     pub hoisting: Option<String>,
     /// Onset of the drive forces, for phi5: "steady", "smooth" (default), "sudden" or "backlash".
@@ -715,6 +721,10 @@ pub(crate) struct RawPractice {
     pub trolley_speed: Option<f64>,
     /// Rated hoisting speed, length / time; by default the largest speed that the scene commands.
     pub hoist_speed: Option<f64>,
+    /// Stroke of the bumpers within which they stop the crane, length; by default values that need it are left out.
+    pub bumper_stroke: Option<f64>,
+    /// Ratio of the mean force of the bumpers to their largest force, at most 1; by default 0.5, a spring.
+    pub bumper_efficiency: Option<f64>,
 }
 
 /// A selection of columns: all, none, or those with certain names.

@@ -5,8 +5,7 @@ use super::crane::Crane;
 use crate::Error;
 use crate::error::{Argument, non_negative, positive};
 
-/// The kind of a crane, cab-operated or radio-operated. The separate rules for pendant-operated cranes are
-/// not included.
+/// The kind of a crane: one of the rows of the table, cab-operated or radio-operated, or pendant-operated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum CraneKind {
     /// Mill cranes.
@@ -23,6 +22,9 @@ pub enum CraneKind {
     MotorRoom,
     /// Cab-operated stacker cranes; the row is that of a public program for the draft of 2020.
     Stacker,
+    /// Pendant-operated cranes of any service: impact 10 %, side thrust 10 % of lifted load, trolley and bridge
+    /// together, traction 20 %.
+    Pendant,
 }
 
 /// The fractions of loads that give impact, side thrust and traction.
@@ -55,6 +57,7 @@ impl CraneKind {
             }
             CraneKind::MotorRoom => LoadFractions { impact: 0.2, lifted: 0.3, ..usual },
             CraneKind::Stacker => LoadFractions { lifted: 2.0, trolley: 0.4, crane: 0.15, ..usual },
+            CraneKind::Pendant => LoadFractions { impact: 0.1, lifted: 0.0, trolley: 0.0, ..usual },
         }
     }
 }

@@ -42,9 +42,10 @@ pub fn buffer_force(factor: f64, speed: f64, mass: f64, stiffness: f64) -> Resul
     Ok(non_negative(Argument::Factor, factor)? * speed * (mass * stiffness).sqrt())
 }
 
-/// The buffer force H = 0.1 (Q + T) of a trolley whose load can swing. *Not confirmed.*
+/// The buffer force H_B,2 = 0.1 (Q + T) of a trolley whose load can swing.
 ///
-/// `lifted` is Q and `trolley` is T, in any unit of force.
+/// `lifted` is Q and `trolley` is T with its lifting attachment, in any unit of force. By 2.7.5 the same force
+/// covers the acceleration and braking of the trolley.
 ///
 /// # Errors
 /// [`Error::Range`] for a weight that is negative or not finite.

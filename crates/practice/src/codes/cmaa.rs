@@ -39,6 +39,18 @@ pub const BRIDGE_DEFLECTION: f64 = 0.001125;
 /// CMAA 70-1983, 3.3.2.1.3.2.
 pub const COLLISION_SPEED: f64 = 0.4;
 
+/// The least hoist load factor, which applies up to 30 ft/min.
+///
+/// # Source
+/// CMAA 70-2010, 3.3.2.1.4.2.
+pub const LEAST_HOIST_LOAD_FACTOR: f64 = 0.15;
+
+/// The least dead load factor, which applies up to 100 ft/min.
+///
+/// # Source
+/// CMAA 70-2010, 3.3.2.1.4.1.
+pub const LEAST_DEAD_LOAD_FACTOR: f64 = 1.1;
+
 /// The hoist load factor HLF: 0.5 % per ft/min of hoisting speed, within 15 and 50 %. The lifted load is
 /// multiplied by 1 + HLF. `speed` is in m/s.
 ///
@@ -48,11 +60,11 @@ pub const COLLISION_SPEED: f64 = 0.4;
 /// # Source
 /// CMAA 70-2010, 3.3.2.1.4.2.
 pub fn hoist_load_factor(speed: f64) -> Result<f64, Error> {
-    Ok((0.005 * feet_per_minute(non_negative(Argument::Speed, speed)?)).clamp(0.15, 0.5))
+    Ok((0.005 * feet_per_minute(non_negative(Argument::Speed, speed)?)).clamp(LEAST_HOIST_LOAD_FACTOR, 0.5))
 }
 
 /// The dead load factor DLF = 1.05 + v/2000, v in ft/min, within 1.1 and 1.2, on the dead weight of the
-/// bridge or the trolley. `speed` is in m/s.
+/// crane. `speed` is the travel speed of the bridge, in m/s; the code has one factor for bridge and trolley.
 ///
 /// The edition of 1983 has a table instead: 1.1 up to 200 ft/min, otherwise 1.2 (3.3.2.1.1.4.1). It is *not
 /// confirmed* that 1.2 is the upper bound of the later formula too.
@@ -63,14 +75,15 @@ pub fn hoist_load_factor(speed: f64) -> Result<f64, Error> {
 /// # Source
 /// CMAA 70-2010, 3.3.2.1.4.1.
 pub fn dead_load_factor(speed: f64) -> Result<f64, Error> {
-    Ok((1.05 + feet_per_minute(non_negative(Argument::Speed, speed)?) / 2000.0).clamp(1.1, 1.2))
+    Ok((1.05 + feet_per_minute(non_negative(Argument::Speed, speed)?) / 2000.0)
+        .clamp(LEAST_DEAD_LOAD_FACTOR, 1.2))
 }
 
-/// The ratio of lateral to vertical load on the bridge girders from the acceleration of drives: 7.8 % per
-/// ft/s2, at least
-/// 2.5 %. `acceleration` is in m/s2.
+/// The ratio of lateral to vertical load on the bridge girders from the acceleration of the bridge: 7.8 % per
+/// ft/s2, at least 2.5 %. `acceleration` is in m/s2.
 ///
-/// It applies to the dead and lifted loads of bridge and trolley, without end trucks and end ties.
+/// It applies to the dead and lifted loads of bridge and trolley, without end trucks and end ties, and bends the
+/// bridge girders laterally. It is no load of the runway.
 ///
 /// # Errors
 /// [`Error::Range`] for an acceleration that is negative or not finite.

@@ -82,7 +82,7 @@ pub enum Release {
 /// The dynamic factor phi3 = 1 - (dm/m) (1 + beta3) on the lifted load when the part dm of its mass m is
 /// released.
 ///
-/// It is negative where the released rope would lift the hook. The formula is *not confirmed*.
+/// It is negative where the released rope would lift the hook.
 ///
 /// # Errors
 /// [`Error::Range`] for a `total` mass m that is not positive, or a `released` mass dm that is negative or
@@ -127,6 +127,37 @@ pub fn phi5(onset: DriveOnset) -> [f64; 2] {
         DriveOnset::Sudden => [1.5, 2.0],
         DriveOnset::Backlash => [3.0, 3.0],
     }
+}
+
+/// Smallest static test load as a multiple of the rated load; its dynamic factor phi6 is 1.
+///
+/// # Source
+/// EN 1991-3:2006, 2.10, as used by a public program.
+pub const STATIC_TEST: f64 = 1.25;
+
+/// Smallest dynamic test load as a multiple of the rated load; its dynamic factor is [`phi6`].
+///
+/// # Source
+/// EN 1991-3:2006, 2.10, as used by a public program.
+pub const DYNAMIC_TEST: f64 = 1.1;
+
+/// The larger of the static test load 1.25 Q and the dynamic one phi6 1.1 Q, as a multiple of the rated load Q.
+///
+/// # Errors
+/// [`Error::Range`] for a factor phi2 below one or not finite.
+///
+/// # Source
+/// EN 1991-3:2006, 2.10.
+///
+/// ```
+/// use practice::factor::test_load;
+///
+/// assert_eq!(test_load(1.168)?, 1.25, "the static test governs up to phi2 = 1.2727");
+/// assert!((test_load(1.4)? - 1.2 * 1.1).abs() < 1e-12);
+/// # Ok::<(), practice::Error>(())
+/// ```
+pub fn test_load(phi2: f64) -> Result<f64, Error> {
+    Ok((DYNAMIC_TEST * phi6(phi2)?).max(STATIC_TEST))
 }
 
 /// The dynamic factor phi6 = (1 + phi2)/2 on a dynamic test load of at least 110 % of the rated load.

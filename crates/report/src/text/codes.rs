@@ -3,7 +3,9 @@
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;
 use formats::text::number::rounded;
-use results::codes::{CodeCheck, CodeComparison};
+use formats::units::Dimension;
+use practice::clause::CodeClause;
+use results::codes::{CodeCheck, CodeComparison, StaticDeflection};
 
 /// Significant digits of values of codes; the codes themselves state no more.
 const DIGITS: usize = 5;
@@ -29,15 +31,39 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
             "The approach of the hook is the smallest in the run, because practice.approach is not set in the scene.",
         );
     }
-    Some(section.table(comparisons(scene, &all, first)).table(factors(scene, first)))
+    section = section.table(comparisons(scene, &all, first)).table(factors(scene, first));
+    if !first.limits.is_empty() {
+        section = section
+            .paragraph(
+                "The limits of deflections apply to static wheel loads, not to the forces of a run. The deflections \
+                 of the next table are those of the largest static wheel loads at the positions of the wheels in the \
+                 run, from the chord between the ends of the span; laterally under a tenth of these loads.",
+            )
+            .table(limits(scene, &first.limits));
+    }
+    if !first.groups.is_empty() {
+        section = section.table(groups(first));
+    }
+    for words in &first.left_out {
+        section = section.paragraph(format!("Left out: {words}."));
+    }
+    Some(section)
+}
+
+/// Heads of the columns of [`clause_cells`].
+const CLAUSE_HEADS: [&str; 4] = ["code", "edition", "clause", "source"];
+
+/// Code, edition, clause and check of a value.
+fn clause_cells(clause: &CodeClause) -> [TableCell; 4] {
+    [clause.standard, clause.edition, clause.clause, clause.evidence.words()].map(TableCell::from)
 }
 
 /// Quantities of the runs, each with the values of codes: one line for each value.
 fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> ReportTable {
     let mut columns = vec![TableColumn::new("quantity", ""), TableColumn::new("unit", "")];
     columns.extend(all.iter().map(|(label, _)| TableColumn::new(*label, "")));
-    columns.extend(["code", "clause", "formula"].map(|name| TableColumn::new(name, "")));
-    columns.push(TableColumn::new("value", ""));
+    columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
+    columns.extend(["formula", "value"].map(|name| TableColumn::new(name, "")));
     let mut rows = Vec::new();
     for row in &first.rows {
         let found = |codes: &CodeCheck| {
@@ -53,7 +79,7 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
         }));
         for value in &row.values {
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
-            line.extend([value.code, value.clause].map(TableCell::from));
+            line.extend(clause_cells(&value.clause));
             line.extend([
                 TableCell::from(value.formula.clone()),
                 TableCell::from(rounded(value.value, DIGITS)),
@@ -66,21 +92,76 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
 
 /// Factors of the codes, and their loads of one wheel.
 fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
-    let heads = [("factor", ""), ("value", ""), ("unit", ""), ("code", ""), ("clause", ""), ("formula", "")];
+    let mut columns = ["factor", "value", "unit"].map(|name| TableColumn::new(name, "")).to_vec();
+    columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
+    columns.push(TableColumn::new("formula", ""));
     let factors = first.factors.iter().map(|given| {
         let value = &given.value;
-        vec![
+        let mut line = vec![
             TableCell::from(given.name.replace('_', " ")),
             TableCell::from(rounded(value.value, DIGITS)),
             TableCell::from(scene.units.label(given.dimension)),
-            TableCell::from(value.code),
-            TableCell::from(value.clause),
-            TableCell::from(value.formula.clone()),
-        ]
+        ];
+        line.extend(clause_cells(&value.clause));
+        line.push(TableCell::from(value.formula.clone()));
+        line
     });
-    ReportTable {
-        caption: "Factors of the codes, and their loads of one wheel.".to_owned(),
-        columns: heads.map(|(name, unit)| TableColumn::new(name, unit)).into(),
-        rows: factors.collect(),
+    let rows = factors.collect();
+    ReportTable { caption: "Factors of the codes, and their loads of one wheel.".to_owned(), columns, rows }
+}
+
+/// Deflections under static wheel loads, one line for each limit.
+fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
+    let unit = scene.units.label(Dimension::LENGTH);
+    let mut columns = vec![
+        TableColumn::new("deflection", ""),
+        TableColumn::new("rail", ""),
+        TableColumn::new("from", &unit),
+        TableColumn::new("to", &unit),
+        TableColumn::new("static", &unit),
+        TableColumn::new("span over deflection", ""),
+        TableColumn::new("limit", ""),
+        TableColumn::new("allowable", &unit),
+        TableColumn::new("within limit", ""),
+    ];
+    columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
+    let mut rows = Vec::new();
+    for found in all {
+        let mut head = vec![
+            TableCell::from(found.displacement.word().replace('_', " ")),
+            TableCell::from(found.rail.clone()),
+            TableCell::from(found.span[0]),
+            TableCell::from(found.span[1]),
+            TableCell::from(rounded(found.value, DIGITS)),
+            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(rounded(ratio, DIGITS))),
+        ];
+        for limit in &found.limits {
+            let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
+            line.push(TableCell::from(limit.limit.formula()));
+            line.push(TableCell::from(rounded(limit.value, DIGITS)));
+            line.push(TableCell::from(if found.value <= limit.value { "yes" } else { "no" }));
+            line.extend(clause_cells(&limit.limit.clause));
+            rows.push(line);
+        }
     }
+    ReportTable {
+        caption: "Deflections under static wheel loads, and limits of codes.".to_owned(),
+        columns,
+        rows,
+    }
+}
+
+/// Groups of loads with the factors of this crane.
+fn groups(first: &CodeCheck) -> ReportTable {
+    let mut columns = ["group", "loads and factors"].map(|name| TableColumn::new(name, "")).to_vec();
+    columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
+    let rows = first.groups.iter().map(|group| {
+        let factor = |(name, factor): &(&str, f64)| format!("{} {name}", rounded(*factor, DIGITS));
+        let factors: Vec<String> = group.factors.iter().map(factor).collect();
+        let mut line = vec![TableCell::from(group.group.name), TableCell::from(factors.join(" + "))];
+        line.extend(clause_cells(&group.group.clause));
+        line
+    });
+    let rows = rows.collect();
+    ReportTable { caption: "Groups of crane loads with their factors.".to_owned(), columns, rows }
 }

@@ -212,7 +212,8 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let mut table = ReportTable {
         caption: format!(
             "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and \
-             span-to-deflection ratios."
+             span-to-deflection ratios. L/600 and L/400 are limits of the deflection under static wheel loads; the \
+             deflections here are those of the run."
         ),
         columns: vec![
             TableColumn::new("rail", ""),
@@ -223,7 +224,7 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableColumn::new("at", &unit),
             TableColumn::new("at time", "s"),
             TableColumn::new("span over deflection", ""),
-            TableColumn::new("within", ""),
+            TableColumn::new("compared with static limits", ""),
         ],
         rows: Vec::new(),
     };

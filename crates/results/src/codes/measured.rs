@@ -7,7 +7,7 @@ use crate::columns::NamedColumns;
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, end_stops, root_body};
 
-/// Time over which the mean acceleration of a trolley is computed, s.
+/// Time over which the mean acceleration of a bridge is computed, s.
 const ACCELERATION_WINDOW: f64 = 0.5;
 /// Speed below which a braked body counts as standing, as a fraction of its speed when the brakes are applied.
 const STANDSTILL: f64 = 0.02;
@@ -39,7 +39,7 @@ pub struct MeasuredCrane {
     pub collision: Option<TimedValue>,
     /// Speed of the crane when it meets the end stops.
     pub impact_speed: Option<f64>,
-    /// Largest mean acceleration of the trolley over half a second.
+    /// Largest mean acceleration of the bridge over half a second.
     pub acceleration: Option<f64>,
     /// Braking distances of bridge and trolley to standstill, with the speed when the brakes are applied.
     pub brakes: [Option<(TimedValue, f64)>; 2],
@@ -79,7 +79,7 @@ impl MeasuredCrane {
         }
         let bodies = [Some(practice.crane), practice.trolley];
         out.brakes = bodies.map(|body| braking_distance(record, &scene.bodies[body?].name));
-        out.acceleration = practice.trolley.and_then(|body| acceleration(record, &scene.bodies[body].name));
+        out.acceleration = acceleration(record, &scene.bodies[practice.crane].name);
         for mark in [
             &mut out.lateral,
             &mut out.wheel_lateral,

@@ -5,25 +5,35 @@
 //! speeds). The quantities for which codes have values are measured in the columns of the run ([`MeasuredCrane`]).
 //! The formulas are evaluated, and both values are listed.
 //!
-//! Files, lowest first: crane, measured, formulas, lists, this one.
+//! Every value has its code, edition and clause, and states how it was checked ([`CodeValue`]). Limits of deflections
+//! stand beside the deflections under static wheel loads ([`StaticDeflection`]), to which they apply.
+//!
+//! Files, lowest first: value, crane, measured, case, formulas, factors, comparison, groups, deflection, this one.
 
+mod case;
+mod comparison;
 mod crane;
+mod deflection;
+mod factors;
 mod formulas;
-mod lists;
+mod groups;
 mod measured;
+mod value;
 
+pub use comparison::CodeComparison;
 pub use crane::CraneData;
-pub use formulas::CodeValue;
-pub use lists::{CodeComparison, CodeFactor};
+pub use deflection::{AllowableDisplacement, SpanResponse, StaticDeflection};
+pub use factors::CodeFactor;
+pub use groups::CraneLoadGroup;
 pub use measured::MeasuredCrane;
+pub use value::CodeValue;
 
 use serde_json::{Map, json};
 
-use self::formulas::CodeCase;
-use self::lists::{comparisons, factors};
+use self::case::CodeCase;
 use crate::columns::NamedColumns;
-use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
+use formats::scene::{Practice, Scene};
 use foundations::Error;
 
 /// The values of codes for a crane, and the measured values of its run.
@@ -31,10 +41,16 @@ use foundations::Error;
 pub struct CodeCheck {
     /// Data of the crane.
     pub crane: CraneData,
-    /// Factors of the codes and wheel loads that do not depend on the run.
+    /// Factors of the codes and wheel loads by them.
     pub factors: Vec<CodeFactor>,
     /// Each measured quantity of the run with the values by codes.
     pub rows: Vec<CodeComparison>,
+    /// Groups of loads with their factors.
+    pub groups: Vec<CraneLoadGroup>,
+    /// Deflections under static wheel loads with the limits of codes.
+    pub limits: Vec<StaticDeflection>,
+    /// Values that are left out, and the keys of `practice` that they need.
+    pub left_out: Vec<&'static str>,
 }
 
 impl CodeCheck {
@@ -46,13 +62,17 @@ impl CodeCheck {
         scene: &Scene,
         input: &SimulationInput,
         record: &NamedColumns,
+        run: &SpanResponse<'_>,
     ) -> Result<Option<CodeCheck>, Error> {
         let Some(practice) = &scene.practice else { return Ok(None) };
         let crane = CraneData::new(scene, practice, input, record)?;
         let measured = MeasuredCrane::new(scene, practice, input, &crane, record);
         let case = CodeCase::new(scene, practice, &crane, &measured);
-        let (rows, factors) = (comparisons(&case), factors(&case));
-        Ok(Some(CodeCheck { crane, factors, rows }))
+        let (rows, factors) = (comparison::comparisons(&case), factors::factors(&case));
+        let groups = groups::load_groups(&case);
+        let limits = deflection::static_deflections(scene, practice, input, &crane, run);
+        let left_out = left_out(practice, &case);
+        Ok(Some(CodeCheck { crane, factors, rows, groups, limits, left_out }))
     }
 
     /// As the member `practice` of a run's summary.
@@ -64,6 +84,29 @@ impl CodeCheck {
         let factors: Map<_, _> =
             self.factors.iter().map(|factor| (factor.name.to_owned(), factor.value.json())).collect();
         let approach_is_from_run = self.crane.approach_is_from_run;
-        json!({ "factors": factors, "crane": crane, "approach_from_run": approach_is_from_run, "values": rows })
+        json!({
+            "factors": factors,
+            "crane": crane,
+            "approach_from_run": approach_is_from_run,
+            "values": rows,
+            "limits": self.limits.iter().map(StaticDeflection::json).collect::<Vec<_>>(),
+            "load_groups": self.groups.iter().map(CraneLoadGroup::json).collect::<Vec<_>>(),
+            "left_out": self.left_out,
+        })
     }
+}
+
+/// Values that are left out because the scene does not give what they need.
+fn left_out(practice: &Practice, case: &CodeCase<'_>) -> Vec<&'static str> {
+    let all = [
+        (case.phi2.is_none(), "phi2, phi6 and groups of EN 1991-3: need hoisting and hoist_speed"),
+        (practice.s_class.is_none(), "damage-equivalent wheel loads of EN 1991-3: need s_class"),
+        (practice.class.is_none(), "limits of AISC Design Guide 7: need class"),
+        (
+            practice.building_class.is_none(),
+            "limits of AIST TR-13 are those of classes A and B, and of C and D: building_class selects",
+        ),
+        (practice.bumper_stroke.is_none(), "stopping force of bumpers: needs bumper_stroke"),
+    ];
+    all.into_iter().filter(|(is_missing, _)| *is_missing).map(|(_, words)| words).collect()
 }

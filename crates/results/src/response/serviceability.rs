@@ -26,6 +26,10 @@ const FRAME_TIMES: usize = 300;
 /// Usual limits of the ratio of span to deflection.
 const LIMITS: [f64; 2] = [cmaa::RUNWAY_VERTICAL, cmaa::RUNWAY_LATERAL];
 
+/// What a comparison of a deflection of a run with limits of static deflections means.
+pub const WITHIN_NOTE: &str = "deflection under the forces of this run; L/600 and L/400 are limits of static wheel \
+                               loads, see practice.limits";
+
 /// Largest deflection of a rail from the chord between the ends of a span.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Deflection {
@@ -71,6 +75,7 @@ impl Deflection {
             "time": self.time,
             "span_over_deflection": self.ratio(),
             "within": { "L/600": self.is_within(vertical), "L/400": self.is_within(lateral) },
+            "within_note": WITHIN_NOTE,
         })
     }
 }

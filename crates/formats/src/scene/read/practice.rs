@@ -1,7 +1,9 @@
 //! The member `practice`: input of the crane design codes that is not part of the motion.
 
-use practice::aist::CraneKind;
+use practice::aist::{BuildingClass, CraneKind};
+use practice::duty::FatigueClass;
 use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::limits::ServiceClass;
 use practice::skew::Guide;
 
 use crate::check::Check;
@@ -35,7 +37,7 @@ const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Releas
 const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
 
 /// Keywords of the kinds of cranes.
-const KINDS: [(&str, CraneKind); 7] = [
+const KINDS: [(&str, CraneKind); 8] = [
     ("mill", CraneKind::Mill),
     ("ladle", CraneKind::Ladle),
     ("bucket", CraneKind::Bucket),
@@ -43,7 +45,70 @@ const KINDS: [(&str, CraneKind); 7] = [
     ("stripping", CraneKind::Stripping),
     ("motor room", CraneKind::MotorRoom),
     ("stacker", CraneKind::Stacker),
+    ("pendant", CraneKind::Pendant),
 ];
+
+/// Keywords of the service classes of CMAA 70.
+const CLASSES: [(&str, ServiceClass); 6] = [
+    ("A", ServiceClass::A),
+    ("B", ServiceClass::B),
+    ("C", ServiceClass::C),
+    ("D", ServiceClass::D),
+    ("E", ServiceClass::E),
+    ("F", ServiceClass::F),
+];
+
+/// Keywords of the classes of mill buildings.
+const BUILDINGS: [(&str, BuildingClass); 4] =
+    [("A", BuildingClass::A), ("B", BuildingClass::B), ("C", BuildingClass::C), ("D", BuildingClass::D)];
+
+/// Keywords of the classes of load effect history, in their order.
+const S_CLASSES: [&str; 10] = ["S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];
+
+/// Efficiency of a bumper whose force rises linearly, such as a spring.
+const SPRING_EFFICIENCY: f64 = 0.5;
+
+/// Least efficiency of a bumper that is accepted.
+const LEAST_EFFICIENCY: f64 = 1e-3;
+
+/// Classes of the crane and its building.
+struct Classes {
+    service: Option<ServiceClass>,
+    history: Option<FatigueClass>,
+    building: Option<BuildingClass>,
+}
+
+impl Classes {
+    fn read(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> Classes {
+        let mut index = 0..;
+        let histories = S_CLASSES.map(|word| (word, index.next().and_then(FatigueClass::new)));
+        let building = raw.building_class.as_ref();
+        Classes {
+            service: raw
+                .class
+                .as_ref()
+                .and_then(|word| check.faults.one_of(word, &at.key("class"), &CLASSES)),
+            history: raw
+                .s_class
+                .as_ref()
+                .and_then(|word| check.faults.one_of(word, &at.key("s_class"), &histories)?),
+            building: building
+                .and_then(|word| check.faults.one_of(word, &at.key("building_class"), &BUILDINGS)),
+        }
+    }
+}
+
+/// Efficiency of the bumpers, between 0.001 and 1.
+fn efficiency(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
+    let efficiency = raw.bumper_efficiency.unwrap_or(SPRING_EFFICIENCY);
+    if !(LEAST_EFFICIENCY..=1.0).contains(&efficiency) {
+        let place = at.key("bumper_efficiency");
+        let fault = Fault::new(&place, format!("must be between {LEAST_EFFICIENCY} and 1"));
+        let hint = "mean over largest force: 0.5 for a spring, about 0.8 for a hydraulic bumper";
+        check.faults.add(fault.got(number(efficiency)).of_value().hint(hint));
+    }
+    efficiency
+}
 
 /// Reads the member of a scene whose bodies, trucks and ropes have already been read.
 pub(super) fn read(
@@ -54,6 +119,8 @@ pub(super) fn read(
 ) -> Option<Practice> {
     let raw = raw.as_ref()?;
     let at = root.key("practice");
+    let classes = Classes::read(raw, &at, check);
+    let bumper_efficiency = efficiency(raw, &at, check);
     let kind = raw.kind.as_ref().and_then(|word| check.faults.one_of(word, &at.key("kind"), &KINDS));
     let hoisting =
         raw.hoisting.as_ref().and_then(|word| check.faults.one_of(word, &at.key("hoisting"), &HOISTING));
@@ -72,6 +139,7 @@ pub(super) fn read(
         size(raw.trolley_speed, "trolley_speed", Dimension::SPEED, "rated"),
         size(raw.hoist_speed, "hoist_speed", Dimension::SPEED, "rated"),
     ];
+    let bumper_stroke = size(raw.bumper_stroke, "bumper_stroke", Dimension::LENGTH, "stroke of the bumpers");
     let (crane, place) = match &raw.crane {
         Some(name) => {
             let known = names(&scene.bodies, |body| &body.name);
@@ -91,6 +159,9 @@ pub(super) fn read(
         trolley,
         loads,
         kind: kind.unwrap_or(CraneKind::Mill),
+        class: classes.service,
+        s_class: classes.history,
+        building_class: classes.building,
         hoisting,
         drives: drives.unwrap_or(DriveOnset::Smooth),
         release: release.unwrap_or(Release::Rapid),
@@ -98,6 +169,8 @@ pub(super) fn read(
         approach,
         rail_head,
         speeds,
+        bumper_stroke,
+        bumper_efficiency,
     })
 }
 

@@ -1,7 +1,9 @@
 //! Input of the crane design codes that is not part of the motion.
 
-use practice::aist::CraneKind;
+use practice::aist::{BuildingClass, CraneKind};
+use practice::duty::FatigueClass;
 use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::limits::ServiceClass;
 use practice::skew::Guide;
 
 /// Properties of a crane that the codes require in addition to the rest of the scene.
@@ -17,6 +19,12 @@ pub struct Practice {
     pub loads: Vec<usize>,
     /// Row of the table in TR-13.
     pub kind: CraneKind,
+    /// Service class by CMAA 70; none if it is not specified.
+    pub class: Option<ServiceClass>,
+    /// Class of load effect history of EN 1991-3; none if it is not specified.
+    pub s_class: Option<FatigueClass>,
+    /// Class of the mill building in TR-13; none if it is not specified.
+    pub building_class: Option<BuildingClass>,
     /// Hoisting class; none if it is not specified.
     pub hoisting: Option<HoistingClass>,
     /// Onset of the drive forces.
@@ -31,4 +39,8 @@ pub struct Practice {
     pub rail_head: Option<f64>,
     /// Rated speeds of bridge, trolley and hoist, length / time; none if those that the scene prescribes apply.
     pub speeds: [Option<f64>; 3],
+    /// Stroke of the bumpers, length; none if it is not specified.
+    pub bumper_stroke: Option<f64>,
+    /// Ratio of the mean force of the bumpers to their largest force.
+    pub bumper_efficiency: f64,
 }

@@ -1,0 +1,281 @@
+//! Limits of deflections by codes, with the deflections under static wheel loads.
+//!
+//! The limits apply to static wheel loads, not to the transient forces of a run. The deflection of a span from the
+//! chord between its ends is therefore computed once more: at the positions of the wheels in the run, with the static
+//! load of each wheel by statics. Laterally, a tenth of the static loads of the wheels on the span's own rail acts.
+
+use foundations::SolvedModel;
+use practice::aist::{BuildingClass, CraneKind};
+use practice::limits::{
+    CMAA_LIMITS, DeflectionLimit, EN_1993_6_LIMITS, GantryCrane, LimitedDisplacement, design_guide_limits,
+    is_800_limits, mill_limits,
+};
+use serde_json::{Value, json};
+use sim::History;
+use splines::{Axis, Compliance, Influence, Probe};
+
+use super::crane::{CraneData, to_si};
+use super::value::clause_json;
+use crate::response::{Deflection, WheelLoad, WheelLoadReader};
+use formats::scene::motion::SimulationInput;
+use formats::scene::{Practice, Scene, root_body};
+use formats::units::{Dimension, Units};
+
+/// Number of positions within a span at which its deflection is evaluated, besides those of the wheels.
+const PLACES: usize = 15;
+/// Largest number of output times at which a span is evaluated.
+const TIMES: usize = 64;
+/// Ratio of lateral to vertical wheel loads for the limits of lateral deflection.
+///
+/// # Source
+/// CMAA 70-2010, 1.4.6.
+const LATERAL_FRACTION: f64 = 0.1;
+/// Weight of 50 t, N, at which IS 800 changes the limit of gantry girders.
+const FIFTY_TONNES: f64 = 50.0e3 * 9.806_65;
+
+/// A limit by a code with its value for one length, in the units of the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AllowableDisplacement {
+    /// The limit.
+    pub limit: DeflectionLimit,
+    /// The largest displacement allowed.
+    pub value: f64,
+}
+
+/// The deflection of a span under static wheel loads, with the limits of codes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StaticDeflection {
+    /// What is limited.
+    pub displacement: LimitedDisplacement,
+    /// Name of the rail.
+    pub rail: String,
+    /// Ends of the span.
+    pub span: [f64; 2],
+    /// The deflection under static wheel loads.
+    pub value: f64,
+    /// Rail coordinate of the largest deflection.
+    pub x: f64,
+    /// Time at which the wheels stand at the positions of the largest deflection.
+    pub time: f64,
+    /// The limits.
+    pub limits: Vec<AllowableDisplacement>,
+}
+
+impl StaticDeflection {
+    /// Ratio of the length of the span to its deflection; `None` without deflection.
+    #[must_use]
+    pub fn ratio(&self) -> Option<f64> {
+        let ratio = (self.span[1] - self.span[0]) / self.value;
+        (self.value > 0.0 && ratio.is_finite()).then_some(ratio)
+    }
+
+    /// As an item of `limits`.
+    pub(super) fn json(&self) -> Value {
+        let limit = |allowable: &AllowableDisplacement| {
+            let mut members = clause_json(&allowable.limit.clause);
+            members["formula"] = json!(allowable.limit.formula());
+            members["loads"] = json!(allowable.limit.loads);
+            members["value"] = json!(allowable.value);
+            members["within"] = json!(self.value <= allowable.value);
+            members
+        };
+        json!({
+            "name": self.displacement.word(),
+            "rail": self.rail,
+            "from": self.span[0],
+            "to": self.span[1],
+            "static_deflection": self.value + 0.0,
+            "x": self.x,
+            "time": self.time,
+            "span_over_deflection": self.ratio(),
+            "codes": self.limits.iter().map(limit).collect::<Vec<_>>(),
+        })
+    }
+}
+
+/// What the static deflections of a run are computed from.
+pub struct SpanResponse<'r> {
+    /// History of the run.
+    pub history: &'r History,
+    /// Solution of each structure of the scene; `None` for a structure without spec.
+    pub solved: &'r [Option<&'r SolvedModel>],
+    /// Deflections of the spans in the run.
+    pub deflections: &'r [Deflection],
+}
+
+/// All limits of the codes for a crane.
+fn all_limits(practice: &Practice, crane: &CraneData, units: Units) -> Vec<DeflectionLimit> {
+    let mut limits: Vec<DeflectionLimit> = EN_1993_6_LIMITS.into_iter().chain(CMAA_LIMITS).collect();
+    limits.extend(practice.class.into_iter().flat_map(design_guide_limits));
+    match practice.building_class {
+        Some(building) => limits.extend(mill_limits(building)),
+        None => {
+            // the limits of both pairs of classes, of which the lateral ones are the same
+            limits.extend(mill_limits(BuildingClass::A));
+            limits.push(mill_limits(BuildingClass::C)[0]);
+        }
+    }
+    let newton = to_si(units).factor(Dimension::FORCE);
+    let gantry = match crane.model.lifted * newton > FIFTY_TONNES {
+        true => GantryCrane::ElectricAbove50Tonnes,
+        false => GantryCrane::ElectricTo50Tonnes,
+    };
+    limits.extend(is_800_limits(gantry, practice.kind != CraneKind::Pendant));
+    limits
+}
+
+/// The deflections under static wheel loads of the spans of the crane's runway and of its bridge girders that carry
+/// wheels in the run.
+pub(super) fn static_deflections(
+    scene: &Scene,
+    practice: &Practice,
+    input: &SimulationInput,
+    crane: &CraneData,
+    run: &SpanResponse<'_>,
+) -> Vec<StaticDeflection> {
+    let limits = all_limits(practice, crane, scene.units);
+    let loads = StaticLoads::new(scene, practice, input, crane);
+    let reader = WheelLoadReader::new(scene, input, run.history);
+    let mut found = Vec::new();
+    for known in run.deflections.iter().filter(|known| known.direction == "vertical") {
+        let Some(rail) = scene.rails.iter().position(|rail| rail.name == known.rail) else { continue };
+        let carrier = scene.structures[scene.rails[rail].structure].carrier;
+        let kinds: &[LimitedDisplacement] = if practice.rails.contains(&rail) {
+            &[LimitedDisplacement::RunwayVertical, LimitedDisplacement::RunwayLateral]
+        } else if carrier.is_some_and(|carrier| carrier.body == practice.crane) {
+            &[LimitedDisplacement::BridgeGirder]
+        } else {
+            &[]
+        };
+        for &displacement in kinds {
+            let span = Span { rail, ends: known.span, displacement };
+            found.extend(span.largest(scene, &loads, &reader, run, &limits));
+        }
+    }
+    found
+}
+
+/// Static vertical load of every wheel of a scene, without those of other cranes.
+struct StaticLoads {
+    /// By rail of the crane (first, second) under which the trolley stands, and by wheel.
+    near: [Vec<f64>; 2],
+    /// Rails of the crane.
+    rails: [usize; 2],
+}
+
+impl StaticLoads {
+    fn new(scene: &Scene, practice: &Practice, input: &SimulationInput, crane: &CraneData) -> StaticLoads {
+        let on_trolley: Vec<usize> = (0..input.wheels.len())
+            .filter(|w| practice.trolley == Some(root_body(scene, input.wheels[*w].body).0))
+            .collect();
+        let moving = (crane.model.trolley + crane.model.lifted) / on_trolley.len().max(1) as f64;
+        let near = [0, 1].map(|at: usize| {
+            let mut loads = vec![0.0; input.wheels.len()];
+            on_trolley.iter().for_each(|w| loads[*w] = moving);
+            if let Ok(full) = crane.model.wheel_loads(1.0, 1.0) {
+                crane.wheels[at].iter().for_each(|w| loads[*w] = full.near);
+                crane.wheels[1 - at].iter().for_each(|w| loads[*w] = full.far);
+            }
+            loads
+        });
+        StaticLoads { near, rails: practice.rails }
+    }
+
+    /// Loads of all wheels with the trolley at its nearest approach to `rail`.
+    fn with_trolley_at(&self, rail: usize) -> &[f64] {
+        &self.near[usize::from(rail == self.rails[1])]
+    }
+}
+
+/// A span of a rail, and what is evaluated there.
+struct Span {
+    /// Index of the rail in the scene.
+    rail: usize,
+    ends: [f64; 2],
+    displacement: LimitedDisplacement,
+}
+
+impl Span {
+    /// The largest deflection over the positions of the wheels in the run; `None` for a structure without solution,
+    /// and where the structure is unrestrained.
+    fn largest(
+        &self,
+        scene: &Scene,
+        loads: &StaticLoads,
+        reader: &WheelLoadReader,
+        run: &SpanResponse<'_>,
+        limits: &[DeflectionLimit],
+    ) -> Option<StaticDeflection> {
+        let rail = &scene.rails[self.rail];
+        let surface = run.solved[rail.structure]?.surface.as_ref()?;
+        let forces = loads.with_trolley_at(self.rail);
+        let [from, to] = self.ends;
+        let metre = to_si(scene.units).factor(Dimension::LENGTH);
+        let allowable = |limit: &DeflectionLimit| {
+            let value = limit.allowable((to - from) * metre).ok()? / metre;
+            (limit.displacement == self.displacement)
+                .then_some(AllowableDisplacement { limit: *limit, value })
+        };
+        let mut largest = StaticDeflection {
+            displacement: self.displacement,
+            rail: rail.name.clone(),
+            span: self.ends,
+            value: 0.0,
+            x: from,
+            time: 0.0,
+            limits: limits.iter().filter_map(allowable).collect(),
+        };
+        let count = run.history.len();
+        let chosen = count.min(TIMES);
+        for row in (0..chosen).map(|k| k * (count - 1) / (chosen - 1).max(1)) {
+            let sample = run.history.sample(row);
+            let wheels: Vec<(WheelLoad, f64)> = reader
+                .at(sample)
+                .into_iter()
+                .zip(forces.iter().copied())
+                .filter(|(load, force)| load.structure == rail.structure && *force != 0.0)
+                .collect();
+            let (x, value) = self.deflection(surface, rail.rail, &wheels)?;
+            if value > largest.value {
+                largest = StaticDeflection { value, x, time: sample[0], ..largest };
+            }
+        }
+        Some(largest)
+    }
+
+    /// The largest deflection from the chord under the static loads of `wheels` on the structure, with its place;
+    /// `None` where the structure is unrestrained in this direction. `rail` is the rail within the structure.
+    fn deflection(
+        &self,
+        surface: &dyn Compliance,
+        rail: usize,
+        wheels: &[(WheelLoad, f64)],
+    ) -> Option<(f64, f64)> {
+        let [from, to] = self.ends;
+        let lateral = self.displacement == LimitedDisplacement::RunwayLateral;
+        let axis = if lateral { Axis::Lateral } else { Axis::Vertical };
+        let is_inside = |load: &WheelLoad| load.rail == rail && load.x > from && load.x < to;
+        let mut places: Vec<f64> =
+            (0..=PLACES + 1).map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64).collect();
+        places.extend(wheels.iter().filter(|(load, _)| is_inside(load)).map(|(load, _)| load.x));
+        let mut at: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
+        let mut forces = Vec::new();
+        for (load, force) in wheels.iter().filter(|(load, _)| !lateral || load.rail == rail) {
+            at.push(Probe { rail: load.rail, x: load.x, axis });
+            forces.push(if lateral { LATERAL_FRACTION * force } else { 0.0 - force });
+        }
+        let mut influence = Influence::zeros(at.len());
+        surface.fill(&at, &mut influence).ok()?;
+        let moved = |i: usize| -> f64 {
+            let terms = forces.iter().enumerate();
+            terms.map(|(j, force)| influence.value[(i, places.len() + j)] * force).sum()
+        };
+        let (first, last) = (moved(0), moved(PLACES + 1));
+        let sags = places.iter().enumerate().map(|(i, &x)| {
+            let fraction = (x - from) / (to - from);
+            let sag = (1.0 - fraction) * first + fraction * last - moved(i);
+            (x, if lateral { sag.abs() } else { sag })
+        });
+        sags.max_by(|a, b| a.1.total_cmp(&b.1))
+    }
+}
