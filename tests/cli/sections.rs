@@ -245,9 +245,9 @@ fn two_wheels_on_a_girder_by_name_have_the_moments_of_another_code() {
         values.fold(0.0, |most: f64, value| if value.abs() > most.abs() { value } else { most })
     };
     let source = "independent Timoshenko model, elements of 0.05 m";
-    assert_near("largest moment", source, 241.556, extreme("moment", "max"), 1e-4);
-    assert_near("smallest moment", source, -194.083, extreme("moment", "min"), 1e-4);
-    assert_near("largest deflection", source, 9.642e-3, extreme("deflection", "max"), 4e-4);
+    assert_near("largest moment", source, 241.556, extreme("moment", "max"), 2e-5);
+    assert_near("smallest moment", source, -194.083, extreme("moment", "min"), 2e-5);
+    assert_near("largest deflection", source, 9.642e-3, extreme("deflection", "max"), 6e-5);
 }
 
 #[test]
