@@ -5,9 +5,12 @@
 //! the results as files.
 //!
 //! Files, lowest first: `words` (names of quantities), `error`, `loads` (trains of a case with its factors),
-//! `outcome` (what a calculation gives), `limits` (limits of codes), `rounding` (what is only rounding), `solve`,
+//! `outcome` (what a calculation gives), `crane` (what codes need of the crane), `combinations` (cases of
+//! codes), `limits` (limits of codes), `rounding` (what is only rounding), `solve`,
 //! `tables`, `summary`.
 
+mod combinations;
+mod crane;
 mod error;
 mod limits;
 mod loads;
@@ -18,9 +21,10 @@ mod summary;
 mod tables;
 mod words;
 
+pub use combinations::with_combinations;
 pub use error::DesignError;
 pub use loads::LoadKind;
-pub use outcome::{DesignResult, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
+pub use outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
 pub use solve::solve;
 pub use summary::summary;
 pub use tables::{envelope_csv, reactions_csv};

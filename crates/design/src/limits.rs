@@ -1,10 +1,129 @@
-//! Limits of codes against the results of a design.
+//! Limits of codes against the results of a design, and loads for fatigue.
 
-use formats::design::Design;
+use formats::design::{Design, DesignCase, DesignTrain};
+use formats::units::{Dimension, Scale, Units};
+use practice::duty::{equivalent_load, fatigue_factor};
+use practice::factor::PHI1;
+use practice::limits::{DeflectionLimit, LimitedDisplacement};
+use trains::GirderResponse;
 
-use crate::outcome::{LimitCheck, SolvedCase};
+use crate::crane::phi2_of;
+use crate::outcome::{FatigueLoads, LimitCheck, SolvedCase};
 
-/// Checks the limits of the design's code.
-pub(crate) fn check_limits(_design: &Design, _cases: &[SolvedCase]) -> Vec<LimitCheck> {
-    Vec::new()
+/// Parts of vertical forces by their names in a design.
+const PARTS: [&str; 2] = ["crane", "hoist"];
+
+/// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
+/// and without factors, as the codes want them.
+pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCheck> {
+    let rails = design.spec.rails();
+    let metric = Scale { from: design.units, to: Units::SI }.factor(Dimension::LENGTH);
+    let mut out = Vec::new();
+    for (number, (case, solved)) in design.cases.iter().zip(cases).enumerate() {
+        if !case.factors.is_empty() {
+            continue;
+        }
+        for deflection in &solved.envelopes.deflections {
+            for limit in &design.practice.limits {
+                let Some(quantity) = words(limit, deflection.quantity, design, case) else { continue };
+                let span = (deflection.ends[1] - deflection.ends[0]) * metric;
+                let Ok(allowed) = limit.allowable(span) else { continue };
+                out.push(LimitCheck {
+                    clause: limit.clause,
+                    quantity,
+                    formula: limit.formula(),
+                    loads: limit.loads,
+                    value: deflection.governing.value.abs(),
+                    limit: allowed / metric,
+                    case: number + 1,
+                    rail: rails[deflection.rail].name.clone(),
+                    span: deflection.span,
+                });
+            }
+        }
+    }
+    out
+}
+
+/// What a limit bounds, where it bounds this deflection of a runway under the loads of the case.
+fn words(
+    limit: &DeflectionLimit,
+    quantity: GirderResponse,
+    design: &Design,
+    case: &DesignCase,
+) -> Option<&'static str> {
+    let is_thrust = || case.trains.iter().flat_map(|&k| &design.trains[k].wheels).any(|w| w.lateral != 0.0);
+    match (limit.displacement, quantity) {
+        (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
+            Some("vertical deflection of the runway")
+        }
+        (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if is_thrust() => {
+            Some("lateral deflection of the runway")
+        }
+        _ => None,
+    }
+}
+
+/// Limits of the code that a design cannot check, and groups of loads that it cannot form, with the reasons.
+pub(crate) fn left_out(design: &Design, groups: &[String]) -> Vec<String> {
+    let mut out = Vec::new();
+    for limit in &design.practice.limits {
+        let why = match limit.displacement {
+            LimitedDisplacement::RunwayVertical => continue,
+            LimitedDisplacement::RunwayLateral
+                if design.trains.iter().flat_map(|train| &train.wheels).any(|w| w.lateral != 0.0) =>
+            {
+                continue;
+            }
+            LimitedDisplacement::RunwayLateral => "no train has lateral forces",
+            LimitedDisplacement::MonorailVertical | LimitedDisplacement::BridgeGirder => {
+                "a design calculates runways"
+            }
+            _ => "a design has deflections of rails one by one; `record` them in a scene",
+        };
+        let name = limit.displacement.word();
+        let clause = limit.clause;
+        out.push(format!("{name} ({} {}): {why}", clause.standard, clause.clause));
+    }
+    if design.practice.s_class.is_some() && phi2_of(design).is_none() {
+        out.push("damage-equivalent wheel loads: give `hoisting` and `hoist_speed` for phi2".to_owned());
+    }
+    if design.practice.s_class.is_some() && !design.trains.iter().any(has_parts) {
+        out.push(
+            "damage-equivalent wheel loads: give vertical forces in the parts `crane` and `hoist`".to_owned(),
+        );
+    }
+    out.extend(groups.iter().cloned());
+    out
+}
+
+fn has_parts(train: &DesignTrain) -> bool {
+    let in_parts = |(name, _): &(String, f64)| PARTS.contains(&name.as_str());
+    train.wheels.iter().all(|wheel| wheel.vertical.iter().all(in_parts))
+}
+
+/// Damage-equivalent loads Q_e = lambda (phi_fat,1 Q_C + phi_fat,2 Q_H), phi_fat,i = (1 + phi_i)/2, by EN 1991-3, 2.12.1,
+/// of the trains whose vertical forces are given in the parts `crane` and `hoist`.
+pub(crate) fn fatigue_loads(design: &Design) -> Vec<FatigueLoads> {
+    let (Some(class), Some(phi2)) = (design.practice.s_class, phi2_of(design)) else { return Vec::new() };
+    let lambda = [class.normal(), class.shear()];
+    let Ok(dynamic) = fatigue_factor(PHI1[1]).and_then(|a| Ok([a, fatigue_factor(phi2)?])) else {
+        return Vec::new();
+    };
+    let of_wheel = |vertical: &[(String, f64)]| {
+        lambda.map(|lambda| {
+            let part = |(name, force): &(String, f64)| {
+                let factor = dynamic[usize::from(name == PARTS[1])];
+                equivalent_load(*force, lambda, factor).unwrap_or(0.0)
+            };
+            vertical.iter().map(part).sum()
+        })
+    };
+    let loads = |train: &DesignTrain| FatigueLoads {
+        train: train.name.clone(),
+        lambda,
+        dynamic,
+        wheels: train.wheels.iter().map(|wheel| of_wheel(&wheel.vertical)).collect(),
+    };
+    design.trains.iter().filter(|train| has_parts(train)).map(loads).collect()
 }

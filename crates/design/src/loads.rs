@@ -14,6 +14,16 @@ pub enum LoadKind {
     SideThrust,
     /// Longitudinal forces.
     Traction,
+    /// Buffer forces.
+    Buffer,
+    /// Lateral forces from skewing.
+    Skewing,
+}
+
+impl LoadKind {
+    /// The kinds that are listed by themselves.
+    pub const SINGLE: [LoadKind; 5] =
+        [LoadKind::Vertical, LoadKind::SideThrust, LoadKind::Traction, LoadKind::Buffer, LoadKind::Skewing];
 }
 
 /// The trains of a case under its factors. The dead load acts with its factor where `kind` is all.
@@ -32,12 +42,20 @@ fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
     let share = |own: LoadKind| f64::from(u8::from(kind == LoadKind::All || kind == own));
     let lateral = share(LoadKind::SideThrust) * case.factor("lateral");
     let longitudinal = share(LoadKind::Traction) * case.factor("longitudinal");
+    // By themselves these are listed also where a case has no factor for them.
+    let on_request = |own: LoadKind, name: &str| match kind {
+        LoadKind::All => case.factor(name),
+        kind if kind == own && !case.factors.iter().any(|(known, _)| known == name) => 1.0,
+        _ => share(own) * case.factor(name),
+    };
+    let (buffer, skewing) =
+        (on_request(LoadKind::Buffer, "buffer"), on_request(LoadKind::Skewing, "skewing"));
     let wheel = |wheel: &DesignWheel| TrainWheel {
         rail: wheel.rail,
         x: wheel.x,
         vertical: share(LoadKind::Vertical) * vertical(wheel, case),
-        lateral: lateral * wheel.lateral,
-        longitudinal: longitudinal * wheel.longitudinal,
+        lateral: lateral * wheel.lateral + skewing * wheel.skewing,
+        longitudinal: longitudinal * wheel.longitudinal + buffer * wheel.buffer,
         eccentricity: wheel.eccentricity,
     };
     Train {
@@ -63,7 +81,7 @@ pub(crate) fn has(design: &Design, case: &DesignCase, kind: LoadKind) -> bool {
     train_case(design, case, kind).trains.iter().flat_map(|train| &train.wheels).any(|wheel| match kind {
         LoadKind::All => true,
         LoadKind::Vertical => wheel.vertical != 0.0,
-        LoadKind::SideThrust => wheel.lateral != 0.0,
-        LoadKind::Traction => wheel.longitudinal != 0.0,
+        LoadKind::SideThrust | LoadKind::Skewing => wheel.lateral != 0.0,
+        LoadKind::Traction | LoadKind::Buffer => wheel.longitudinal != 0.0,
     })
 }

@@ -1,5 +1,6 @@
 //! What the calculation of a design gives.
 
+use practice::clause::CodeClause;
 use trains::{CaseEnvelopes, Governing};
 
 use crate::loads::LoadKind;
@@ -11,6 +12,10 @@ pub struct DesignResult {
     pub cases: Vec<SolvedCase>,
     /// Limits of codes against the results.
     pub limits: Vec<LimitCheck>,
+    /// Damage-equivalent loads of the wheels of each train.
+    pub fatigue: Vec<FatigueLoads>,
+    /// What the code has and the design does not give, so that it is left out: name and reason.
+    pub left_out: Vec<String>,
     /// What the user should know.
     pub warnings: Vec<String>,
     /// Bound of the relative error of the influence coefficients.
@@ -53,12 +58,14 @@ pub struct ReactionName {
 /// A limit of a code against a result.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LimitCheck {
-    /// The code with its edition.
-    pub code: String,
-    /// Clause or table.
-    pub clause: String,
+    /// Code, edition, clause, and how the value was checked.
+    pub clause: CodeClause,
     /// What is limited, in words.
-    pub quantity: String,
+    pub quantity: &'static str,
+    /// The limit in symbols, such as `L/600, at most 25 mm`.
+    pub formula: String,
+    /// The loads to which the limit applies.
+    pub loads: &'static str,
     /// The result, in the units of the design.
     pub value: f64,
     /// Its limit.
@@ -69,6 +76,19 @@ pub struct LimitCheck {
     pub rail: String,
     /// Number of the span from 1.
     pub span: usize,
+}
+
+/// Loads of wheels that cause the same fatigue damage as the passages of a life.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FatigueLoads {
+    /// Name of the train.
+    pub train: String,
+    /// Factors lambda of direct and shear stress by the class of load effect history.
+    pub lambda: [f64; 2],
+    /// Factors of the weight of the crane and of the hoisted load.
+    pub dynamic: [f64; 2],
+    /// By wheel: equivalent loads for direct and shear stress.
+    pub wheels: Vec<[f64; 2]>,
 }
 
 impl LimitCheck {

@@ -5,8 +5,9 @@ use formats::design::{Design, DesignCase};
 use formats::text::inputs::Inputs;
 use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
+use crate::combinations::groups_left_out;
 use crate::error::DesignError;
-use crate::limits::check_limits;
+use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
 use crate::rounding::Sizes;
@@ -57,7 +58,8 @@ pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignErr
     let warnings = warnings(design, &solved);
     let limits = check_limits(design, &solved);
     let error_bound = structure.frame().certificate().error_bound;
-    Ok(DesignResult { cases: solved, limits, warnings, error_bound })
+    let (fatigue, left_out) = (fatigue_loads(design), left_out(design, &groups_left_out(design)));
+    Ok(DesignResult { cases: solved, limits, fatigue, left_out, warnings, error_bound })
 }
 
 /// Reactions under each kind of load alone that the case has.
@@ -69,7 +71,7 @@ fn by_load(
     reactions: &[Vec<Effect>],
 ) -> Result<Vec<(LoadKind, Vec<ReactionExtremes>)>, trains::Error> {
     let mut out = Vec::new();
-    for kind in [LoadKind::Vertical, LoadKind::SideThrust, LoadKind::Traction] {
+    for kind in LoadKind::SINGLE {
         if has(design, case, kind) {
             let alone = train_case(design, case, kind);
             let found = trains::effects(structure, &DeadLoads::default(), &[alone], reactions)?;

@@ -4,7 +4,7 @@ use formats::design::{Design, DesignSection};
 use serde_json::{Map, Value, json};
 use trains::{Governing, SpanDeflection, SpanExtreme, TrainPosition};
 
-use crate::outcome::{DesignResult, LimitCheck, ReactionExtremes};
+use crate::outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes};
 use crate::words::{kind_word, plane_word, quantity_word, side_word};
 
 /// Name and version of the format.
@@ -51,8 +51,12 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
         "extremes": extremes,
         "deflections": deflections,
         "limits": result.limits.iter().map(limit).collect::<Vec<_>>(),
+        "left_out": result.left_out,
         "warnings": result.warnings,
     });
+    if !result.fatigue.is_empty() {
+        summary["fatigue"] = json!(result.fatigue.iter().map(fatigue).collect::<Vec<_>>());
+    }
     if !design.spec.notes.is_empty() {
         summary["notes"] = json!(design.spec.notes);
     }
@@ -181,14 +185,30 @@ impl OfCase<'_> {
     }
 }
 
+fn fatigue(loads: &FatigueLoads) -> Value {
+    let [normal, shear] = loads.lambda;
+    let [crane, hoist] = loads.dynamic;
+    json!({
+        "train": loads.train,
+        "lambda": { "normal": normal, "shear": shear },
+        "factors": { "crane": crane, "hoist": hoist },
+        "wheels": loads.wheels.iter().map(|[n, s]| json!({ "normal": n, "shear": s })).collect::<Vec<_>>(),
+        "code": "EN 1991-3:2006, 2.12.1",
+    })
+}
+
 fn limit(check: &LimitCheck) -> Value {
     json!({
         "case": check.case,
         "rail": check.rail,
         "span": check.span,
-        "code": check.code,
-        "clause": check.clause,
+        "code": check.clause.standard,
+        "edition": check.clause.edition,
+        "clause": check.clause.clause,
+        "source": check.clause.evidence.words(),
         "quantity": check.quantity,
+        "formula": check.formula,
+        "loads": check.loads,
         "value": check.value,
         "limit": check.limit,
         "within": check.within(),

@@ -99,12 +99,15 @@ pub fn reactions_csv(result: &DesignResult) -> Result<String, csv::Error> {
 }
 
 /// Word of a load.
-pub(crate) const fn load_word(kind: LoadKind) -> &'static str {
+#[must_use]
+pub const fn load_word(kind: LoadKind) -> &'static str {
     match kind {
         LoadKind::All => "all",
         LoadKind::Vertical => "vertical",
         LoadKind::SideThrust => "side thrust",
         LoadKind::Traction => "traction",
+        LoadKind::Buffer => "buffer",
+        LoadKind::Skewing => "skewing",
     }
 }
 

@@ -26,12 +26,13 @@
 //! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
 //! [`scene`], [`design`], [`schema`].
 //!
-//! Wings, lowest first: limits, text, vector, units, check, spec, grid, tables, scene, design, schema
+//! Wings, lowest first: limits, text, vector, units, check, practice_words, spec, grid, tables, scene, design, schema
 
 pub mod check;
 pub mod design;
 pub mod grid;
 pub mod limits;
+mod practice_words;
 pub mod scene;
 pub mod schema;
 pub mod spec;

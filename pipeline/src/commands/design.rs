@@ -30,6 +30,7 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     let planned =
         PlannedFiles { names: FILES.iter().map(|name| (*name).to_owned()).collect(), plots: Vec::new() };
     let mut folder = OutputFolder::open(&path, "design", args.force, &planned)?;
+    let read = design::with_combinations(&read);
     let result = design::solve(&read, &inputs).map_err(|error| match error {
         DesignError::Input(diagnostics) => Failure::Input(diagnostics),
         DesignError::NoSolution(why) => Failure::Untrusted(why),
@@ -70,7 +71,7 @@ fn worst(limits: &[LimitCheck]) -> String {
             limit.rail,
             limit.span,
             ratio(&limit),
-            limit.code
+            limit.clause.standard
         )
     })
 }

@@ -1,11 +1,15 @@
 //! Design files: wheel trains on a structure, load cases, and what is asked of them.
 //!
-//! `raw` is the file as written, `values` the checked design, `read` the reader.
+//! `raw` is the file as written, `values` the checked design, `practice` and `read` the
+//! readers.
 
+mod practice;
 mod raw;
 mod read;
 mod values;
 
 pub(crate) use raw::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 pub use read::FORMAT;
-pub use values::{Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, WHOLE};
+pub use values::{
+    Design, DesignCase, DesignDead, DesignPractice, DesignSection, DesignTrain, DesignWheel, WHOLE,
+};

@@ -66,6 +66,8 @@ pub(crate) struct RawTrain {
     pub lateral: Option<f64>,
     /// Longitudinal force of the whole train along +x, shared equally by its wheels.
     pub longitudinal: Option<f64>,
+    /// Buffer force on the whole train along +x, shared equally by its wheels; acts only with a factor of its own.
+    pub buffer: Option<f64>,
     /// Distance of the forces of each wheel from the line of the rail along +z, length.
     pub eccentricity: Option<f64>,
     /// Whether the train is tried the other way round as well; by default true.
@@ -94,6 +96,8 @@ pub(crate) struct RawTrainWheel {
     pub lateral: Option<f64>,
     /// Longitudinal force of this wheel along +x, in place of its share in that of the train.
     pub longitudinal: Option<f64>,
+    /// Lateral force of this wheel along +z from skewing of the crane; acts only with a factor of its own.
+    pub skewing: Option<f64>,
     /// Distance of its forces from the line of the rail along +z, length, in place of that of the train.
     pub eccentricity: Option<f64>,
     /// Rail on which it stands, by default that of the train.
@@ -112,8 +116,8 @@ pub(crate) struct RawNamedCase {
     pub gap: Option<f64>,
     /// Order of the trains along the rail: "any" (default) or "given".
     pub order: Option<String>,
-    /// Factors of the loads: `dead`, `vertical`, parts of vertical forces by name, `lateral`, `longitudinal`; 1 for
-    /// what is left out.
+    /// Factors of the loads: `dead`, `vertical`, parts of vertical forces by name, `lateral`, `longitudinal`, by default
+    /// 1; `skewing` and `buffer`, by default 0.
     #[serde(default)]
     pub factors: Entries<f64>,
 }
@@ -155,6 +159,12 @@ pub(crate) struct RawDesignPractice {
     pub class: Option<String>,
     /// Class of load effect history of EN 1991-3, "S0" to "S9".
     pub s_class: Option<String>,
+    /// Class of the mill building in AIST TR-13, "A" to "D".
+    pub building_class: Option<String>,
+    /// Whether every case without factors of its own is also calculated with the groups of loads of the code.
+    pub combinations: Option<bool>,
+    /// Operation of the crane, for the impact of ASCE 7: "cab" (default), "monorail", "pendant" or "hand-geared".
+    pub operation: Option<String>,
     /// Kind of crane in AIST TR-13.
     pub kind: Option<String>,
     /// Hoisting class of EN 1991-3: "HC1" to "HC4".

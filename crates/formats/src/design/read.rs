@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use fea::{Model, Rail};
 
+use super::practice;
 use super::raw::{RawCase, RawDead, RawDesign, RawForces, RawNamedCase, RawSectionCut, RawTrain};
 use super::values::{Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, WHOLE};
 use crate::check::Check;
@@ -25,7 +26,10 @@ pub const FORMAT: &str = "girderway-design/1";
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Names of loads that every case may factor, beside those of parts of vertical forces.
-const LOADS: [&str; 4] = ["dead", WHOLE, "lateral", "longitudinal"];
+const LOADS: [&str; 6] = ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer"];
+
+/// Parts of vertical forces that the groups of loads of a code need.
+const GROUP_PARTS: [&str; 2] = ["crane", "hoist"];
 
 impl Design {
     /// Reads a design and the spec that it names.
@@ -89,7 +93,11 @@ fn read(
         sections.filter_map(|(k, raw)| section(raw, &spec, &at.index(k), &mut check)).collect();
     unique(sections.iter().map(|section| section.name.as_str()), &at, check.faults);
     let spans = spans(raw, &spec, &rails, &root, &mut check);
-    let practice = raw.practice.clone().unwrap_or_default();
+    let given = raw.practice.clone().unwrap_or_default();
+    let practice = practice::read(&given, units, &root.key("practice"), &mut check);
+    if practice.combinations {
+        require_parts(&trains, &cases, practice.code.as_deref(), &root, check.faults);
+    }
     Some(Design {
         name: raw.name.clone().unwrap_or_else(|| stem(file)),
         units: own?,
@@ -100,8 +108,7 @@ fn read(
         cases,
         sections,
         spans,
-        code: practice.code,
-        class: practice.class,
+        practice,
     })
 }
 
@@ -216,6 +223,8 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
     let signs = [("both", true), ("given", false)];
     let reverses = raw.signs.as_ref().and_then(|word| check.faults.one_of(word, &at.key("signs"), &signs));
     let whole = raw.longitudinal.map(|force| check.number(force, &at.key("longitudinal"), Dimension::FORCE));
+    let buffer = raw.buffer.map(|force| check.number(force, &at.key("buffer"), Dimension::FORCE));
+    let buffer = buffer.unwrap_or(0.0) / list.len().max(1) as f64;
     let sharing = list.iter().filter(|wheel| wheel.longitudinal.is_none()).count().max(1) as f64;
     let of_train = [
         raw.lateral.map(|force| check.number(force, &at.key("lateral"), Dimension::FORCE)),
@@ -243,8 +252,10 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
         let lateral = own_number(given.lateral, "lateral", Dimension::FORCE, lateral);
         let longitudinal = own_number(given.longitudinal, "longitudinal", Dimension::FORCE, longitudinal);
         let eccentricity = own_number(given.eccentricity, "eccentricity", Dimension::LENGTH, eccentricity);
+        let skewing = own_number(given.skewing, "skewing", Dimension::FORCE, None);
         let vertical = vertical(&given.vertical, &here, check);
-        wheels.push(DesignWheel { rail: own.unwrap_or(0), x, vertical, lateral, longitudinal, eccentricity });
+        let rail = own.unwrap_or(0);
+        wheels.push(DesignWheel { rail, x, vertical, lateral, longitudinal, skewing, buffer, eccentricity });
     }
     check_order(&wheels, &places, check.faults);
     let mut weight = |value: Option<f64>, key: &str| {
@@ -442,6 +453,37 @@ fn case(
         gap,
         ordered: ordered.unwrap_or(false),
         factors,
+    }
+}
+
+/// Groups of loads of a code factor the weight of the crane and the hoisted load apart; those of ASCE 7 do not.
+fn require_parts(
+    trains: &[DesignTrain],
+    cases: &[DesignCase],
+    code: Option<&str>,
+    root: &Place<'_>,
+    faults: &mut Faults,
+) {
+    if code.is_some_and(|code| code.starts_with("ASCE")) {
+        return;
+    }
+    let at = root.key("trains");
+    for (index, train) in trains.iter().enumerate() {
+        if !cases.iter().any(|case| case.factors.is_empty() && case.trains.contains(&index)) {
+            continue;
+        }
+        let lacking = train
+            .wheels
+            .iter()
+            .position(|wheel| !wheel.vertical.iter().all(|(name, _)| GROUP_PARTS.contains(&name.as_str())));
+        if let Some(wheel) = lacking {
+            let train = at.index(index);
+            let wheels = train.key("wheels");
+            let here = wheels.index(wheel);
+            let fault = Fault::new(&here.key("vertical"), "must be given in the parts `crane` and `hoist`");
+            let hint = "`combinations` of the code factor them apart: {\"crane\": 60, \"hoist\": 120}";
+            faults.add(fault.of_value().hint(hint));
+        }
     }
 }
 

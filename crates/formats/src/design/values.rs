@@ -2,6 +2,12 @@
 
 use std::sync::Arc;
 
+use practice::aist::CraneKind;
+use practice::asce::CraneOperation;
+use practice::duty::FatigueClass;
+use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::limits::DeflectionLimit;
+
 use crate::spec::Spec;
 use crate::units::Units;
 
@@ -29,10 +35,33 @@ pub struct Design {
     pub sections: Vec<DesignSection>,
     /// By rail: coordinates between which its spans lie.
     pub spans: Vec<Vec<f64>>,
-    /// Design code, as written.
+    /// Design code and data of the crane.
+    pub practice: DesignPractice,
+}
+
+/// Design code, and what its rows need of the crane.
+#[derive(Clone, Debug)]
+pub struct DesignPractice {
+    /// The code, as written.
     pub code: Option<String>,
-    /// Class of the crane in the code, as written.
-    pub class: Option<String>,
+    /// Limits of deflections by the code and its class.
+    pub limits: Vec<DeflectionLimit>,
+    /// Class of load effect history of EN 1991-3.
+    pub s_class: Option<FatigueClass>,
+    /// Kind of crane in AIST TR-13.
+    pub kind: CraneKind,
+    /// Operation of the crane, for ASCE 7.
+    pub operation: CraneOperation,
+    /// Hoisting class of EN 1991-3.
+    pub hoisting: Option<HoistingClass>,
+    /// Onset of the drive forces.
+    pub drives: DriveOnset,
+    /// How rapidly a payload is released.
+    pub release: Release,
+    /// Rated hoisting speed, m/s.
+    pub hoist_speed: Option<f64>,
+    /// Whether cases without factors of their own are also calculated with the groups of loads of the code.
+    pub combinations: bool,
 }
 
 /// Dead load of a design.
@@ -76,6 +105,10 @@ pub struct DesignWheel {
     pub lateral: f64,
     /// Longitudinal force along +x.
     pub longitudinal: f64,
+    /// Lateral force along +z from skewing of the crane.
+    pub skewing: f64,
+    /// Its share in a buffer force along +x.
+    pub buffer: f64,
     /// Distance of the forces from the line of the rail along +z.
     pub eccentricity: f64,
 }
@@ -91,15 +124,19 @@ pub struct DesignCase {
     pub gap: f64,
     /// Whether the order of the trains is the given one.
     pub ordered: bool,
-    /// Factors that differ from 1, by the name of the load.
+    /// Factors that are given, by the name of the load.
     pub factors: Vec<(String, f64)>,
 }
 
+/// Loads that act only where a case gives them a factor.
+const ON_REQUEST: [&str; 2] = ["skewing", "buffer"];
+
 impl DesignCase {
-    /// Factor of a load by name, 1 by default.
+    /// Factor of a load by name; by default 0 for `skewing` and `buffer`, and 1 for all others.
     #[must_use]
     pub fn factor(&self, name: &str) -> f64 {
-        self.factors.iter().find(|(known, _)| known == name).map_or(1.0, |(_, factor)| *factor)
+        let default = if ON_REQUEST.contains(&name) { 0.0 } else { 1.0 };
+        self.factors.iter().find(|(known, _)| known == name).map_or(default, |(_, factor)| *factor)
     }
 }
 

@@ -5,6 +5,7 @@ use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, LoadKind, ReactionExtremes, SolvedCase, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
+use practice::clause::CodeClause;
 use trains::{GirderResponse, Governing, SectionSide, SpanExtreme};
 
 /// Significant digits of values in the report.
@@ -221,8 +222,17 @@ fn deflections(design: &Design, result: &DesignResult) -> ReportTable {
     table
 }
 
+/// Standard, edition where the name of the standard does not have it, and clause.
+fn code(clause: &CodeClause) -> String {
+    if clause.standard.contains(clause.edition) {
+        format!("{}, {}", clause.standard, clause.clause)
+    } else {
+        format!("{} {}, {}", clause.standard, clause.edition, clause.clause)
+    }
+}
+
 fn limits(result: &DesignResult) -> ReportTable {
-    let columns = ["limit", "case", "rail", "span", "value", "limit value", "of limit", "", "code"];
+    let columns = ["limit", "", "case", "rail", "span", "value", "allowed", "of limit", "", "code", "source"];
     let mut table = ReportTable {
         caption: "Limits of the code".to_owned(),
         columns: columns.iter().map(|name| TableColumn::new(*name, "")).collect(),
@@ -230,7 +240,8 @@ fn limits(result: &DesignResult) -> ReportTable {
     };
     for check in &result.limits {
         table.rows.push(vec![
-            TableCell::from(check.quantity.clone()),
+            TableCell::from(check.quantity.to_owned()),
+            TableCell::from(check.formula.clone()),
             TableCell::from(check.case),
             TableCell::from(check.rail.clone()),
             TableCell::from(check.span),
@@ -238,7 +249,8 @@ fn limits(result: &DesignResult) -> ReportTable {
             TableCell::from(digits(check.limit, DIGITS)),
             TableCell::from(format!("{:.0} %", 100.0 * check.value.abs() / check.limit)),
             TableCell::from(if check.within() { "kept" } else { "exceeded" }),
-            TableCell::from(format!("{}, {}", check.code, check.clause)),
+            TableCell::from(code(&check.clause)),
+            TableCell::from(check.clause.evidence.words().to_owned()),
         ]);
     }
     table
@@ -331,6 +343,8 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
                 LoadKind::Vertical => "vertical",
                 LoadKind::SideThrust => "side thrust",
                 LoadKind::Traction => "traction",
+                LoadKind::Buffer => "buffer",
+                LoadKind::Skewing => "skewing",
             };
             columns.push(TableColumn::new(format!("{word}, largest"), &unit));
             columns.push(TableColumn::new("smallest", &unit));

@@ -2,11 +2,12 @@
 
 use practice::aist::{BuildingClass, CraneKind};
 use practice::duty::FatigueClass;
-use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::factor::{DriveOnset, Release};
 use practice::limits::ServiceClass;
 use practice::skew::Guide;
 
 use crate::check::Check;
+use crate::practice_words::{BUILDINGS, CLASSES, DRIVES, GUIDE, HOISTING, KINDS, RELEASE, fatigue_classes};
 use crate::scene::raw::RawPractice;
 use crate::scene::values::practice::Practice;
 use crate::scene::values::scene::{Scene, mean_lateral_position, root_body};
@@ -14,56 +15,6 @@ use crate::text::fault::{Fault, number};
 use crate::text::names::{names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
-
-/// Keywords of the hoisting classes.
-const HOISTING: [(&str, HoistingClass); 4] = [
-    ("HC1", HoistingClass::Hc1),
-    ("HC2", HoistingClass::Hc2),
-    ("HC3", HoistingClass::Hc3),
-    ("HC4", HoistingClass::Hc4),
-];
-/// Keywords of the onset of drive forces.
-const DRIVES: [(&str, DriveOnset); 4] = [
-    ("steady", DriveOnset::Steady),
-    ("smooth", DriveOnset::Smooth),
-    ("sudden", DriveOnset::Sudden),
-    ("backlash", DriveOnset::Backlash),
-];
-
-/// Keywords of the rate at which a payload is released.
-const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Release::Rapid)];
-
-/// Keywords of the guidance of a crane.
-const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];
-
-/// Keywords of the kinds of cranes.
-const KINDS: [(&str, CraneKind); 8] = [
-    ("mill", CraneKind::Mill),
-    ("ladle", CraneKind::Ladle),
-    ("bucket", CraneKind::Bucket),
-    ("soaking pit", CraneKind::SoakingPit),
-    ("stripping", CraneKind::Stripping),
-    ("motor room", CraneKind::MotorRoom),
-    ("stacker", CraneKind::Stacker),
-    ("pendant", CraneKind::Pendant),
-];
-
-/// Keywords of the service classes of CMAA 70.
-const CLASSES: [(&str, ServiceClass); 6] = [
-    ("A", ServiceClass::A),
-    ("B", ServiceClass::B),
-    ("C", ServiceClass::C),
-    ("D", ServiceClass::D),
-    ("E", ServiceClass::E),
-    ("F", ServiceClass::F),
-];
-
-/// Keywords of the classes of mill buildings.
-const BUILDINGS: [(&str, BuildingClass); 4] =
-    [("A", BuildingClass::A), ("B", BuildingClass::B), ("C", BuildingClass::C), ("D", BuildingClass::D)];
-
-/// Keywords of the classes of load effect history, in their order.
-const S_CLASSES: [&str; 10] = ["S0", "S1", "S2", "S3", "S4", "S5", "S6", "S7", "S8", "S9"];
 
 /// Efficiency of a bumper whose force rises linearly, such as a spring.
 const SPRING_EFFICIENCY: f64 = 0.5;
@@ -80,8 +31,7 @@ struct Classes {
 
 impl Classes {
     fn read(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> Classes {
-        let mut index = 0..;
-        let histories = S_CLASSES.map(|word| (word, index.next().and_then(FatigueClass::new)));
+        let histories = fatigue_classes();
         let building = raw.building_class.as_ref();
         Classes {
             service: raw

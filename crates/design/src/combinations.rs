@@ -1,0 +1,132 @@
+//! Cases from the groups of crane loads of a code.
+
+use formats::design::{Design, DesignCase, WHOLE};
+use practice::aist::CraneKind;
+use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadGroup, eurocode_groups};
+use practice::factor::phi5;
+use practice::mill_combination::{asce_group, mill_combinations, mill_fatigue};
+
+use crate::crane::phi2_of;
+
+/// A design with the cases of its code's groups behind its own, where its `practice` asks for them. Every case without
+/// factors of its own is repeated with the factors of each group whose loads it has.
+///
+/// Dead load keeps the factor 1 in the groups of EN 1991-3 and ASCE 7, which are groups of crane loads. The forces of
+/// drives, side thrust and traction are those that the trains give.
+#[must_use]
+pub fn with_combinations(design: &Design) -> Design {
+    let mut out = design.clone();
+    out.cases.extend(combined(design).0);
+    out
+}
+
+/// The groups that a design cannot form, with the reasons.
+pub(crate) fn groups_left_out(design: &Design) -> Vec<String> {
+    combined(design).1
+}
+
+/// The cases of the groups, and the groups that are left out.
+fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
+    let mut cases = Vec::new();
+    let mut left_out = Vec::new();
+    if !design.practice.combinations {
+        return (cases, left_out);
+    }
+    let (groups, dynamic) = match groups(design) {
+        Ok(found) => found,
+        Err(why) => {
+            left_out.push(why);
+            return (cases, left_out);
+        }
+    };
+    for group in &groups {
+        let own = design.cases.iter().filter(|case| case.factors.is_empty());
+        let fitting = own.filter(|case| !group.is_single_crane || case.trains.len() == 1);
+        for case in fitting {
+            let code = group.clause.standard;
+            let name = match group.purpose {
+                GroupUse::Strength => format!("{}: {code} {} (strength)", case.name, group.name),
+                _ => format!("{}: {code} {}", case.name, group.name),
+            };
+            match factors(design, case, group, &dynamic) {
+                Ok(factors) => cases.push(DesignCase { name, factors, ..case.clone() }),
+                Err(why) => {
+                    let line = format!("{code} group {}: {why}", group.name);
+                    if !left_out.contains(&line) {
+                        left_out.push(line);
+                    }
+                }
+            }
+        }
+    }
+    (cases, left_out)
+}
+
+/// The groups of the code, with the dynamic factors of the crane.
+fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
+    let code = design.practice.code.as_deref().unwrap_or("");
+    let plain = DynamicFactors { phi: [1.0; 7], remaining: 0.0 };
+    match code.split(':').next().unwrap_or(code).trim() {
+        "EN 1991-3" | "EN 1993-6" => {
+            let phi2 =
+                phi2_of(design).ok_or("groups of EN 1991-3: give `hoisting` and `hoist_speed` for phi2")?;
+            let [_, phi5] = phi5(design.practice.drives);
+            let factors = DynamicFactors::of_crane(phi2, phi5, design.practice.release);
+            Ok((eurocode_groups(), factors.map_err(|error| error.to_string())?))
+        }
+        "AIST TR-13" => {
+            let mut all = mill_combinations(GroupUse::AllowableStress);
+            all.push(mill_fatigue());
+            Ok((all, plain))
+        }
+        "ASCE 7" => Ok((vec![asce_group(design.practice.operation)], plain)),
+        other => Err(format!("groups of loads: {other} has limits only")),
+    }
+}
+
+/// The factors of a group for the loads of a case.
+fn factors(
+    design: &Design,
+    case: &DesignCase,
+    group: &LoadGroup,
+    dynamic: &DynamicFactors,
+) -> Result<Vec<(String, f64)>, String> {
+    let of = |load: CraneLoad| group.factor(load, dynamic);
+    let wheels = || case.trains.iter().flat_map(|&train| &design.trains[train].wheels);
+    let needed = [
+        (CraneLoad::Skewing, wheels().any(|w| w.skewing != 0.0), "no wheel has a `skewing` force"),
+        (CraneLoad::BufferForce, wheels().any(|w| w.buffer != 0.0), "no train has a `buffer` force"),
+        (CraneLoad::TrolleyDrives, false, "a design has no forces of the trolley's drives"),
+        (CraneLoad::TestLoad, false, "a design has no test load"),
+        (CraneLoad::Tilting, false, "a design has no tilting force"),
+    ];
+    if let Some((.., why)) = needed.iter().find(|(load, is_there, _)| of(*load) != 0.0 && !is_there) {
+        return Err((*why).to_owned());
+    }
+    let is_asce = group.clause.standard.starts_with("ASCE");
+    let is_mill = group.clause.standard.starts_with("AIST");
+    let impact = of(CraneLoad::Impact) * if is_mill { impact_of(design.practice.kind) } else { 1.0 };
+    let [crane, hoist] = [of(CraneLoad::SelfWeight), of(CraneLoad::HoistLoad)].map(|factor| factor + impact);
+    // The factors 0.2 and 0.1 of ASCE 7 make the forces that the trains give already.
+    let given = |factor: f64| if is_asce { f64::from(u8::from(factor != 0.0)) } else { factor };
+    let mut out = vec![
+        ("dead".to_owned(), if is_mill { of(CraneLoad::Dead) } else { 1.0 }),
+        ("lateral".to_owned(), given(of(CraneLoad::BridgeDrives) + of(CraneLoad::SideThrust))),
+        ("longitudinal".to_owned(), given(of(CraneLoad::BridgeDrives) + of(CraneLoad::Traction))),
+        ("skewing".to_owned(), of(CraneLoad::Skewing)),
+        ("buffer".to_owned(), of(CraneLoad::BufferForce)),
+    ];
+    let in_parts = wheels().any(|wheel| wheel.vertical.iter().any(|(name, _)| name != WHOLE));
+    if in_parts {
+        out.extend([("crane".to_owned(), crane), ("hoist".to_owned(), hoist)]);
+    }
+    if is_asce {
+        out.push((WHOLE.to_owned(), crane));
+    }
+    Ok(out)
+}
+
+/// Vertical impact of AIST TR-13, as a fraction of the wheel loads.
+fn impact_of(kind: CraneKind) -> f64 {
+    kind.fractions().impact
+}
