@@ -174,6 +174,8 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         "at time",
         "height over displacement",
         "code",
+        "edition",
+        "source",
         "limit",
         "within limit",
     ];
@@ -192,9 +194,11 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableCell::from(found.time),
             found.ratio().map_or(TableCell::Empty, TableCell::from),
         ];
-        for (code, clause, most) in &found.limits {
+        for (clause, formula, most) in &found.limits {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
-            row.extend([TableCell::from(format!("{code}, {clause}")), TableCell::from(*most)]);
+            row.push(TableCell::from(format!("{}, {}: {formula}", clause.standard, clause.clause)));
+            row.extend([clause.edition, clause.evidence.words()].map(TableCell::from));
+            row.push(TableCell::from(*most));
             row.push(TableCell::from(if found.value <= *most { "yes" } else { "no" }));
             rows.push(row);
         }

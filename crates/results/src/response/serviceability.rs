@@ -7,6 +7,7 @@
 
 use fea::{Model, Rail};
 use nalgebra::Vector3;
+use practice::clause::{CodeClause, Evidence, aist_2021, en_1993_6};
 use practice::cmaa;
 use serde_json::{Value, json};
 use splines::{Axis, Error, Probe};
@@ -172,8 +173,8 @@ pub struct Drift {
     pub value: f64,
     /// Time of the largest value.
     pub time: f64,
-    /// Code, clause and allowable displacement.
-    pub limits: Vec<(&'static str, &'static str, f64)>,
+    /// Clause, formula in words and allowable displacement.
+    pub limits: Vec<(CodeClause, &'static str, f64)>,
 }
 
 impl Drift {
@@ -187,9 +188,16 @@ impl Drift {
     /// As an item of `drift`.
     #[must_use]
     pub fn json(&self) -> Value {
-        let limit = |(code, clause, most): &(&str, &str, f64)| {
-            let is_within = self.value <= *most;
-            json!({ "code": code, "clause": clause, "value": most, "within": is_within })
+        let limit = |(clause, formula, most): &(CodeClause, &str, f64)| {
+            json!({
+                "code": clause.standard,
+                "edition": clause.edition,
+                "clause": clause.clause,
+                "source": clause.evidence.words(),
+                "formula": formula,
+                "value": most,
+                "within": self.value <= *most,
+            })
         };
         json!({
             "rail": self.rail,
@@ -252,16 +260,16 @@ pub(super) fn drifts(
     Ok(found)
 }
 
-/// Limits of the drift of a rail at `height` over the lowest support: code, clause, displacement.
+/// Limits of the drift of a rail at `height` over the lowest support: clause, formula, displacement.
 ///
 /// # Source
 /// AIST TR-13 (2021), 5.3; EN 1993-6:2007, 7.3, Table 7.1 (b), as implemented in a public program: loads without
 /// dynamic factors.
-fn drift_limits(units: Units, height: f64) -> Vec<(&'static str, &'static str, f64)> {
+fn drift_limits(units: Units, height: f64) -> Vec<(CodeClause, &'static str, f64)> {
     let metre = Scale { from: units, to: Units::SI }.factor(Dimension::LENGTH);
-    let mut limits = vec![("EN 1993-6:2007", "Table 7.1 b: height/400", height / 400.0)];
+    let mut limits = vec![(en_1993_6("Table 7.1 b", Evidence::Used), "height/400", height / 400.0)];
     if let Ok(most) = practice::aist::drift(height * metre) {
-        limits.push(("AIST TR-13", "5.3 (2021): height/400, at most 2 in", most / metre));
+        limits.push((aist_2021("5.3", Evidence::Quoted), "height/400, at most 2 in", most / metre));
     }
     limits
 }
