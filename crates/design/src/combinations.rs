@@ -2,8 +2,8 @@
 
 use formats::design::{Design, DesignCase, WHOLE};
 use practice::aist::CraneKind;
-use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadGroup, eurocode_groups};
-use practice::factor::phi5;
+use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups};
+use practice::factor::{Release, phi5};
 use practice::mill_combination::{asce_group, mill_combinations, mill_fatigue};
 
 use crate::crane::phi2_of;
@@ -46,12 +46,15 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
             let code = group.clause.standard;
             let name = match group.purpose {
                 GroupUse::Strength => format!("{}: {code} {} (strength)", case.name, group.name),
-                _ => format!("{}: {code} {}", case.name, group.name),
+                GroupUse::Fatigue | GroupUse::AllowableStress => {
+                    format!("{}: {code} {}", case.name, group.name)
+                }
+                _ => format!("{}: {code} group {}", case.name, group.name),
             };
             match factors(design, case, group, &dynamic) {
                 Ok(factors) => cases.push(DesignCase { name, factors, ..case.clone() }),
                 Err(why) => {
-                    let line = format!("{code} group {}: {why}", group.name);
+                    let line = format!("{code}, group {}: {why}", group.name);
                     if !left_out.contains(&line) {
                         left_out.push(line);
                     }
@@ -71,7 +74,8 @@ fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
             let phi2 =
                 phi2_of(design).ok_or("groups of EN 1991-3: give `hoisting` and `hoist_speed` for phi2")?;
             let [_, phi5] = phi5(design.practice.drives);
-            let factors = DynamicFactors::of_crane(phi2, phi5, design.practice.release);
+            let factors =
+                DynamicFactors::of_crane(phi2, phi5, design.practice.release.unwrap_or(Release::Rapid));
             Ok((eurocode_groups(), factors.map_err(|error| error.to_string())?))
         }
         "AIST TR-13" => {
@@ -92,6 +96,10 @@ fn factors(
     dynamic: &DynamicFactors,
 ) -> Result<Vec<(String, f64)>, String> {
     let of = |load: CraneLoad| group.factor(load, dynamic);
+    let releases = group.loads.iter().any(|factored| factored.factor == LoadFactor::Phi3);
+    if releases && design.practice.release.is_none() {
+        return Err("give `release` where grabs or magnets release the load".to_owned());
+    }
     let wheels = || case.trains.iter().flat_map(|&train| &design.trains[train].wheels);
     let needed = [
         (CraneLoad::Skewing, wheels().any(|w| w.skewing != 0.0), "no wheel has a `skewing` force"),

@@ -357,19 +357,15 @@ impl CasePlan {
         let mut value = 0.0;
         let mut found = Vec::with_capacity(ways.len());
         for last in (0..ways.len()).filter(|at| !followed.contains(at)) {
-            let mut open = vec![(last, f64::INFINITY)];
-            while let Some((at, most)) = open.pop() {
-                let largest = sums[at].largest(most)?;
-                if at == last {
-                    value += largest.value;
-                }
-                let position = if order.mirrored { -largest.position } else { largest.position };
-                found.push((order.trains[at], largest.stance, position));
-                for &j in &order.before[at] {
-                    let step = self.step(order, &stances, j, at);
-                    // A train that touches the next may stand exactly where its response jumps.
-                    let rounding = TIE * position.abs().max(step.abs());
-                    open.push((j, largest.position - step + rounding));
+            let largest = sums[last].largest()?;
+            value += largest.value;
+            let mut open = vec![(last, largest.part, largest.position)];
+            while let Some((at, part, position)) = open.pop() {
+                let (stance, sources) = sums[at].sources(part);
+                found.push((order.trains[at], stance, if order.mirrored { -position } else { position }));
+                for (&j, source) in order.before[at].iter().zip(sources) {
+                    let along = || position - self.step(order, &stances, j, at);
+                    open.push((j, source.part, source.position.unwrap_or_else(along)));
                 }
             }
         }

@@ -3,6 +3,9 @@
 use crate::pieces::Piece;
 use crate::polynomial::Polynomial;
 
+/// Distances of positions that count as rounding, relative to the positions.
+const ROUNDING: f64 = 1e-13;
+
 /// A function that is cubic between increasing positions and may jump at them, where the larger of both limits counts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PiecewiseFunction {
@@ -18,6 +21,20 @@ struct Part {
     cubic: Polynomial,
     /// The stance of the train whose response it is.
     stance: usize,
+    /// For each running maximum in it, where the maximum is.
+    sources: [Source; MOST_BEFORE],
+    count: usize,
+}
+
+/// Most running maxima that are added to a function.
+const MOST_BEFORE: usize = 4;
+
+/// Where a running maximum has its value: the part of its function, and the position there.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Source {
+    pub part: usize,
+    /// `None` where it moves along with the position.
+    pub position: Option<f64>,
 }
 
 /// The largest value of a function, and where it is.
@@ -25,12 +42,20 @@ struct Part {
 pub(crate) struct Largest {
     pub position: f64,
     pub value: f64,
-    pub stance: usize,
+    pub part: usize,
 }
 
 impl Part {
     fn new(position: [f64; 2], cubic: Polynomial, stance: usize) -> Part {
-        Part { position, cubic, stance }
+        Part { position, cubic, stance, sources: Default::default(), count: 0 }
+    }
+
+    fn with_source(mut self, source: Source) -> Part {
+        if self.count < MOST_BEFORE {
+            self.sources[self.count] = source;
+            self.count += 1;
+        }
+        self
     }
 
     fn length(&self) -> f64 {
@@ -41,7 +66,7 @@ impl Part {
     fn between(&self, [from, to]: [f64; 2]) -> Part {
         let by = from - self.position[0];
         let cubic = if by.is_finite() && by != 0.0 { self.cubic.shifted(by) } else { self.cubic };
-        Part::new([from, to], cubic, self.stance)
+        Part { position: [from, to], cubic, ..*self }
     }
 }
 
@@ -63,19 +88,24 @@ impl PiecewiseFunction {
         }
     }
 
-    /// The largest value at positions up to `last`, with the first position that has it.
-    pub fn largest(&self, last: f64) -> Option<Largest> {
+    /// The largest value, at the first position that has it.
+    pub fn largest(&self) -> Option<Largest> {
         let mut best: Option<Largest> = None;
-        for part in self.pieces.iter().filter(|part| part.position[0] <= last) {
-            let [from, to] = part.position;
+        for (index, part) in self.pieces.iter().enumerate() {
             let floor = best.map_or(f64::NEG_INFINITY, |best| best.value);
-            if let Some((t, value)) = part.cubic.largest_above((to.min(last) - from).max(0.0), floor)
+            if let Some((t, value)) = part.cubic.largest_above(part.length(), floor)
                 && value > floor
             {
-                best = Some(Largest { position: from + t, value, stance: part.stance });
+                best = Some(Largest { position: part.position[0] + t, value, part: index });
             }
         }
         best
+    }
+
+    /// The stance of a part, and where the running maxima in it are.
+    pub fn sources(&self, part: usize) -> (usize, &[Source]) {
+        let part = &self.pieces[part];
+        (part.stance, &part.sources[..part.count])
     }
 
     /// p -> f(-p).
@@ -88,15 +118,16 @@ impl PiecewiseFunction {
     }
 }
 
-/// Calls `each` with the parts of two functions where both are defined. Parts that only touch have a common limit, which
-/// counts where one of them has no length.
+/// Calls `each` with the parts of two functions where both are defined. Parts that only touch, to rounding, have a common
+/// limit, which counts where one of them has no length.
 fn overlaps(f: &PiecewiseFunction, g: &PiecewiseFunction, mut each: impl FnMut(Part, Part)) {
     let mut first = 0;
     for a in &f.pieces {
         first += g.pieces[first..].iter().take_while(|b| b.position[1] < a.position[0]).count();
         for b in g.pieces[first..].iter().take_while(|b| b.position[0] <= a.position[1]) {
             let both = [a.position[0].max(b.position[0]), a.position[1].min(b.position[1])];
-            let touch = both[0] == both[1] && a.length() != 0.0 && b.length() != 0.0;
+            let rounding = ROUNDING * both[0].abs().max(both[1].abs());
+            let touch = both[1] - both[0] <= rounding && a.length() > rounding && b.length() > rounding;
             if both[0] <= both[1] && !touch {
                 each(a.between(both), b.between(both));
             }
@@ -128,37 +159,41 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
 pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> PiecewiseFunction {
     let mut out = PiecewiseFunction::default();
     let mut most = f64::NEG_INFINITY;
-    let mut add = |from: f64, to: f64, cubic: Polynomial| {
-        out.pieces.push(Part::new([from + distance, to + distance], cubic, 0));
+    let mut source = Source::default();
+    let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source| {
+        out.pieces.push(Part::new(ends.map(|x| x + distance), cubic, 0).with_source(source));
     };
     let mut reached_to = f64::INFINITY;
-    for Part { position: [start, end], cubic, .. } in &f.pieces {
+    for (part, Part { position: [start, end], cubic, .. }) in f.pieces.iter().enumerate() {
         if *start > reached_to {
-            add(reached_to, *start, Polynomial::new(&[most]));
+            add([reached_to, *start], Polynomial::new(&[most]), source);
         }
         reached_to = *end;
         let places = cubic.candidates(end - start);
-        most = most.max(cubic.at(0.0));
+        if cubic.at(0.0) > most {
+            most = cubic.at(0.0);
+            source = Source { part, position: Some(*start) };
+        }
         for ends in places.list().windows(2) {
             let (from, to) = (start + ends[0], start + ends[1]);
             let value = cubic.at(ends[1]);
             if value <= most {
-                add(from, to, Polynomial::new(&[most]));
+                add([from, to], Polynomial::new(&[most]), source);
                 continue;
             }
             let reached = if cubic.at(ends[0]) >= most { ends[0] } else { crossing(cubic, most, ends) };
             if reached > ends[0] {
-                add(from, start + reached, Polynomial::new(&[most]));
+                add([from, start + reached], Polynomial::new(&[most]), source);
             }
-            add(start + reached, to, cubic.shifted(reached));
+            add([start + reached, to], cubic.shifted(reached), Source { part, position: None });
             most = value;
+            source = Source { part, position: Some(to) };
         }
         if places.list().len() < 2 {
-            add(*start, *end, Polynomial::new(&[most]));
+            add([*start, *end], Polynomial::new(&[most]), source);
         }
     }
-    let end = f.pieces.last().map_or(0.0, |part| part.position[1]);
-    add(end, f64::INFINITY, Polynomial::new(&[most]));
+    add([reached_to, f64::INFINITY], Polynomial::new(&[most]), source);
     out
 }
 
@@ -176,10 +211,14 @@ fn crossing(cubic: &Polynomial, level: f64, ends: &[f64]) -> f64 {
     b
 }
 
-/// The sum of two functions where both are defined, with the stances of the first; `None` where they nowhere are.
+/// The sum of a function and a running maximum where both are defined, with the stances of the first; `None` where they
+/// nowhere are.
 pub(crate) fn sum_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Option<PiecewiseFunction> {
     let mut out = PiecewiseFunction::default();
-    overlaps(f, g, |a, b| out.pieces.push(Part { cubic: a.cubic.plus(&b.cubic, 1.0), ..a }));
+    overlaps(f, g, |a, b| {
+        let sum = Part { cubic: a.cubic.plus(&b.cubic, 1.0), ..a };
+        out.pieces.push(sum.with_source(b.sources[0]));
+    });
     (!out.pieces.is_empty()).then_some(out)
 }
 
@@ -230,7 +269,15 @@ mod tests {
             let running = running_maximum(&f, 0.5);
             for k in 0..600 {
                 let p = f64::from(k) / 100.0 + 0.003;
-                let known = f.largest(p).expect("p is within f").value;
+                let before = PiecewiseFunction {
+                    pieces: f
+                        .pieces
+                        .iter()
+                        .filter(|part| part.position[0] <= p)
+                        .map(|part| part.between([part.position[0], part.position[1].min(p)]))
+                        .collect(),
+                };
+                let known = before.largest().expect("p is within f").value;
                 assert!((value_of(&running, p + 0.5) - known).abs() < 1e-13, "at {p}");
             }
         }

@@ -155,7 +155,7 @@ impl TrainOnCarrier {
     }
 
     /// The quantities of the section at place s as pieces, split where a wheel passes it. A wheel that stands at the
-    /// section at an end of a piece is counted on either side of it, by a piece of no length.
+    /// section at an end of the train's range is counted on either side of it, by a piece of no length.
     pub fn section(&self, pieces: &Pieces<QUANTITIES>, s: f64) -> Vec<Piece<QUANTITIES>> {
         let slack = 1e-12 * self.length;
         let mut out = Vec::with_capacity(pieces.list.len() + 2 * self.offsets.len());
@@ -192,9 +192,12 @@ impl TrainOnCarrier {
                     kept.push(t)
                 }
             }
-            let mut bounds = vec![0.0; ends[0].min(2)];
+            // Within the range the neighbouring piece has the other limit.
+            let [at_first, at_last] =
+                [index == 0, index + 1 == pieces.list.len()].map(|at| if at { 2 } else { 1 });
+            let mut bounds = vec![0.0; ends[0].min(at_first)];
             bounds.extend(kept);
-            bounds.extend(std::iter::repeat_n(h, ends[1].min(2)));
+            bounds.extend(std::iter::repeat_n(h, ends[1].min(at_last)));
             for ends in bounds.windows(2) {
                 let side = if ends[1] > ends[0] {
                     Side::Middle(0.5 * (ends[0] + ends[1]))

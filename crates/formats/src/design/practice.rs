@@ -2,7 +2,7 @@
 
 use practice::aist::CraneKind;
 use practice::asce::CraneOperation;
-use practice::factor::{DriveOnset, Release};
+use practice::factor::DriveOnset;
 use practice::limit_choice::{LIMIT_CODES, limits_of};
 
 use super::raw::RawDesignPractice;
@@ -52,7 +52,7 @@ pub(super) fn read(
         operation: operation.unwrap_or(CraneOperation::Cab),
         hoisting,
         drives: drives.unwrap_or(DriveOnset::Smooth),
-        release: release.unwrap_or(Release::Rapid),
+        release,
         hoist_speed: speed.map(|speed| speed * metric),
         combinations,
     }

@@ -171,7 +171,7 @@ pub(crate) struct RawDesignPractice {
     pub hoisting: Option<String>,
     /// Onset of the drive forces, for phi5.
     pub drives: Option<String>,
-    /// Release of the load, for phi3.
+    /// Release of the load by grabs or magnets, for phi3: "slow" or "rapid".
     pub release: Option<String>,
     /// Guidance of the crane: "flanges" or "rollers".
     pub guide: Option<String>,

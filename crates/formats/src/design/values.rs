@@ -56,8 +56,8 @@ pub struct DesignPractice {
     pub hoisting: Option<HoistingClass>,
     /// Onset of the drive forces.
     pub drives: DriveOnset,
-    /// How rapidly a payload is released.
-    pub release: Release,
+    /// How rapidly a payload is released, by grabs and magnets; none where nothing is released.
+    pub release: Option<Release>,
     /// Rated hoisting speed, m/s.
     pub hoist_speed: Option<f64>,
     /// Whether cases without factors of their own are also calculated with the groups of loads of the code.
