@@ -16,8 +16,10 @@ use crate::follow::Target;
 use crate::overrun::Overrun;
 use crate::pieces::{Piece, Pieces};
 use crate::plan::CasePlan;
+use crate::search::Bend;
 use crate::section::{TrainOnCarrier, slope_index};
-use crate::structure::{Carrier, QUANTITIES};
+use crate::structure::{Carrier, QUANTITIES, Structure};
+use crate::train::PlacedWheel;
 
 /// Changes of an influence line at a position that are not taken for kinks or jumps, relative to its size.
 const SMOOTH: f64 = 1e-9;
@@ -65,13 +67,37 @@ impl Blocked {
         let [_, b, c] = target.dead.quadratic(target.k);
         curvature += (-2.0 * target.sign * c * rate * rate).max(0.0);
         slope += (b.abs() + 2.0 * c.abs() * carrier.length) * rate;
-        let mut places = places(plan, over, carrier, target);
-        places.sort_by(f64::total_cmp);
-        places.dedup_by(|b, a| *b - *a <= 1e-12 * carrier.x[1].abs().max(carrier.x[0].abs()));
+        let places = places(plan, over, carrier, &|train, stance| {
+            sharp_positions(&over.pieces[train][stance], &over.on[train][stance], target)
+        });
         let trains = plan.trains.len() as f64;
         let opposed = over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels);
         let only_kinks = shear.is_some() && jumps == 0.0;
         Blocked { curvature, slope, kinks, jumps, places, opposed, trains, only_kinks }
+    }
+
+    /// The bounds for a deflection of a carrier with a bound of the second derivative of every state that is moved along, and
+    /// of the sum of the jumps of its slope at wheels. Its influence lines may have kinks wherever members meet.
+    pub fn of_deflection(
+        structure: &Structure,
+        plan: &CasePlan,
+        over: &Overrun,
+        carrier: &Carrier,
+        bend: Bend,
+    ) -> Blocked {
+        let places = places(plan, over, carrier, &|train, stance| {
+            let of_wheel = |wheel: &PlacedWheel| {
+                let ends = structure.rails[wheel.rail].stretches.iter().flat_map(|stretch| stretch.x);
+                ends.map(|x| x - wheel.offset).collect::<Vec<f64>>()
+            };
+            let [first, last] = plan.trains[train][stance].range;
+            let all = plan.trains[train][stance].wheels.iter().flat_map(of_wheel);
+            all.filter(|p| *p > first && *p < last).collect()
+        });
+        let trains = plan.trains.len() as f64;
+        let opposed = over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels);
+        let Bend { curvature, kinks } = bend;
+        Blocked { curvature, slope: 0.0, kinks, jumps: 0.0, places, opposed, trains, only_kinks: true }
     }
 
     /// By how much the envelope may exceed its values at the ends of an interval.
@@ -126,8 +152,13 @@ fn largest(pieces: &Pieces<QUANTITIES>, k: usize) -> f64 {
     pieces.list.iter().map(size).fold(0.0, f64::max)
 }
 
-/// Rail coordinates of the carrier near which a wheel of a blocked train may stand.
-fn places(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_>) -> Vec<f64> {
+/// Rail coordinates of the carrier near which a wheel of a blocked train may stand, increasing; `sharp` gives the positions of a train in a stance at which an influence line has a kink or a jump.
+fn places(
+    plan: &CasePlan,
+    over: &Overrun,
+    carrier: &Carrier,
+    sharp: &dyn Fn(usize, usize) -> Vec<f64>,
+) -> Vec<f64> {
     // Signs of forces do not move wheels: one stance each way round, with the barriers of all.
     let mut ways = Vec::new();
     let mut all: Vec<Vec<Vec<f64>>> = Vec::new();
@@ -141,8 +172,7 @@ fn places(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_
                 own.push(stance);
                 barriers[way].extend(placed.range);
             }
-            let (pieces, on) = (&over.pieces[train][stance], &over.on[train][stance]);
-            barriers[way].extend(sharp_positions(pieces, on, target));
+            barriers[way].extend(sharp(train, stance));
         }
         for list in &mut barriers {
             list.sort_by(f64::total_cmp);
@@ -180,6 +210,8 @@ fn places(plan: &CasePlan, over: &Overrun, carrier: &Carrier, target: &Target<'_
             }
         }
     });
+    out.sort_by(f64::total_cmp);
+    out.dedup_by(|b, a| *b - *a <= 1e-12 * carrier.x[1].abs().max(carrier.x[0].abs()));
     out
 }
 

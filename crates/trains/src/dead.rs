@@ -56,6 +56,13 @@ impl DeadLoad {
         self.forces[k]
     }
 
+    /// Bound of the second derivative of a deflection over a member of some length.
+    pub fn bend(&self, quantity: GirderResponse, length: f64) -> f64 {
+        let all = self.deflections[usize::from(quantity == GirderResponse::LateralDeflection)];
+        let [_, _, c, d, e] = all.map(f64::abs);
+        2.0 * c + length * (6.0 * d + length * 12.0 * e)
+    }
+
     /// Value of a quantity at a place.
     pub fn at(&self, quantity: GirderResponse, s: f64) -> f64 {
         let value = |c: &[f64]| c.iter().rev().fold(0.0, |sum, c| sum * s + c);

@@ -9,7 +9,7 @@
 //!
 //! W being the deflections under the wheels, which are polynomials of degree six in the position, and whose maximum is
 //! exact. The slope of the rail is continuous at a wheel where the members do not shear or twist under it; then W is not
-//! needed. For several trains W is not known exactly, and the bound has the term (jump of slope) h/4 instead.
+//! needed. For several trains W is not known exactly, and the bounds are those of `blocked`.
 
 use std::cell::RefCell;
 use std::collections::HashMap;
@@ -19,6 +19,8 @@ use fea::CrossSection;
 use nalgebra::Vector3;
 use splines::{Compliance, Influence, Probe};
 
+use crate::bicubic::SecondDerivatives;
+use crate::blocked::Blocked;
 use crate::collect::{Accumulated, entry, offer, sign_of, spans_of, standings};
 use crate::dead::DeadLoad;
 use crate::error::Error;
@@ -29,12 +31,14 @@ use crate::overrun::Overrun;
 use crate::pieces::Pieces;
 use crate::plan::{Arrangement, CasePlan};
 use crate::polynomial::Polynomial;
-use crate::search::{Bend, Search};
+use crate::search::{Bend, Margin, Search};
 use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure, deflection_axis};
 use crate::train::{COMPONENTS, PlacedTrain, axis};
 
 /// Most evaluations for one extreme under several trains, whose slope jumps under wheels.
-const MOST_OF_SEVERAL: usize = 120;
+const MOST_OF_SEVERAL: usize = 2000;
+/// Most evaluations for the largest deflection of a span from its chord.
+const MOST_OF_CHORDS: usize = 120;
 /// Most cells of influence lines that are kept.
 const KEPT_CELLS: usize = 200_000;
 
@@ -181,11 +185,19 @@ impl<'a> Deflections<'a> {
                             continue;
                         }
                         let bend = self.bend(case, carrier, span, all, quantity, load);
+                        let several = bend.kinks > 0.0 && self.plans[case].trains.len() > 1;
+                        let blocked = match several {
+                            true => Some(self.blocked(case, (carrier, load), &over, quantity, bend)?),
+                            false => None,
+                        };
                         for is_max in [true, false] {
                             let sign = sign_of(is_max);
                             let follows = bend.kinks > 0.0 && self.plans[case].trains.len() == 1;
                             let bend = Bend { kinks: if follows { 0.0 } else { bend.kinks }, ..bend };
-                            let margin = Box::new(move |x| Bend::margin(x, bend));
+                            let margin: Margin<'_> = match &blocked {
+                                Some(blocked) => Box::new(|x| blocked.margin(x)),
+                                None => Box::new(move |x| Bend::margin(x, bend)),
+                            };
                             let mut search = Search::new(sign, margin, window, |x| {
                                 Ok(self.best(case, carrier.rail, x, quantity, sign)?.map(|(found, _)| found))
                             });
@@ -194,7 +206,6 @@ impl<'a> Deflections<'a> {
                                     self.under_wheels(case, carrier, &over, window, quantity, sign, load)?;
                                 search.offer(under);
                             }
-                            let several = bend.kinks > 0.0;
                             if several {
                                 search.most = MOST_OF_SEVERAL;
                             }
@@ -212,6 +223,27 @@ impl<'a> Deflections<'a> {
             }
         }
         Ok(())
+    }
+
+    /// What bounds a deflection of a carrier under several trains between two places.
+    fn blocked(
+        &self,
+        case: usize,
+        (carrier, load): (&Carrier, &DeadLoad),
+        over: &Overrun,
+        quantity: GirderResponse,
+        bend: Bend,
+    ) -> Result<Blocked, Error> {
+        let plan = &self.plans[case];
+        let bounds = SecondDerivatives::new(self.structure, carrier, quantity, self.used)?;
+        let of_train = |stances: &Vec<PlacedTrain>| {
+            stances.iter().map(|train| bounds.of_train(train)).fold(0.0, f64::max)
+        };
+        let rate = carrier.rate();
+        let dead = plan.dead.abs() * load.bend(quantity, carrier.length) * rate * rate;
+        let curvature = plan.trains.iter().map(of_train).sum::<f64>() + dead;
+        let bend = Bend { curvature, ..bend };
+        Ok(Blocked::of_deflection(self.structure, plan, over, carrier, bend))
     }
 
     /// Largest deflections of spans from their chords, without dead load.
@@ -246,7 +278,7 @@ impl<'a> Deflections<'a> {
                         });
                         // A ratio of span to deflection is printed with three digits.
                         search.gap = 1e-5;
-                        search.most = MOST_OF_SEVERAL;
+                        search.most = MOST_OF_CHORDS;
                         search.run()?;
                         let Some(governing) = search.best else { continue };
                         let known = out.iter_mut().find(|known| {

@@ -9,7 +9,7 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, overrun, follow, extremes, collect, effect, search, blocked, several, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
@@ -18,10 +18,11 @@
 //! 5. `dead`: dead load;
 //! 6. `section`, `overrun`, `follow`: internal forces at a fixed section, and at sections beside wheels and at vertices;
 //! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
-//! 8. `search`, `blocked`, `several`, `deflection`: extremes that are enclosed by bisection;
+//! 8. `search`, `blocked`, `bicubic`, `several`, `deflection`: extremes that are enclosed by bisection;
 //! 9. `analysis`: the calculation.
 
 mod analysis;
+mod bicubic;
 mod blocked;
 mod collect;
 mod dead;

@@ -4,7 +4,7 @@ use crate::train::COMPONENTS;
 
 /// Places in a cell at which a function is sampled to find its cubic: the nodes of Chebyshev, which keep away from the
 /// ends, where a line may jump.
-const NODES: [f64; 4] =
+pub(crate) const NODES: [f64; 4] =
     [0.038_060_233_744_356_62, 0.308_658_283_817_455_1, 0.691_341_716_182_544_9, 0.961_939_766_255_643_4];
 
 /// Influence lines of N responses over one stretch of rail.
@@ -80,7 +80,7 @@ pub(crate) fn cubics<E>(
 }
 
 /// Coefficients of the cubic with the values f at the nodes.
-fn in_powers(f: [f64; 4]) -> [f64; 4] {
+pub(crate) fn in_powers(f: [f64; 4]) -> [f64; 4] {
     let [a, b, c, d] = NODES;
     let first = [(f[1] - f[0]) / (b - a), (f[2] - f[1]) / (c - b), (f[3] - f[2]) / (d - c)];
     let second = [(first[1] - first[0]) / (c - a), (first[2] - first[1]) / (d - b)];

@@ -1,0 +1,136 @@
+//! Deflections of a member under loads on another as polynomials of both places, and bounds of their second derivatives.
+//!
+//! The deflection G(x, p) at x of one member under a unit load at p of another is cubic in each. On the same member there is
+//! one such polynomial on either side of the load, and their difference depends on x - p alone. So while load and place
+//! move along together, the second derivative G_xx + 2 G_xp + G_pp is that of one polynomial, without a kink at the load.
+
+use crate::error::Error;
+use crate::line::{LineCell, NODES, in_powers};
+use crate::structure::{Carrier, GirderResponse, Structure};
+use crate::train::{COMPONENTS, PlacedTrain};
+
+/// Bounds of the second derivative of the deflection of one carrier per unit load: by rail and component.
+#[derive(Clone, Debug)]
+pub(crate) struct SecondDerivatives {
+    rails: Vec<[f64; COMPONENTS]>,
+}
+
+impl SecondDerivatives {
+    /// Bounds the second derivatives of a deflection of a carrier, for loads that stay as for those that move along.
+    pub fn new(
+        structure: &Structure,
+        carrier: &Carrier,
+        quantity: GirderResponse,
+        used: [bool; COMPONENTS],
+    ) -> Result<SecondDerivatives, Error> {
+        let width = carrier.x[1] - carrier.x[0];
+        let mut at_nodes = Vec::with_capacity(NODES.len());
+        for node in NODES {
+            let x = carrier.x[0] + node * width;
+            at_nodes.push(structure.deflection_line(carrier.rail, &[[x, 1.0]], quantity, used)?);
+        }
+        let mut rails = vec![[0.0_f64; COMPONENTS]; structure.rail_count()];
+        for (rail, bounds) in rails.iter_mut().enumerate() {
+            // A cell is divided where the member of the carrier has the place: its parts are the two polynomials.
+            for stretch in &structure.rails[rail].stretches {
+                let parts = at_nodes.iter().map(|lines| {
+                    let cells = &lines.rails[rail];
+                    cells
+                        .iter()
+                        .filter(|cell| cell.element == stretch.element && within(cell, stretch.x))
+                        .collect()
+                });
+                let parts: Vec<Vec<&LineCell<1>>> = parts.collect();
+                let count = parts.iter().map(Vec::len).min().unwrap_or(0);
+                for part in 0..count {
+                    for (component, bound) in bounds.iter_mut().enumerate() {
+                        let cubic = |node: usize| about(parts[node][part], component, stretch.x);
+                        let found = Bicubic::new([0, 1, 2, 3].map(cubic));
+                        *bound = bound.max(found.second(width, stretch.x[1] - stretch.x[0]));
+                    }
+                }
+            }
+        }
+        Ok(SecondDerivatives { rails })
+    }
+
+    /// The bound for all wheels of a train together.
+    pub fn of_train(&self, train: &PlacedTrain) -> f64 {
+        let wheels = train.wheels.iter().map(|wheel| {
+            let bounds = wheel.load.iter().zip(&self.rails[wheel.rail]);
+            bounds.map(|(load, bound)| load.abs() * bound).sum::<f64>()
+        });
+        wheels.sum()
+    }
+}
+
+/// Whether a cell is a part of a stretch of rail.
+fn within(cell: &LineCell<1>, [from, to]: [f64; 2]) -> bool {
+    let middle = 0.5 * (cell.x[0] + cell.x[1]);
+    from <= middle && middle <= to
+}
+
+/// The cubic of a cell in the fraction of a stretch.
+fn about(cell: &LineCell<1>, component: usize, [from, to]: [f64; 2]) -> [f64; 4] {
+    let [a, b, c, d] = cell.cubics[component][0];
+    let (t, h) = (from - cell.x[0], to - from);
+    [
+        a + t * (b + t * (c + t * d)),
+        h * (b + t * (2.0 * c + 3.0 * t * d)),
+        h * h * (c + 3.0 * t * d),
+        h * h * h * d,
+    ]
+}
+
+/// A polynomial of degree three in two fractions u and v: coefficients by powers of u and v.
+struct Bicubic {
+    c: [[f64; 4]; 4],
+}
+
+impl Bicubic {
+    /// From the cubics in v at the nodes of u.
+    fn new(at_nodes: [[f64; 4]; 4]) -> Bicubic {
+        let mut c = [[0.0; 4]; 4];
+        for j in 0..4 {
+            let in_u = in_powers([0, 1, 2, 3].map(|node| at_nodes[node][j]));
+            (0..4).for_each(|i| c[i][j] = in_u[i]);
+        }
+        Bicubic { c }
+    }
+
+    /// Bound over both fractions from 0 to 1 of the size of the second derivative by u, and of that along u and v together,
+    /// for lengths `hu` and `hv` of the two stretches.
+    fn second(&self, hu: f64, hv: f64) -> f64 {
+        let (mut own, mut along) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
+        for i in 0..4 {
+            for j in 0..4 {
+                let (p, q, c) = (i as f64, j as f64, self.c[i][j]);
+                if i >= 2 {
+                    own[i - 2][j] += p * (p - 1.0) * c / (hu * hu);
+                    along[i - 2][j] += p * (p - 1.0) * c / (hu * hu);
+                }
+                if i >= 1 && j >= 1 {
+                    along[i - 1][j - 1] += 2.0 * p * q * c / (hu * hv);
+                }
+                if j >= 2 {
+                    along[i][j - 2] += q * (q - 1.0) * c / (hv * hv);
+                }
+            }
+        }
+        let size = |all: &[[f64; 4]; 4]| all.iter().flatten().map(|c| c.abs()).sum::<f64>();
+        size(&own).max(size(&along))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// u^2 v + 3 v^2 over lengths 2 and 5: G_uu = 2 v/4, along both 2 v/4 + 2 (2 u)/10 + 6/25.
+    #[test]
+    fn second_derivatives_of_a_polynomial() {
+        let at_nodes = NODES.map(|u| [0.0, u * u, 3.0, 0.0]);
+        let found = Bicubic::new(at_nodes).second(2.0, 5.0);
+        assert!((found - (0.5 + 0.4 + 0.24)).abs() < 1e-12, "{found}");
+    }
+}
