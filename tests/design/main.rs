@@ -182,3 +182,100 @@ fn equal_designs_give_equal_bytes() {
     };
     assert_eq!(manifest("1"), manifest("2"));
 }
+
+/// The runway under a crane whose wheel loads are given in parts, with the data that codes need.
+fn coded(practice: Value) -> Value {
+    let wheel = |x: f64| json!({"x": x, "vertical": {"crane": 60, "hoist": 120}, "skewing": 12});
+    json!({
+        "format": "girderway-design/1", "name": "coded", "units": {"length": "m", "force": "kN", "time": "s"},
+        "spec": "spec.json",
+        "trains": [{"name": "crane", "wheels": [wheel(0.0), wheel(3.6)], "longitudinal": 20}],
+        "practice": practice
+    })
+}
+
+/// The spec of the worked runway with the stiffness that lateral forces need.
+fn lateral_spec() -> Value {
+    let mut spec = spec();
+    spec["girder"]["I_lateral"] = json!(1.082e-4);
+    spec
+}
+
+fn by_name<'s>(summary: &'s Value, name: &str) -> &'s Value {
+    let cases = summary["cases"].as_array().expect("a list of cases");
+    cases.iter().find(|case| case["name"] == name).unwrap_or_else(|| panic!("no case {name} in {cases:?}"))
+}
+
+/// Hand calculation, EN 1991-3: HC2 at 0.133 m/s has phi2 = 1.10 + 0.34 * 0.133 = 1.14522 (Tables 2.4 and 2.5); group 1
+/// has phi1 = 1.1 on the crane and phi5 = 1.5 on drives, group 5 the factor 1 on all and on skewing.
+#[test]
+fn groups_of_a_code_become_cases_with_their_factors() {
+    let practice = json!({"code": "EN 1991-3", "hoisting": "HC2", "hoist_speed": 0.133, "combinations": true, "s_class": "S5"});
+    let (folder, output) = run(&lateral_spec(), &coded(practice), &[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let found = summary(&folder);
+    let first = &by_name(&found, "crane: EN 1991-3:2006 group 1")["factors"];
+    for (load, known) in
+        [("crane", 1.1), ("hoist", 1.14522), ("longitudinal", 1.5), ("dead", 1.0), ("skewing", 0.0)]
+    {
+        let factor = first[load].as_f64().expect("a factor");
+        assert!((factor - known).abs() < 1e-12, "{load}: {factor}");
+    }
+    let fifth = by_name(&found, "crane: EN 1991-3:2006 group 5");
+    assert_eq!([&fifth["factors"]["skewing"], &fifth["factors"]["longitudinal"]], [&json!(1.0), &json!(0.0)]);
+    // The moments of a group are those of the wheel loads with its factors: 60 * 1.1 + 120 * 1.14522 in place of 180.
+    let moment = |case: usize| {
+        let keys = [
+            ("case", json!(case)),
+            ("span", json!(2)),
+            ("quantity", json!("moment")),
+            ("kind", json!("max")),
+        ];
+        let vertical = [&keys[..], &[("plane", json!("vertical"))]].concat();
+        extreme(&found, &vertical)["value"].as_f64().expect("a number")
+    };
+    let factored = (60.0 * 1.1 + 120.0 * 1.14522) / 180.0;
+    assert!((moment(2) / moment(1) / factored - 1.0).abs() < 1e-12, "{} and {}", moment(1), moment(2));
+    // Skewing acts where a factor names it, and is listed as a load of its own.
+    let rows = table(&folder.path().join("out"), "reactions.csv");
+    assert!(rows.iter().any(|row| row["load"] == "skewing" && number(&row["value"]) > 1.0), "{rows:?}");
+    // Damage-equivalent loads by hand: lambda = 0.63 for S5 (Table 2.12), (1.05 * 60 + 1.07261 * 120) * 0.63.
+    let equivalent = found["fatigue"][0]["wheels"][0]["normal"].as_f64().expect("a load");
+    assert!((equivalent - 0.63 * (1.05 * 60.0 + 1.07261 * 120.0)).abs() < 1e-9, "{equivalent}");
+    // What the design lacks is named.
+    let left_out = found["left_out"].to_string();
+    assert!(left_out.contains("group 9: no train has a `buffer` force"), "{left_out}");
+}
+
+/// Hand calculation: the worked sag of span 2 is 9.385 mm from the undeflected line, and its limits are 7.5 m/600 = 12.5 mm
+/// (EN 1993-6, Table 7.2), 7.5 m/1000 = 7.5 mm (AIST TR-13, class A).
+#[test]
+fn limits_follow_the_code_and_its_class() {
+    for (practice, limit, within) in [
+        (json!({"code": "EN 1991-3"}), 7.5 / 600.0, true),
+        (json!({"code": "AIST TR-13", "building_class": "A"}), 7.5 / 1000.0, false),
+        (json!({"code": "AISC Design Guide 7", "class": "C"}), 7.5 / 600.0, true),
+        (json!({"code": "AISC Design Guide 7", "class": "D"}), 7.5 / 800.0, false),
+    ] {
+        let mut design = design();
+        design["practice"] = practice.clone();
+        let (folder, output) = run(&spec(), &design, &[]);
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let found = summary(&folder);
+        let rows = found["limits"].as_array().expect("limits");
+        let row = rows.iter().find(|row| row["span"] == 2).expect("a row for every span");
+        assert!((row["limit"].as_f64().expect("a limit") - limit).abs() < 1e-12, "{row}");
+        assert!((row["value"].as_f64().expect("a value") - 9.385e-3).abs() < 2e-5, "{row}");
+        assert_eq!(
+            (row["within"].as_bool(), found["within"].as_bool()),
+            (Some(within), Some(within)),
+            "{row}"
+        );
+        assert!(
+            row["source"].is_string() && row["edition"].is_string() && row["clause"].is_string(),
+            "{row}"
+        );
+        let (_folder, output) = run(&spec(), &design, &["--fail-on-limit"]);
+        assert_eq!(output.status.code(), Some(if within { 0 } else { 1 }), "{practice}");
+    }
+}

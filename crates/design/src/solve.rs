@@ -3,7 +3,7 @@
 use fea::{Effect, Model};
 use formats::design::{Design, DesignCase};
 use formats::text::inputs::Inputs;
-use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
+use trains::{DeadLoads, GirderResponse, Governing, Request, Structure, TrainCase};
 
 use crate::combinations::groups_left_out;
 use crate::error::DesignError;
@@ -11,6 +11,7 @@ use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
 use crate::rounding::Sizes;
+use crate::words::quantity_word;
 
 /// Parts of each span at whose ends envelopes are listed.
 const PARTS: usize = 20;
@@ -133,9 +134,15 @@ fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
         ));
     }
     for (number, case) in cases.iter().enumerate() {
+        // Relative to the largest of their kind: forces, moments, deflections.
+        let kind = |quantity: GirderResponse| quantity_word(quantity);
+        let size = |quantity: GirderResponse| {
+            let same = case.envelopes.extremes.iter().filter(|other| kind(other.quantity) == kind(quantity));
+            same.map(|other| other.governing.value.abs()).fold(0.0, f64::max)
+        };
         let open = case.envelopes.extremes.iter().filter(|extreme| {
-            let value = extreme.governing.value;
-            (extreme.bound - value).abs() > 1e-9 * value.abs().max(extreme.bound.abs())
+            let gap = (extreme.bound - extreme.governing.value).abs();
+            gap > 1.001e-9 * size(extreme.quantity)
         });
         let count = open.count();
         if count > 0 {

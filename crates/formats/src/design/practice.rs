@@ -83,7 +83,9 @@ fn limits(
     };
     match class {
         Some(class) => {
-            let fault = Fault::new(&at.key(key), "must be a class of the code").of_value().got(class.clone());
+            let fault = Fault::new(&at.key(key), "must be a class of the code")
+                .of_value()
+                .got(format!("\"{class}\""));
             check.faults.add(fault.hint(format!("classes of {name}: {allowed}")));
         }
         None => {

@@ -464,7 +464,7 @@ fn require_parts(
     root: &Place<'_>,
     faults: &mut Faults,
 ) {
-    if code.is_some_and(|code| code.starts_with("ASCE")) {
+    if code.is_none_or(|code| code.starts_with("ASCE")) {
         return;
     }
     let at = root.key("trains");
