@@ -152,7 +152,7 @@ fn reactions_are_listed_by_load() {
         number(&rows.iter().find(same).expect("the reaction is listed")["value"])
     };
     // The crane stands over the support: its whole longitudinal force goes there, and the twist is the lateral force
-    // at the height of the rail: 18 kN (1 + 2.4/6) 0.275 m.
+    // at the height of the rail: 15 kN (1 + 2.4/6) 0.275 m.
     assert!((value("ux", "traction") - 25.0).abs() < 1e-9);
     assert!((value("rx", "side thrust") - 15.0 * 1.4 * 0.275).abs() < 1e-9);
     // Traction at the height of the rail bends the girder, and lifts or presses the supports a little.

@@ -55,10 +55,10 @@ fn words(
     let is_thrust = || case.trains.iter().flat_map(|&k| &design.trains[k].wheels).any(|w| w.lateral != 0.0);
     match (limit.displacement, quantity) {
         (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
-            Some("vertical deflection of the runway")
+            Some("vertical deflection")
         }
         (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if is_thrust() => {
-            Some("lateral deflection of the runway")
+            Some("lateral deflection")
         }
         _ => None,
     }

@@ -1,11 +1,11 @@
 //! The report of a design: the verdict first, then envelopes, reactions and inputs.
 
 use crate::figures::design::{deflection_unit, digits, envelope_charts, position_sketch, unit_of};
+use crate::text::design_codes::{codes, limits, sources};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, LoadKind, ReactionExtremes, SolvedCase, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
-use practice::clause::CodeClause;
 use trains::{GirderResponse, Governing, SectionSide, SpanExtreme};
 
 /// Significant digits of values in the report.
@@ -24,6 +24,7 @@ pub fn design_report(design: &Design, result: &DesignResult) -> Report {
     for index in 0..result.cases.len() {
         sections.push(envelopes(design, result, index));
     }
+    sections.extend(codes(design, result));
     sections.push(inputs(design));
     sections.push(method(result));
     let units = format!("{}, {}", design.units.length.word(), design.units.force.word());
@@ -95,7 +96,10 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     }
     section = section.table(table).table(deflections(design, result));
     if !result.limits.is_empty() {
-        section = section.table(limits(result));
+        section = section.table(limits(design, result));
+        for line in sources(result) {
+            section = section.paragraph(line);
+        }
     }
     if let Some((case, found)) = largest(result, GirderResponse::VerticalMoment, true) {
         let caption = format!(
@@ -218,40 +222,6 @@ fn deflections(design: &Design, result: &DesignResult) -> ReportTable {
                 TableCell::from(format!("L/{ratio:.0}")),
             ]);
         }
-    }
-    table
-}
-
-/// Standard, edition where the name of the standard does not have it, and clause.
-fn code(clause: &CodeClause) -> String {
-    if clause.standard.contains(clause.edition) {
-        format!("{}, {}", clause.standard, clause.clause)
-    } else {
-        format!("{} {}, {}", clause.standard, clause.edition, clause.clause)
-    }
-}
-
-fn limits(result: &DesignResult) -> ReportTable {
-    let columns = ["limit", "", "case", "rail", "span", "value", "allowed", "of limit", "", "code", "source"];
-    let mut table = ReportTable {
-        caption: "Limits of the code".to_owned(),
-        columns: columns.iter().map(|name| TableColumn::new(*name, "")).collect(),
-        rows: Vec::new(),
-    };
-    for check in &result.limits {
-        table.rows.push(vec![
-            TableCell::from(check.quantity.to_owned()),
-            TableCell::from(check.formula.clone()),
-            TableCell::from(check.case),
-            TableCell::from(check.rail.clone()),
-            TableCell::from(check.span),
-            TableCell::from(digits(check.value, DIGITS)),
-            TableCell::from(digits(check.limit, DIGITS)),
-            TableCell::from(format!("{:.0} %", 100.0 * check.value.abs() / check.limit)),
-            TableCell::from(if check.within() { "kept" } else { "exceeded" }),
-            TableCell::from(code(&check.clause)),
-            TableCell::from(check.clause.evidence.words().to_owned()),
-        ]);
     }
     table
 }
@@ -408,7 +378,7 @@ fn inputs(design: &Design) -> ReportSection {
         section = section.table(train_table(design, train, [&length, &force]));
     }
     let mut cases = ReportTable {
-        caption: "Load cases; factors not listed are 1".to_owned(),
+        caption: "Load cases; factors not listed are 1, those of skewing and buffer forces 0".to_owned(),
         columns: ["case", "name", "trains", "gap", "factors"]
             .iter()
             .map(|name| TableColumn::new(*name, ""))
@@ -418,7 +388,7 @@ fn inputs(design: &Design) -> ReportSection {
     for (index, case) in design.cases.iter().enumerate() {
         let names: Vec<&str> = case.trains.iter().map(|&train| design.trains[train].name.as_str()).collect();
         let factors: Vec<String> =
-            case.factors.iter().map(|(name, factor)| format!("{name} {factor}")).collect();
+            case.factors.iter().map(|(name, factor)| format!("{name} {}", digits(*factor, 6))).collect();
         cases.rows.push(vec![
             TableCell::from(index + 1),
             TableCell::from(case.name.clone()),

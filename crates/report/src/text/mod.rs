@@ -1,6 +1,7 @@
 //! The content of the report of a run, section by section.
 
 pub(crate) mod codes;
+mod design_codes;
 pub mod design_report;
 pub(crate) mod fatigue;
 pub(crate) mod responses;
