@@ -183,7 +183,7 @@ impl Structure {
                     .enumerate()
             {
                 let (axis, sign) = deflection_axis(quantity);
-                if !self.frame.resists(carrier.rail, axis) {
+                if !self.rails[carrier.rail].resists[axis.component()] {
                     continue;
                 }
                 let at = carrier.x.map(|x| Probe { rail: carrier.rail, x, axis });

@@ -28,7 +28,7 @@ use crate::extremes::{Governing, Request, SpanDeflection};
 use crate::follow::SectionSide;
 use crate::line::Lines;
 use crate::overrun::Overrun;
-use crate::pieces::Pieces;
+use crate::pieces::{Piece, Pieces};
 use crate::plan::{Arrangement, CasePlan};
 use crate::polynomial::Polynomial;
 use crate::search::{Bend, Margin, Search};
@@ -53,6 +53,7 @@ pub(crate) struct Deflections<'a> {
     used: [bool; COMPONENTS],
     carriers: &'a [Prepared<'a>],
     lines: RefCell<LineCache>,
+    pieces: RefCell<PieceCache>,
 }
 
 /// Influence lines of deflections that were needed lately.
@@ -65,6 +66,16 @@ struct LineCache {
 /// Rail, quantity, and the places with their weights, as bits.
 type LineKey = (usize, usize, Vec<[u64; 2]>);
 
+/// Responses to the trains of a case, by train and stance.
+type CasePieces = Vec<Vec<Vec<Piece<1>>>>;
+
+/// Responses that were needed lately, by case; the largest and the smallest value of a place need the same.
+#[derive(Default)]
+struct PieceCache {
+    by_place: HashMap<(usize, LineKey), Rc<CasePieces>>,
+    count: usize,
+}
+
 impl<'a> Deflections<'a> {
     pub fn new(
         structure: &'a Structure,
@@ -73,12 +84,13 @@ impl<'a> Deflections<'a> {
         used: [bool; COMPONENTS],
         carriers: &'a [Prepared<'a>],
     ) -> Deflections<'a> {
-        Deflections { structure, plans, request, used, carriers, lines: RefCell::default() }
+        let (lines, pieces) = (RefCell::default(), RefCell::default());
+        Deflections { structure, plans, request, used, carriers, lines, pieces }
     }
 
     /// Whether the structure resists a deflection, so that there is one.
     fn exists(&self, rail: usize, quantity: GirderResponse) -> bool {
-        self.structure.frame.resists(rail, deflection_axis(quantity).0)
+        self.structure.rails[rail].resists[deflection_axis(quantity).0.component()]
     }
 
     /// Influence line of a weighted sum of deflections of a rail at several places.
@@ -88,7 +100,7 @@ impl<'a> Deflections<'a> {
         places: &[[f64; 2]],
         quantity: GirderResponse,
     ) -> Result<Rc<Lines<1>>, Error> {
-        let key = (rail, quantity as usize, places.iter().map(|place| place.map(f64::to_bits)).collect());
+        let key = line_key(rail, places, quantity);
         if let Some(known) = self.lines.borrow().by_place.get(&key) {
             return Ok(Rc::clone(known));
         }
@@ -111,12 +123,33 @@ impl<'a> Deflections<'a> {
         quantity: GirderResponse,
         sign: f64,
     ) -> Result<Option<Arrangement>, Error> {
+        let pieces = self.pieces(case, rail, places, quantity)?;
+        Ok(self.plans[case].best(&pieces, 0, sign, f64::NEG_INFINITY))
+    }
+
+    /// The responses of a weighted sum of deflections to the trains of a case.
+    fn pieces(
+        &self,
+        case: usize,
+        rail: usize,
+        places: &[[f64; 2]],
+        quantity: GirderResponse,
+    ) -> Result<Rc<CasePieces>, Error> {
+        let key = (case, line_key(rail, places, quantity));
+        if let Some(known) = self.pieces.borrow().by_place.get(&key) {
+            return Ok(Rc::clone(known));
+        }
         let line = self.line(rail, places, quantity)?;
-        let plan = &self.plans[case];
         let sum = |train: &PlacedTrain| Pieces::sum(&line, train, self.structure.slack()).list;
-        let pieces: Vec<Vec<_>> =
-            plan.trains.iter().map(|stances| stances.iter().map(sum).collect()).collect();
-        Ok(plan.best(&pieces, 0, sign, f64::NEG_INFINITY))
+        let all = self.plans[case].trains.iter().map(|stances| stances.iter().map(sum).collect());
+        let made: Rc<CasePieces> = Rc::new(all.collect());
+        let mut cache = self.pieces.borrow_mut();
+        cache.count += made.iter().flatten().map(Vec::len).sum::<usize>();
+        if cache.count > KEPT_CELLS {
+            *cache = PieceCache::default();
+        }
+        cache.by_place.insert(key, Rc::clone(&made));
+        Ok(made)
     }
 
     /// The governing state for the deflection of a rail at x; `None` where the structure does not resist it.
@@ -476,6 +509,10 @@ impl<'a> Deflections<'a> {
         }
         Ok(best)
     }
+}
+
+fn line_key(rail: usize, places: &[[f64; 2]], quantity: GirderResponse) -> LineKey {
+    (rail, quantity as usize, places.iter().map(|place| place.map(f64::to_bits)).collect())
 }
 
 /// Size of a component of a unit vector, 0 where it is only rounding.

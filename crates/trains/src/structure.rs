@@ -150,6 +150,8 @@ pub(crate) struct RailFrame {
     pub range: [f64; 2],
     /// Rail elements by increasing coordinate.
     pub stretches: Vec<Stretch>,
+    /// Whether the structure resists forces along x, y and z.
+    pub resists: [bool; 3],
 }
 
 /// A structure solved once, of which any influence line can be asked.
@@ -268,7 +270,7 @@ impl Structure {
 
     /// Whether the structure resists a component of load on a rail.
     pub(crate) fn resists(&self, rail: usize, component: usize) -> bool {
-        (component < 3 || self.twins) && self.frame.resists(rail, axis(component))
+        (component < 3 || self.twins) && self.rails[rail].resists[axis(component).component()]
     }
 
     /// Force and couple about the axis of a carrier per unit of a component of load at a rail of its member, global.
@@ -469,5 +471,6 @@ fn rail_frame(
         .collect();
     stretches.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
     let range = [stretches[0].x[0], stretches[stretches.len() - 1].x[1]];
-    Ok(RailFrame { axes: [x, y, x.cross(&y)], origin: Vector3::from(rail.origin), range, stretches })
+    let resists = [0, 1, 2].map(|component| frame.resists(index, axis(component)));
+    Ok(RailFrame { axes: [x, y, x.cross(&y)], origin: Vector3::from(rail.origin), range, stretches, resists })
 }

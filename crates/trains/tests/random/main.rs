@@ -259,7 +259,9 @@ fn run(seed: u64, states: usize, worst: &mut Worst) {
     let begin = std::time::Instant::now();
     let found = match envelopes(&structure, &scene.dead, std::slice::from_ref(&scene.case), &request) {
         Ok(mut found) => found.remove(0),
-        Err(Error::NoRoom { .. } | Error::TooLong { .. } | Error::NoStiffness { .. }) => {
+        Err(
+            Error::NoRoom { .. } | Error::TooLong { .. } | Error::NoStiffness { .. } | Error::Ring { .. },
+        ) => {
             worst.refused += 1;
             return;
         }
