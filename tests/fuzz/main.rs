@@ -93,6 +93,7 @@ fn words(target: &Target, corpus: &[Vec<u8>]) -> Vec<Vec<u8>> {
     }
     let schema = match target.name {
         "scene" => Some(formats::schema::scene()),
+        "design" => Some(formats::schema::design()),
         "spec" | "solve" => Some(formats::schema::beam()),
         "grid" => Some(formats::schema::grid()),
         _ => None,

@@ -13,6 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adams::{AdamsModel, DataSet};
+use design::DesignError;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
 use formats::spec::Spec;
@@ -42,6 +43,11 @@ pub struct Target {
 pub const TARGETS: &[Target] = &[
     Target { name: "spec", run: spec, seeds: &SPECS },
     Target { name: "scene", run: scene, seeds: &SCENES },
+    Target {
+        name: "design",
+        run: design,
+        seeds: &["tests/malformed/base/design.json", "tests/fuzz/seeds/design.json"],
+    },
     Target { name: "grid", run: grid, seeds: &["tests/malformed/base/grid.json"] },
     Target { name: "tables_adm", run: tables_adm, seeds: &ADM },
     Target { name: "tables_cmd", run: tables_cmd, seeds: &[] },
@@ -102,6 +108,8 @@ const MESHES: [&str; 4] = [
 /// Unknowns of the largest structure that is solved, in members and stations.
 const MEMBERS: usize = 60;
 const STATIONS: usize = 40;
+/// Wheels of all cases of the largest design that is calculated.
+const LOADED_WHEELS: usize = 12;
 
 /// The root of the repository.
 pub fn root() -> PathBuf {
@@ -193,6 +201,38 @@ fn scene(bytes: &[u8]) -> u64 {
     match opened(bytes) {
         Ok(document) => document.cases.len() as u64,
         Err(told) => told,
+    }
+}
+
+/// Reads a design and, where it is small, calculates it: every number of its files is finite.
+fn design(bytes: &[u8]) -> u64 {
+    let path = file_beside_others("fuzzed.json");
+    fs::write(&path, bytes).expect("a writable folder");
+    let (read, inputs) = match formats::design::Design::open(&path) {
+        Ok(read) => read,
+        Err(wrong) => {
+            let own: Vec<Diagnostic> =
+                wrong.iter().filter(|one| one.file.ends_with("fuzzed.json")).cloned().collect();
+            return if own.is_empty() { refused(&wrong, None) } else { refused(&own, Some(bytes)) };
+        }
+    };
+    let all = design::with_combinations(&read);
+    let wheels: usize =
+        all.cases.iter().flat_map(|case| &case.trains).map(|&train| all.trains[train].wheels.len()).sum();
+    if wheels > LOADED_WHEELS {
+        return wheels as u64;
+    }
+    match design::solve(&all, &inputs) {
+        Ok(result) => {
+            let tables = [design::envelope_csv(&all, &result), design::reactions_csv(&result)];
+            for table in tables {
+                let text = table.expect("the table is finite");
+                assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
+            }
+            result.cases.len() as u64
+        }
+        Err(DesignError::Input(wrong)) => refused(&wrong, None),
+        Err(DesignError::NoSolution(why)) => signature([why.as_str()]),
     }
 }
 

@@ -110,3 +110,40 @@ fn dead_load_adds_its_own() {
     let least = &extreme(&found, 1, GirderResponse::VerticalMoment, false).governing;
     assert!(least.value.abs() < 1e-11, "{least:?}");
 }
+
+/// Classical results for trains that fit on a simple beam entirely: the moment under a wheel is largest where midspan halves
+/// the distance of the wheel from the resultant of the train. Analytic: with the resultant R at a distance e from the wheel,
+/// the moment is R (L/2 - e/2)^2/L less the moment of the wheels before it.
+#[test]
+fn classical_trains_on_a_simple_beam() {
+    let length = 20.0;
+    let girder = Girder { spans: vec![length], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
+    let trains: [&[(f64, f64)]; 4] = [
+        &[(0.0, 90.0), (3.0, 90.0), (6.0, 90.0)],
+        &[(0.0, 90.0), (3.0, 90.0), (6.0, 90.0), (9.0, 90.0)],
+        // The truck HS20 of AASHTO, in kN and m.
+        &[(0.0, 35.0), (4.3, 145.0), (8.6, 145.0)],
+        &[(0.0, 210.0), (1.1, 180.0), (5.2, 180.0), (6.3, 210.0)],
+    ];
+    for wheels in trains {
+        let found = solve(&girder, vec![train(wheels)], &DeadLoads::default(), Vec::new());
+        let largest = &extreme(&found, 1, GirderResponse::VerticalMoment, true).governing;
+        let total: f64 = wheels.iter().map(|(_, force)| force).sum();
+        let centre = wheels.iter().map(|(x, force)| x * force).sum::<f64>() / total;
+        let under = |&(x, _): &(f64, f64)| {
+            let place = 0.5 * (length + x - centre);
+            let before: f64 =
+                wheels.iter().filter(|(other, _)| *other < x).map(|(other, force)| force * (x - other)).sum();
+            total * (length - place + x - centre) / length * place - before
+        };
+        let known = wheels.iter().map(under).fold(0.0, f64::max);
+        assert!((largest.value / known - 1.0).abs() < 1e-13, "{} instead of {known}", largest.value);
+        let equal = wheels.iter().all(|(_, force)| *force == wheels[0].1);
+        if let (true, 3) = (equal, wheels.len()) {
+            assert!((known - (3.0 * 90.0 * length / 4.0 - 90.0 * 3.0)).abs() < 1e-10);
+        }
+        if let (true, 4) = (equal, wheels.len()) {
+            assert!((known - (360.0 / length * 9.25 * 9.25 - 270.0)).abs() < 1e-10, "{known}");
+        }
+    }
+}
