@@ -5,7 +5,7 @@
 //! move along together, the second derivative G_xx + 2 G_xp + G_pp is that of one polynomial, without a kink at the load.
 
 use crate::error::Error;
-use crate::line::{LineCell, NODES, in_powers};
+use crate::line::{LineCell, Lines, NODES, in_powers};
 use crate::structure::{Carrier, GirderResponse, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 
@@ -33,20 +33,16 @@ impl SecondDerivatives {
         for (rail, bounds) in rails.iter_mut().enumerate() {
             // A cell is divided where the member of the carrier has the place: its parts are the two polynomials.
             for stretch in &structure.rails[rail].stretches {
-                let parts = at_nodes.iter().map(|lines| {
-                    let cells = &lines.rails[rail];
-                    cells
-                        .iter()
-                        .filter(|cell| cell.element == stretch.element && within(cell, stretch.x))
-                        .collect()
-                });
-                let parts: Vec<Vec<&LineCell<1>>> = parts.collect();
-                let count = parts.iter().map(Vec::len).min().unwrap_or(0);
-                for part in 0..count {
+                let cells = |lines: &Lines<1>| -> Vec<LineCell<1>> {
+                    let own = lines.rails[rail].iter().filter(|cell| cell.element == stretch.element);
+                    own.filter(|cell| within(cell, stretch.x)).cloned().collect()
+                };
+                let [first, second, third, last] = [0, 1, 2, 3].map(|node: usize| cells(&at_nodes[node]));
+                for (((a, b), c), d) in first.iter().zip(&second).zip(&third).zip(&last) {
                     for (component, bound) in bounds.iter_mut().enumerate() {
-                        let cubic = |node: usize| about(parts[node][part], component, stretch.x);
-                        let found = Bicubic::new([0, 1, 2, 3].map(cubic));
-                        *bound = bound.max(found.second(width, stretch.x[1] - stretch.x[0]));
+                        let cubics = [a, b, c, d].map(|cell| about(cell, component, stretch.x));
+                        let found = Bicubic::new(cubics).second(width, stretch.x[1] - stretch.x[0]);
+                        *bound = bound.max(found);
                     }
                 }
             }

@@ -146,9 +146,7 @@ fn frame(dice: &mut Rng, theory: BeamTheory) -> (Model, Vec<Rail>, Vec<Vec<f64>>
             }
             top.push(head);
             supports.push(x - origin[0]);
-            if bay < bays {
-                x += lengths[bay];
-            }
+            x += lengths.get(bay).copied().unwrap_or(0.0);
         }
         let mut segments = Vec::new();
         let offset = [0.0, if dice.bool() { between(dice, -0.2, 0.2) } else { 0.0 }, between(dice, 0.0, 0.5)];
