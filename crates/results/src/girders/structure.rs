@@ -1,0 +1,219 @@
+//! The girders of one structure: extremes of its spans, and envelopes at places.
+
+use formats::scene::Scene;
+use sim::{Foundation, History};
+use trains::{GirderResponse, MemberForces};
+
+use super::distributed::{DistributedForces, FORCES};
+use super::girder::LoadedGirders;
+use super::instants::LoadStates;
+use super::refine::{GirderValue, Refinement, SpanValue};
+use super::scan::{SIGNS, Scan};
+use super::sections::Sections;
+use super::{GirderEnvelope, GirderExtreme};
+use crate::Error;
+use crate::response::WheelLoadReader;
+use foundations::{BuiltFoundation, SolvedModel};
+
+/// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
+const MAX_VALUES: usize = 10_000_000;
+
+/// A structure prepared for any number of runs.
+pub(super) struct PreparedGirders<'a> {
+    scene: &'a Scene,
+    s: usize,
+    members: MemberForces,
+    sections: Sections,
+    distributed: DistributedForces,
+}
+
+/// The history of a run from which extremes are found.
+#[derive(Clone, Copy)]
+pub(super) struct Rows<'a> {
+    pub history: &'a History,
+    pub loads: &'a WheelLoadReader,
+    /// One for each structure.
+    pub foundations: &'a [Foundation],
+}
+
+/// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
+pub(super) struct SpanExtremes {
+    pub values: Vec<SpanValue>,
+    pub sizes: [f64; FORCES + 2],
+    /// Every how many rows were evaluated.
+    pub stride: usize,
+}
+
+impl<'a> PreparedGirders<'a> {
+    /// Prepares structure `s`; `None` where it has no members under rails, or where its degrees of freedom were not
+    /// recorded.
+    ///
+    /// # Errors
+    /// [`Error::Girders`] for a model that cannot be solved.
+    pub fn new(
+        scene: &'a Scene,
+        s: usize,
+        built: &BuiltFoundation,
+        solved: &SolvedModel,
+    ) -> Result<Option<PreparedGirders<'a>>, Error> {
+        let failed = |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };
+        let members = MemberForces::new(&solved.model, &solved.rails).map_err(failed)?;
+        let sections = Sections::new(scene, s, solved, &members);
+        if sections.sections.is_empty() {
+            return Ok(None);
+        }
+        let load = (scene.gravity, scene.output.dead_load);
+        let distributed = DistributedForces::new(solved, built, &members, &sections, load)
+            .map_err(|source| failed(source.into()))?;
+        Ok(Some(PreparedGirders { scene, s, members, sections, distributed }))
+    }
+
+    /// Index of the structure.
+    pub fn structure(&self) -> usize {
+        self.s
+    }
+
+    /// Name of the structure.
+    pub fn name(&self) -> &str {
+        &self.scene.structures[self.s].name
+    }
+
+    fn loaded<'b>(
+        &'b self,
+        Rows { history, loads, foundations }: Rows<'b>,
+        sections: &'b Sections,
+        factor: usize,
+    ) -> (LoadedGirders<'b>, usize) {
+        let foundation = &foundations[self.s];
+        let make = |stride| LoadedGirders {
+            foundation,
+            members: &self.members,
+            distributed: &self.distributed,
+            sections,
+            states: LoadStates::new(history, loads, self.s, foundation.dofs(), stride),
+            deflects: foundation.parts.is_none()
+                && (foundation.structure.is_some() || foundation.compliance.is_some()),
+        };
+        let width = make(1).width().max(1);
+        let stride = factor * (history.len() * width).div_ceil(MAX_VALUES).max(1);
+        (make(stride), stride)
+    }
+
+    /// Extremes of all spans, at every row (`factor` 1) or every second one (2).
+    pub fn spans(
+        &self,
+        rows: Rows<'_>,
+        factor: usize,
+        accuracy: f64,
+    ) -> SpanExtremes {
+        let (girders, stride) = self.loaded(rows, &self.sections, factor);
+        let scan = Scan::new(&girders);
+        let refinement = Refinement { girders: &girders, scan: &scan, accuracy };
+        SpanExtremes { values: refinement.spans(), sizes: scan.sizes, stride }
+    }
+
+    /// The extremes as results, and the envelopes at all places.
+    pub fn results(
+        &self,
+        rows: Rows<'_>,
+        found: &SpanExtremes,
+        accuracy: f64,
+    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>) {
+        let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
+        let sections = self.sections.with(&places, &self.members);
+        let (girders, _) = self.loaded(rows, &sections, 1);
+        let scan = Scan::new(&girders);
+        let refinement = Refinement { girders: &girders, scan: &scan, accuracy };
+        let extremes = found.values.iter().map(|value| extreme(&girders, value)).collect();
+        (extremes, envelopes(&refinement))
+    }
+}
+
+/// An extreme of a span as a result.
+fn extreme(girders: &LoadedGirders<'_>, value: &SpanValue) -> GirderExtreme {
+    let SpanValue { rail, span, quantity, kind, found } = *value;
+    let dead = found.section.map_or(0.0, |(member, place)| girders.dead(member, place)[quantity]);
+    GirderExtreme {
+        rail: girders.sections.rails[rail].scene_rail,
+        span,
+        quantity: GirderResponse::ALL[quantity],
+        is_max: kind == 0,
+        value: SIGNS[kind] * found.signed + 0.0,
+        dead: dead + 0.0,
+        x: found.x + 0.0,
+        side: found.side,
+        time: girders.states.at(found.position).time,
+    }
+}
+
+/// The envelopes of all points.
+fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
+    let Refinement { girders, .. } = refinement;
+    let all = girders.sections;
+    let mut at_point = vec![Vec::new(); all.points.len()];
+    for (index, section) in all.sections.iter().enumerate() {
+        at_point[section.point].push(index);
+    }
+    let quantities: Vec<usize> =
+        (0..FORCES + 2).filter(|quantity| !refinement.is_zero(*quantity)).collect();
+    let mut out = Vec::new();
+    for (index, (point, sections)) in all.points.iter().zip(&at_point).enumerate() {
+        for &quantity in &quantities {
+            for kind in 0..2 {
+                let found = match quantity.checked_sub(FORCES) {
+                    Some(plane) => refinement.point(index, plane, kind),
+                    None => sections
+                        .iter()
+                        .filter_map(|at| refinement.section(*at, quantity, kind, true))
+                        .reduce(|best, next| if next.signed > best.signed { next } else { best }),
+                };
+                let Some(found) = found else { continue };
+                out.push(GirderEnvelope {
+                    rail: all.rails[point.rail].scene_rail,
+                    x: point.x,
+                    quantity: GirderResponse::ALL[quantity],
+                    is_max: kind == 0,
+                    value: SIGNS[kind] * found.signed + 0.0,
+                    time: girders.states.at(found.position).time,
+                    coincident: coincident(girders, point.rail, sections.first().copied(), quantity, &found),
+                });
+            }
+        }
+    }
+    out
+}
+
+/// Moment, shear and deflection in the plane of a quantity, of the same section at the same time. Those of a deflection
+/// are of the first section of its point.
+fn coincident(
+    girders: &LoadedGirders<'_>,
+    rail: usize,
+    first: Option<usize>,
+    quantity: usize,
+    found: &GirderValue,
+) -> [f64; 3] {
+    let is_lateral = [
+        GirderResponse::LateralShear as usize,
+        GirderResponse::LateralMoment as usize,
+        GirderResponse::LateralDeflection as usize,
+    ]
+    .contains(&quantity);
+    let mut state = girders.states.at(found.position);
+    let deflection =
+        girders.deflections(rail, &[found.x], usize::from(is_lateral), &state).map_or(0.0, |all| all[0]);
+    if let (Some((load, _)), Some(_)) = (found.own, found.section) {
+        state.loads[load].x = found.x;
+    }
+    let section = found.section.or_else(|| {
+        let section = girders.sections.sections[first?];
+        Some((section.member, section.place))
+    });
+    let forces = section
+        .map_or([0.0; FORCES], |(member, place)| girders.forces_in(member, place, &state, found.own));
+    let [moment, shear] = if is_lateral {
+        [GirderResponse::LateralMoment, GirderResponse::LateralShear]
+    } else {
+        [GirderResponse::VerticalMoment, GirderResponse::VerticalShear]
+    };
+    [forces[moment as usize], forces[shear as usize], deflection]
+}
