@@ -18,7 +18,7 @@
 //! let bogie = cases[0].columns.values("bogie.deflection");
 //! let (sample, deepest) = results::columns::peak(bogie).expect("a history with rows");
 //! assert!((deepest - 0.5473).abs() < 1e-4, "in ft, at row {sample}");
-//! let summary = results::summary::run(document.scene(), &cases[0]);
+//! let summary = results::summary::run(document.scene(), &cases[0], 1);
 //! assert_eq!(summary["status"], "done");
 //! # Ok(())
 //! # }
