@@ -23,6 +23,17 @@ pub(super) struct LoadedGirders<'a> {
 /// A load that stands at a section: its index, and whether the section is just behind it.
 pub(super) type OwnLoad = Option<(usize, bool)>;
 
+/// States in which a load passes a section: whether just after it, and whether the section is just behind the load. At the
+/// end of a member only those count in which the load can stand on this side: `is_forward` is whether it moves towards
+/// larger coordinates.
+pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> {
+    match side {
+        SectionSide::At => vec![(false, false), (false, true), (true, false), (true, true)],
+        SectionSide::Before => vec![(!is_forward, false), (!is_forward, true), (is_forward, false)],
+        SectionSide::Behind => vec![(is_forward, false), (is_forward, true), (!is_forward, true)],
+    }
+}
+
 /// Size of a group of points whose deflections are evaluated together.
 const GROUP: usize = 12;
 
@@ -51,13 +62,9 @@ impl LoadedGirders<'_> {
         out
     }
 
-    /// The quantities of a section at a time. A load `own` is put exactly at the section.
-    pub fn forces(&self, section: &MemberSection, position: f64, own: OwnLoad) -> Quantities {
-        let mut state = self.states.at(position);
-        if let Some((load, _)) = own {
-            state.loads[load].x = self.sections.points[section.point].x;
-        }
-        self.forces_in(section.member, section.place, &state, own)
+    /// The quantities of a section at a time.
+    pub fn forces(&self, section: &MemberSection, position: f64) -> Quantities {
+        self.forces_in(section.member, section.place, &self.states.at(position), None)
     }
 
     /// The member of a rail on which a coordinate lies within a span, and the place on it.
@@ -98,22 +105,5 @@ impl LoadedGirders<'_> {
     /// Dead load at a section.
     pub fn dead(&self, member: usize, place: f64) -> Quantities {
         if self.distributed.is_empty() { [0.0; FORCES] } else { self.distributed.dead(member, place) }
-    }
-
-    /// Largest number of values at one row.
-    pub fn width(&self) -> usize {
-        let loads = if self.states.len() > 0 { self.states.at_row(0).loads.len() } else { 0 };
-        FORCES * (self.sections.sections.len() + 2 * loads) + 2 * self.sections.points.len()
-    }
-}
-
-/// The side that counts for a value: both where the forces just before and just behind a load are the same.
-pub(super) fn side_of(before: f64, behind: f64, is_behind: bool) -> SectionSide {
-    if (before - behind).abs() <= 1e-12 * before.abs().max(behind.abs()) {
-        SectionSide::At
-    } else if is_behind {
-        SectionSide::Behind
-    } else {
-        SectionSide::Before
     }
 }

@@ -1,10 +1,10 @@
 //! Extremes between the rows of a history: peaks of the scan, refined over time, and along the girder where no wheel
 //! stands at the section.
 
-use trains::SectionSide;
+use trains::{GirderResponse, SectionSide};
 
 use super::distributed::FORCES;
-use super::girder::{LoadedGirders, OwnLoad, side_of};
+use super::girder::{LoadedGirders, OwnLoad};
 use super::peaks::{Peak, largest};
 use super::scan::{SIGNS, Scan};
 
@@ -26,6 +26,8 @@ pub(super) struct GirderValue {
     /// Member and place on it; `None` for deflections.
     pub section: Option<(usize, f64)>,
     pub own: OwnLoad,
+    /// Whether it is the state just after a passage; `None` for the state at the time itself.
+    pub is_after: Option<bool>,
     pub side: SectionSide,
 }
 
@@ -136,31 +138,31 @@ impl Refinement<'_> {
         if peak.height == f64::NEG_INFINITY {
             return None;
         }
-        let value = |position: f64, own| SIGNS[kind] * self.girders.forces(section, position, own)[quantity];
-        let make = |signed, position, own, side| GirderValue {
+        let value = |position: f64| SIGNS[kind] * self.girders.forces(section, position)[quantity];
+        let make = |signed, position, own, is_after, side| GirderValue {
             signed,
             position,
             x,
             section: Some((section.member, section.place)),
             own,
+            is_after,
             side,
         };
         let mut found = None;
         if is_near {
-            let (signed, position) =
-                self.over_time(peak, quantity, &mut |position| value(position, None));
-            offer(&mut found, Some(make(signed, position, None, section.side)));
+            let (signed, position) = self.over_time(peak, quantity, &mut |position| value(position));
+            offer(&mut found, Some(make(signed, position, None, None, section.side)));
         }
         for passage in self.scan.passages.iter().filter(|passage| passage.section == at) {
-            let [before, behind] = passage.values.map(|values| SIGNS[kind] * values[quantity]);
-            for (signed, is_behind) in [(before, false), (behind, true)] {
-                let side = match section.side {
-                    SectionSide::At => side_of(before, behind, is_behind),
-                    side => side,
-                };
-                let own = Some((passage.load, is_behind));
-                offer(&mut found, Some(make(signed, passage.position, own, side)));
-            }
+            let signed = SIGNS[kind] * passage.values[quantity];
+            let side = match section.side {
+                SectionSide::At if is_moment(quantity) => SectionSide::At,
+                SectionSide::At if passage.is_behind => SectionSide::Behind,
+                SectionSide::At => SectionSide::Before,
+                side => side,
+            };
+            let own = Some((passage.load, passage.is_behind));
+            offer(&mut found, Some(make(signed, passage.position, own, Some(passage.is_after), side)));
         }
         found
     }
@@ -202,9 +204,13 @@ impl Refinement<'_> {
         };
         let (signed, position) = self.over_time(peak, quantity, &mut |position| value(position, own.1));
         let (_, (member, place, x)) = place(position)?;
-        let [before, behind] = [false, true].map(|is_behind| value(position, is_behind));
-        let side = side_of(before, behind, own.1);
-        Some(GirderValue { signed, position, x, section: Some((member, place)), own: Some(own), side })
+        let side = match own.1 {
+            _ if is_moment(quantity) => SectionSide::At,
+            true => SectionSide::Behind,
+            false => SectionSide::Before,
+        };
+        let section = Some((member, place));
+        Some(GirderValue { signed, position, x, section, own: Some(own), is_after: None, side })
     }
 
     /// Refines a value at a section along its member and over time in turn.
@@ -303,7 +309,7 @@ impl Refinement<'_> {
             |position: f64| SIGNS[kind] * self.girders.deflection(point.rail, point.x, plane, position);
         let (signed, position) = self.over_time(peak, FORCES + plane, &mut value);
         let side = SectionSide::At;
-        Some(GirderValue { signed, position, x: point.x, section: None, own: None, side })
+        Some(GirderValue { signed, position, x: point.x, section: None, own: None, is_after: None, side })
     }
 
     /// The largest value in the two intervals beside the row of a peak; the value at the row where the values beside it
@@ -333,6 +339,11 @@ impl Refinement<'_> {
         // of equal values the row itself counts
         if found.0 > own.0 { found } else { own }
     }
+}
+
+/// Whether a quantity is a bending moment, which is the same on both sides of a wheel.
+fn is_moment(quantity: usize) -> bool {
+    quantity == GirderResponse::VerticalMoment as usize || quantity == GirderResponse::LateralMoment as usize
 }
 
 /// Replaces a value by a larger one; of equal values the first one counts.

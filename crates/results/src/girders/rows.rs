@@ -68,7 +68,8 @@ pub(crate) fn of_run(
     let (mut rows, mut finer) = (1, None);
     for _ in 0..REPETITIONS {
         let own = finer.as_ref().unwrap_or(history);
-        let Some(more) = more_rows(scene, own, rows, found.change) else { break };
+        let Some(more) = more_rows(scene, own, found.most_rows, found.change) else { break };
+        let more = more * rows;
         let Some(repeated) = repeat(more) else { break };
         found = all.attempt(&repeated);
         (rows, finer) = (more, Some(repeated));
@@ -82,7 +83,7 @@ pub(crate) fn of_run(
         out.envelope.extend(envelope);
         if spans.stride > 1 {
             out.notes.push(format!(
-                "{}: extremes of girders are evaluated at every {}th output time, because there are many",
+                "{}: extremes of girders are evaluated at one of {} output times, because they are many",
                 girders.name(),
                 spans.stride
             ));
@@ -91,7 +92,7 @@ pub(crate) fn of_run(
     if found.change > scene.accuracy {
         out.notes.push(format!(
             "extremes of girders still change by {} of the largest value of their kind from every second to every one of \
-             {} output times",
+             {} times",
             number(rounded(found.change, 2)),
             history.len()
         ));
@@ -105,6 +106,8 @@ struct Attempt {
     spans: Vec<SpanExtremes>,
     /// Largest change from every second row to all rows, relative to the largest value of its kind.
     change: f64,
+    /// Largest number of rows that are all evaluated.
+    most_rows: usize,
 }
 
 /// Girders with what their evaluation needs beside a history.
@@ -127,7 +130,9 @@ impl Evaluation<'_> {
             change = change.max(difference(&fine, &coarse));
             all.push(fine);
         }
-        Attempt { spans: all, change }
+        let most_rows =
+            self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
+        Attempt { spans: all, change, most_rows }
     }
 }
 
@@ -153,15 +158,15 @@ fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> f64 {
     largest
 }
 
-/// Number of rows in each output interval after `rows`; `None` where the extremes change by no more than the accuracy, or
-/// where the history would become too long.
-fn more_rows(scene: &Scene, history: &History, rows: usize, change: f64) -> Option<usize> {
+/// By how many times the rows of a history must increase; `None` where the extremes change by no more than the accuracy,
+/// or where the history would become too long.
+fn more_rows(scene: &Scene, history: &History, most: usize, change: f64) -> Option<usize> {
     if change <= scene.accuracy {
         return None;
     }
-    let factor = (1.5 * (change / scene.accuracy).cbrt()).clamp(2.0, 32.0).ceil() as usize;
+    let factor = (1.5 * (change / scene.accuracy).cbrt()).clamp(2.0, 16.0).ceil() as usize;
     let width = history.channels().len().max(1);
-    let most = MAX_ROWS[0].min(MAX_ROWS[1] / width) / history.len().max(1);
+    let most = most.min(MAX_ROWS[0]).min(MAX_ROWS[1] / width) / history.len().max(1);
     let factor = factor.min(most);
-    (factor >= 2).then_some(factor * rows)
+    (factor >= 2).then_some(factor)
 }

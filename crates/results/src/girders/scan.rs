@@ -1,9 +1,9 @@
 //! Values of every section and beside every wheel at all rows of a history, and where wheels pass sections.
 
-use trains::PassedLoads;
+use trains::{PassedLoads, SectionSide};
 
 use super::distributed::{FORCES, Quantities};
-use super::girder::LoadedGirders;
+use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
 use super::peaks::Peak;
 
@@ -19,8 +19,11 @@ pub(super) struct Passage {
     pub section: usize,
     pub load: usize,
     pub position: f64,
-    /// Quantities of the section just before and just behind the load.
-    pub values: [Quantities; 2],
+    /// Whether it is the state just after the passage.
+    pub is_after: bool,
+    /// Whether the section is just behind the load.
+    pub is_behind: bool,
+    pub values: Quantities,
 }
 
 /// The peaks of all values over the rows of a history.
@@ -92,7 +95,10 @@ impl Scan {
             }
             for (load, place) in passed.places() {
                 let x = girders.members.coordinate(index, place);
-                let span = sections.rails[rail].span(x, trains::SectionSide::At);
+                // at the end of a member the side of the load is that of the member
+                let is_first = x - member.x[0] < member.x[1] - x;
+                let side = if is_first { SectionSide::Behind } else { SectionSide::Before };
+                let span = sections.rails[rail].span(x, side);
                 for is_behind in [false, true] {
                     let values = girders.sum(index, place, state, &passed, Some((load, is_behind)));
                     let at = self.wheel(load, is_behind, rail, span);
@@ -135,14 +141,18 @@ impl Scan {
                 if from.x == to.x && row > 0 {
                     continue;
                 }
-                let fraction = passage(girders, row, load, point.x, [from.x, to.x]);
+                let fraction = girders.states.passage(row, load, point.x, [from.x, to.x]);
                 let position = row as f64 + fraction;
-                let values =
-                    [false, true].map(|behind| girders.forces(section, position, Some((load, behind))));
-                for value in values {
-                    self.sizes.iter_mut().zip(value).for_each(|(size, value)| *size = size.max(value.abs()));
+                for (is_after, is_behind) in passing(section.side, from.x <= to.x) {
+                    let mut state = girders.states.limit(position, is_after);
+                    state.loads[load].x = point.x;
+                    let own = Some((load, is_behind));
+                    let values = girders.forces_in(section.member, section.place, &state, own);
+                    let sizes = self.sizes.iter_mut().zip(values);
+                    sizes.for_each(|(size, value)| *size = size.max(value.abs()));
+                    let passage = Passage { section: index, load, position, is_after, is_behind, values };
+                    self.passages.push(passage);
                 }
-                self.passages.push(Passage { section: index, load, position, values });
             }
         }
     }
@@ -153,32 +163,4 @@ fn add(peaks: &mut ForcePeaks, sizes: &mut [f64], row: usize, values: &[f64; FOR
         *size = size.max(value.abs());
         own.iter_mut().zip(SIGNS).for_each(|(peak, sign)| peak.add(row, sign * value));
     }
-}
-
-/// Fraction of the interval behind `row` at which a load passes `x`, by regula falsi (Illinois).
-fn passage(girders: &LoadedGirders<'_>, row: usize, load: usize, x: f64, ends: [f64; 2]) -> f64 {
-    let (mut a, mut b) = (0.0, 1.0);
-    let [mut low, mut high] = ends.map(|end| end - x);
-    if low == 0.0 || low == high {
-        return 0.0;
-    }
-    if high == 0.0 {
-        return 1.0;
-    }
-    let scale = low.abs().max(high.abs());
-    for _ in 0..24 {
-        let middle = (a * high - b * low) / (high - low);
-        let value = girders.states.at(row as f64 + middle).loads[load].x - x;
-        if value.abs() <= 1e-12 * scale {
-            return middle;
-        }
-        if (value > 0.0) == (high > 0.0) {
-            (b, high) = (middle, value);
-            low *= 0.5;
-        } else {
-            (a, low) = (middle, value);
-            high *= 0.5;
-        }
-    }
-    0.5 * (a + b)
 }

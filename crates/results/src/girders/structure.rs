@@ -78,6 +78,17 @@ impl<'a> PreparedGirders<'a> {
         &self.scene.structures[self.s].name
     }
 
+    /// Number of values of one row.
+    fn width(&self, history: &History, loads: &WheelLoadReader) -> usize {
+        let on = loads.at(history.sample(0)).iter().filter(|load| load.structure == self.s).count();
+        FORCES * (self.sections.sections.len() + 2 * on) + 2 * self.sections.points.len()
+    }
+
+    /// Largest number of rows of a history like this one that are all evaluated.
+    pub fn most_rows(&self, history: &History, loads: &WheelLoadReader) -> usize {
+        MAX_VALUES / self.width(history, loads).max(1)
+    }
+
     fn loaded<'b>(
         &'b self,
         Rows { history, loads, foundations }: Rows<'b>,
@@ -85,17 +96,19 @@ impl<'a> PreparedGirders<'a> {
         factor: usize,
     ) -> (LoadedGirders<'b>, usize) {
         let foundation = &foundations[self.s];
+        let ends: Vec<(usize, f64)> =
+            self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
+        let own = (self.s, foundation.dofs());
         let make = |stride| LoadedGirders {
             foundation,
             members: &self.members,
             distributed: &self.distributed,
             sections,
-            states: LoadStates::new(history, loads, self.s, foundation.dofs(), stride),
+            states: LoadStates::new(history, loads, own, &ends, stride),
             deflects: foundation.parts.is_none()
                 && (foundation.structure.is_some() || foundation.compliance.is_some()),
         };
-        let width = make(1).width().max(1);
-        let stride = factor * (history.len() * width).div_ceil(MAX_VALUES).max(1);
+        let stride = factor * (history.len() * self.width(history, loads)).div_ceil(MAX_VALUES).max(1);
         (make(stride), stride)
     }
 
@@ -198,10 +211,13 @@ fn coincident(
         GirderResponse::LateralDeflection as usize,
     ]
     .contains(&quantity);
-    let mut state = girders.states.at(found.position);
+    let mut state = match found.is_after {
+        Some(is_after) => girders.states.limit(found.position, is_after),
+        None => girders.states.at(found.position),
+    };
     let deflection =
         girders.deflections(rail, &[found.x], usize::from(is_lateral), &state).map_or(0.0, |all| all[0]);
-    if let (Some((load, _)), Some(_)) = (found.own, found.section) {
+    if let (Some((load, _)), Some(_)) = (found.own, found.is_after) {
         state.loads[load].x = found.x;
     }
     let section = found.section.or_else(|| {
