@@ -7,7 +7,7 @@ use trains::{MemberForces, PassedLoads, SectionSide};
 use super::distributed::{DistributedForces, FORCES, Quantities};
 use super::instants::{LoadState, LoadStates};
 use super::sections::{MemberSection, Sections};
-use crate::response::displacements;
+use crate::response::{displacements, spread};
 
 /// The girders of a structure under the loads of a run.
 pub(super) struct LoadedGirders<'a> {
@@ -16,8 +16,10 @@ pub(super) struct LoadedGirders<'a> {
     pub distributed: &'a DistributedForces,
     pub sections: &'a Sections,
     pub states: LoadStates<'a>,
-    /// Whether deflections are known.
-    pub deflects: bool,
+    /// Whether the deflections in the vertical and in the lateral plane are known and not zero throughout.
+    pub deflects: [bool; 2],
+    /// Every how many rows deflections are evaluated: they change more slowly than forces.
+    pub deflection_stride: usize,
 }
 
 /// A load that stands at a section: its index, and whether the section is just behind it.
@@ -33,6 +35,9 @@ pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> 
         SectionSide::Behind => vec![(is_forward, false), (is_forward, true), (!is_forward, true)],
     }
 }
+
+/// Number of rows at which deflections are looked for.
+const FEW: usize = 24;
 
 /// Size of a group of points whose deflections are evaluated together.
 const GROUP: usize = 12;
@@ -82,7 +87,7 @@ impl LoadedGirders<'_> {
     /// Deflections of points of a rail, downwards or along +z; `None` where they are not known or the structure is
     /// unrestrained in this direction.
     pub fn deflections(&self, rail: usize, x: &[f64], plane: usize, state: &LoadState) -> Option<Vec<f64>> {
-        if !self.deflects {
+        if !self.deflects[plane] {
             return None;
         }
         let (axis, sign) = if plane == 0 { (Axis::Vertical, -1.0) } else { (Axis::Lateral, 1.0) };
@@ -94,6 +99,16 @@ impl LoadedGirders<'_> {
             out.extend(moved.into_iter().map(|value| sign * value));
         }
         Some(out)
+    }
+
+    /// Whether a plane has deflections at one of a few rows that are evenly distributed.
+    pub fn has_deflections(&self, plane: usize) -> bool {
+        let rails = &self.sections.rails;
+        spread(self.states.len(), FEW).any(|row| {
+            let state = self.states.at_row(row);
+            let moved = |rail: usize| self.deflections(rail, &rails[rail].places, plane, &state);
+            (0..rails.len()).filter_map(moved).flatten().any(|value| value != 0.0)
+        })
     }
 
     /// Deflection of one point at a time.

@@ -48,6 +48,8 @@ pub(super) struct SpanValue {
 pub(super) struct Refinement<'a> {
     pub girders: &'a LoadedGirders<'a>,
     pub scan: &'a Scan,
+    /// Largest magnitude of each quantity, and of both deflections.
+    pub sizes: [f64; FORCES + 2],
     /// Relative accuracy that is wanted.
     pub accuracy: f64,
 }
@@ -62,7 +64,7 @@ impl Refinement<'_> {
 
     /// Largest magnitude of a quantity.
     pub fn size(&self, quantity: usize) -> f64 {
-        self.scan.sizes[quantity]
+        self.sizes[quantity]
     }
 
     /// Largest magnitude of the quantities of one dimension; of forces, where a structure has no moments to speak of.
@@ -72,7 +74,7 @@ impl Refinement<'_> {
             1 | 4 | 5 => &[1, 4, 5],
             _ => &[6, 7],
         };
-        kinds.iter().fold(0.0, |most, k| most.max(self.scan.sizes[*k]))
+        kinds.iter().fold(0.0, |most, k| most.max(self.sizes[*k]))
     }
 
     /// The extremes of every span that has sections.
@@ -150,7 +152,7 @@ impl Refinement<'_> {
         };
         let mut found = None;
         if is_near {
-            let (signed, position) = self.over_time(peak, quantity, &mut |position| value(position));
+            let (signed, position) = self.over_time((peak, 1), quantity, &mut |position| value(position));
             offer(&mut found, Some(make(signed, position, None, None, section.side)));
         }
         for passage in self.scan.passages.iter().filter(|passage| passage.section == at) {
@@ -202,7 +204,7 @@ impl Refinement<'_> {
                 SIGNS[kind] * girders.forces_in(member, place, &state, Some((own.0, is_behind)))[quantity]
             })
         };
-        let (signed, position) = self.over_time(peak, quantity, &mut |position| value(position, own.1));
+        let (signed, position) = self.over_time((peak, 1), quantity, &mut |position| value(position, own.1));
         let (_, (member, place, x)) = place(position)?;
         let side = match own.1 {
             _ if is_moment(quantity) => SectionSide::At,
@@ -250,7 +252,7 @@ impl Refinement<'_> {
                 ..found
             };
             let (signed, position) =
-                self.near_in_time(found.position, &mut |position| value(x, position));
+                self.near_in_time(found.position, 1, &mut |position| value(x, position));
             if signed > found.signed {
                 found = GirderValue { signed, position, ..found };
             }
@@ -285,7 +287,7 @@ impl Refinement<'_> {
             }
             let gain = signed - found.signed;
             found = GirderValue { signed, x, ..found };
-            let (signed, position) = self.near_in_time(found.position, &mut |position| {
+            let (signed, position) = self.near_in_time(found.position, girders.deflection_stride, &mut |position| {
                 SIGNS[kind] * girders.deflection(rail, x, plane, position)
             });
             if signed > found.signed {
@@ -307,7 +309,7 @@ impl Refinement<'_> {
         }
         let mut value =
             |position: f64| SIGNS[kind] * self.girders.deflection(point.rail, point.x, plane, position);
-        let (signed, position) = self.over_time(peak, FORCES + plane, &mut value);
+        let (signed, position) = self.over_time((peak, self.girders.deflection_stride), FORCES + plane, &mut value);
         let side = SectionSide::At;
         Some(GirderValue { signed, position, x: point.x, section: None, own: None, is_after: None, side })
     }
@@ -316,22 +318,22 @@ impl Refinement<'_> {
     /// show that no larger one lies between the rows.
     fn over_time(
         &self,
-        peak: &Peak,
+        (peak, stride): (&Peak, usize),
         quantity: usize,
         value: &mut dyn FnMut(f64) -> f64,
     ) -> (f64, f64) {
         if peak.height - peak.value <= 1e-2 * self.accuracy * self.size(quantity) {
-            return (peak.value, peak.row as f64);
+            return (peak.value, (peak.row * stride) as f64);
         }
-        self.near_in_time(peak.row as f64, value)
+        self.near_in_time((peak.row * stride) as f64, stride, value)
     }
 
-    /// The largest value from the row before a time to the row behind it.
-    fn near_in_time(&self, position: f64, value: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
+    /// The largest value from `stride` rows before a time to as many behind it.
+    fn near_in_time(&self, position: f64, stride: usize, value: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
         let last = (self.girders.states.len() - 1) as f64;
         let own = (value(position), position);
         let row = position.round();
-        let ends = [(row - 1.0).max(0.0), (row + 1.0).min(last)];
+        let ends = [(row - stride as f64).max(0.0), (row + stride as f64).min(last)];
         if ends[1] <= ends[0] {
             return own;
         }

@@ -15,6 +15,8 @@ use foundations::{BuiltFoundation, SolvedModel};
 const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
+/// Ratio of the changes before and after a repetition above which there is no other one.
+const WORTHWHILE: f64 = 0.2;
 
 /// The girders of a scene, prepared for any number of runs on the same foundations.
 pub(crate) struct Prepared<'a> {
@@ -71,8 +73,13 @@ pub(crate) fn of_run(
         let Some(more) = more_rows(scene, own, found.most_rows, found.change) else { break };
         let more = more * rows;
         let Some(repeated) = repeat(more) else { break };
+        let before = found.change;
         found = all.attempt(&repeated);
         (rows, finer) = (more, Some(repeated));
+        // where forces jump, more rows do not help
+        if found.change > WORTHWHILE * before {
+            break;
+        }
     }
     let history = finer.as_ref().unwrap_or(history);
     let loads = WheelLoadReader::new(scene, input, history);

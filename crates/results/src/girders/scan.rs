@@ -30,7 +30,7 @@ pub(super) struct Passage {
 pub(super) struct Scan {
     /// By section.
     pub sections: Vec<ForcePeaks>,
-    /// By point and plane.
+    /// By point and plane, with rows counted in steps of [`LoadedGirders::deflection_stride`].
     pub points: Vec<[[Peak; 2]; 2]>,
     /// By load, side (before, behind) and number of the span over all rails.
     pub wheels: Vec<ForcePeaks>,
@@ -64,7 +64,9 @@ impl Scan {
         for row in 0..rows {
             let state = girders.states.at_row(row);
             scan.add_forces(girders, row, &state);
-            scan.add_deflections(girders, row, &state);
+            if row.is_multiple_of(girders.deflection_stride) {
+                scan.add_deflections(girders, row / girders.deflection_stride, &state);
+            }
             if let Some(before) = &before {
                 scan.add_passages(girders, row - 1, before, &state);
             }

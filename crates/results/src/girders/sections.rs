@@ -127,11 +127,14 @@ impl Sections {
         Sections { rails, points, sections, of_member }
     }
 
-    /// The same rails with more places.
-    pub fn with(&self, places: &[(usize, f64)], members: &MemberForces) -> Sections {
+    /// Sections of the same rails at those of `places` (index in the list of rails, coordinate) that have none.
+    pub fn at(&self, places: &[(usize, f64)], members: &MemberForces) -> Sections {
         let mut rails = self.rails.clone();
         for (number, rail) in rails.iter_mut().enumerate() {
-            rail.places.extend(places.iter().filter(|(of, _)| *of == number).map(|(_, x)| *x));
+            let known = std::mem::take(&mut rail.places);
+            let near = rail.slack();
+            let of_rail = places.iter().filter(|(of, _)| *of == number).map(|(_, x)| *x);
+            rail.places = of_rail.filter(|x| known.iter().all(|own| (own - x).abs() > near)).collect();
             tidy(&mut rail.places, rail.range);
         }
         Sections::of(rails, members)

@@ -17,6 +17,8 @@ use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
 const MAX_VALUES: usize = 10_000_000;
+/// Number of rows above which deflections are evaluated at fewer rows.
+const MAX_DEFLECTIONS: usize = 2000;
 
 /// A structure prepared for any number of runs.
 pub(super) struct PreparedGirders<'a> {
@@ -39,6 +41,8 @@ pub(super) struct Rows<'a> {
 /// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
 pub(super) struct SpanExtremes {
     pub values: Vec<SpanValue>,
+    /// The scan from which they follow.
+    scan: Scan,
     pub sizes: [f64; FORCES + 2],
     /// Every how many rows were evaluated.
     pub stride: usize,
@@ -105,11 +109,18 @@ impl<'a> PreparedGirders<'a> {
             distributed: &self.distributed,
             sections,
             states: LoadStates::new(history, loads, own, &ends, stride),
-            deflects: foundation.parts.is_none()
-                && (foundation.structure.is_some() || foundation.compliance.is_some()),
+            deflects: [foundation.parts.is_none()
+                && (foundation.structure.is_some() || foundation.compliance.is_some());
+                2],
+            deflection_stride: 1,
         };
         let stride = factor * (history.len() * self.width(history, loads)).div_ceil(MAX_VALUES).max(1);
-        (make(stride), stride)
+        let mut girders: LoadedGirders<'b> = make(stride);
+        girders.deflection_stride = (girders.states.len() / MAX_DEFLECTIONS).max(1);
+        if girders.deflects[1] {
+            girders.deflects[1] = girders.has_deflections(1);
+        }
+        (girders, stride)
     }
 
     /// Extremes of all spans, at every row (`factor` 1) or every second one (2).
@@ -121,24 +132,32 @@ impl<'a> PreparedGirders<'a> {
     ) -> SpanExtremes {
         let (girders, stride) = self.loaded(rows, &self.sections, factor);
         let scan = Scan::new(&girders);
-        let refinement = Refinement { girders: &girders, scan: &scan, accuracy };
-        SpanExtremes { values: refinement.spans(), sizes: scan.sizes, stride }
+        let sizes = scan.sizes;
+        let refinement = Refinement { girders: &girders, scan: &scan, sizes, accuracy };
+        let values = refinement.spans();
+        SpanExtremes { values, scan, sizes, stride }
     }
 
-    /// The extremes as results, and the envelopes at all places.
+    /// The extremes as results, and the envelopes at all places and at those of the extremes.
     pub fn results(
         &self,
         rows: Rows<'_>,
         found: &SpanExtremes,
         accuracy: f64,
     ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>) {
+        let sizes = found.sizes;
+        let (girders, _) = self.loaded(rows, &self.sections, 1);
+        let extremes = found.values.iter().map(|value| extreme(&girders, value)).collect();
+        let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
+        let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
-        let sections = self.sections.with(&places, &self.members);
+        let sections = self.sections.at(&places, &self.members);
         let (girders, _) = self.loaded(rows, &sections, 1);
         let scan = Scan::new(&girders);
-        let refinement = Refinement { girders: &girders, scan: &scan, accuracy };
-        let extremes = found.values.iter().map(|value| extreme(&girders, value)).collect();
-        (extremes, envelopes(&refinement))
+        all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
+        // places in order; quantities keep theirs
+        all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
+        (extremes, all)
     }
 }
 

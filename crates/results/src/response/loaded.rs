@@ -153,7 +153,7 @@ impl LoadedStructure<'_> {
 }
 
 /// At most `most` of `count` indices, evenly distributed from the first to the last.
-pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let chosen = count.min(most);
     (0..chosen).map(move |k| k * (count - 1) / (chosen - 1).max(1))
 }
