@@ -62,6 +62,11 @@ impl Refinement<'_> {
         own <= 1e-9 * self.kind_size(quantity)
     }
 
+    /// A value of a quantity, and 0 where it is below 1e-12 of the largest value of its kind.
+    pub fn without_rounding(&self, quantity: usize, value: f64) -> f64 {
+        if value.abs() <= 1e-12 * self.kind_size(quantity) { 0.0 } else { value }
+    }
+
     /// Largest magnitude of a quantity.
     pub fn size(&self, quantity: usize) -> f64 {
         self.sizes[quantity]

@@ -153,7 +153,9 @@ fn rail_spans(
     let range = members.structure().range(rail);
     let given = scene.output.spans.iter().find(|(known, _)| *known == index);
     let mut ends = given.map_or_else(|| spans(spec, model, &solved.rails, rail), |(_, ends)| ends.clone());
-    ends.retain(|x| *x >= range[0] && *x <= range[1]);
+    // the first and the last support may lie beyond the part of the rail that carries loads
+    ends.iter_mut().for_each(|x| *x = x.clamp(range[0], range[1]));
+    tidy(&mut ends, range);
     if ends.len() < 2 {
         ends = range.to_vec();
     }

@@ -147,8 +147,8 @@ impl<'a> PreparedGirders<'a> {
     ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>) {
         let sizes = found.sizes;
         let (girders, _) = self.loaded(rows, &self.sections, 1);
-        let extremes = found.values.iter().map(|value| extreme(&girders, value)).collect();
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
+        let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, &self.members);
@@ -162,7 +162,8 @@ impl<'a> PreparedGirders<'a> {
 }
 
 /// An extreme of a span as a result.
-fn extreme(girders: &LoadedGirders<'_>, value: &SpanValue) -> GirderExtreme {
+fn extreme(refinement: &Refinement<'_>, value: &SpanValue) -> GirderExtreme {
+    let girders = refinement.girders;
     let SpanValue { rail, span, quantity, kind, found } = *value;
     let dead = found.section.map_or(0.0, |(member, place)| girders.dead(member, place)[quantity]);
     GirderExtreme {
@@ -170,7 +171,7 @@ fn extreme(girders: &LoadedGirders<'_>, value: &SpanValue) -> GirderExtreme {
         span,
         quantity: GirderResponse::ALL[quantity],
         is_max: kind == 0,
-        value: SIGNS[kind] * found.signed + 0.0,
+        value: refinement.without_rounding(quantity, SIGNS[kind] * found.signed),
         dead: dead + 0.0,
         x: found.x + 0.0,
         side: found.side,
@@ -205,7 +206,7 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
                     x: point.x,
                     quantity: GirderResponse::ALL[quantity],
                     is_max: kind == 0,
-                    value: SIGNS[kind] * found.signed + 0.0,
+                    value: refinement.without_rounding(quantity, SIGNS[kind] * found.signed),
                     time: girders.states.at(found.position).time,
                     coincident: coincident(girders, point.rail, sections.first().copied(), quantity, &found),
                 });
