@@ -68,7 +68,12 @@ fn extremes(folder: &Path) -> BTreeMap<String, f64> {
 }
 
 /// Asserts that extremes agree to a fraction of the largest value of their quantity.
-fn assert_alike(found: &BTreeMap<String, f64>, known: &BTreeMap<String, f64>, tolerance: f64, quantities: &[&str]) {
+fn assert_alike(
+    found: &BTreeMap<String, f64>,
+    known: &BTreeMap<String, f64>,
+    tolerance: f64,
+    quantities: &[&str],
+) {
     for quantity in quantities {
         let of = |key: &&String| key.split(' ').nth(1) == Some(&format!("\"{quantity}\""));
         let largest = known.iter().filter(|(key, _)| of(key)).fold(0.0_f64, |most, (_, v)| most.max(v.abs()));

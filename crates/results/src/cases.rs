@@ -150,8 +150,7 @@ fn repeated(
         return None;
     }
     let finer = sim::Scene { output_parts: rows, ..input.scene.clone() };
-    let again =
-        sim::run_by(scene.stepping, &finer, foundations, &mut |_| ControlFlow::Continue(())).ok()?;
+    let again = sim::run_by(scene.stepping, &finer, foundations, &mut |_| ControlFlow::Continue(())).ok()?;
     again.status.is_complete().then_some(again.history)
 }
 

@@ -72,9 +72,8 @@ impl DistributedForces {
                 let own = std::array::from_fn(|k| if dead { lines.dead_load()[first + k] } else { 0.0 });
                 node.dead.push(members.quantities(index, own));
                 let rows: Vec<Vec<f64>> = (0..FORCES).map(|k| lines.per_acceleration(first + k)).collect();
-                let per_dof = (0..lines.dofs()).map(|dof| {
-                    members.quantities(index, std::array::from_fn(|k| 0.0 - rows[k][dof]))
-                });
+                let per_dof = (0..lines.dofs())
+                    .map(|dof| members.quantities(index, std::array::from_fn(|k| 0.0 - rows[k][dof])));
                 node.inertia.push(per_dof.collect());
                 first += FORCES;
             }

@@ -58,8 +58,11 @@ impl Peak {
             return;
         }
         let curvature = 2.0 * own - before - next;
-        let bulge =
-            if curvature.is_finite() && curvature > 0.0 { (next - before).powi(2) / (8.0 * curvature) } else { 0.0 };
+        let bulge = if curvature.is_finite() && curvature > 0.0 {
+            (next - before).powi(2) / (8.0 * curvature)
+        } else {
+            0.0
+        };
         if own + bulge > self.height {
             (self.height, self.row, self.value) = (own + bulge, self.last, own);
         }
@@ -71,11 +74,7 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The largest value of `function` between two places by golden section, with its place, after `count` evaluations.
 /// The ends count.
-pub(super) fn largest(
-    ends: [f64; 2],
-    count: usize,
-    function: &mut dyn FnMut(f64) -> f64,
-) -> (f64, f64) {
+pub(super) fn largest(ends: [f64; 2], count: usize, function: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
     let [mut a, mut b] = ends;
     let mut best = (function(a), a);
     let offer = |best: &mut (f64, f64), value: f64, place: f64| {

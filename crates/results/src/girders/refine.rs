@@ -235,10 +235,7 @@ impl Refinement<'_> {
         let ends = girders.members.members().nth(member)?.x;
         let bounds = outline.bounds(span);
         let neighbours = neighbours(&outline.places, from.x);
-        let near = [
-            neighbours[0].max(ends[0]).max(bounds[0]),
-            neighbours[1].min(ends[1]).min(bounds[1]),
-        ];
+        let near = [neighbours[0].max(ends[0]).max(bounds[0]), neighbours[1].min(ends[1]).min(bounds[1])];
         let value = |x: f64, position: f64| {
             let place = girders.members.place(member, x);
             SIGNS[kind] * girders.forces_in(member, place, &girders.states.at(position), None)[quantity]
@@ -256,8 +253,7 @@ impl Refinement<'_> {
                 side: SectionSide::At,
                 ..found
             };
-            let (signed, position) =
-                self.near_in_time(found.position, 1, &mut |position| value(x, position));
+            let (signed, position) = self.near_in_time(found.position, 1, &mut |position| value(x, position));
             if signed > found.signed {
                 found = GirderValue { signed, position, ..found };
             }
@@ -292,9 +288,10 @@ impl Refinement<'_> {
             }
             let gain = signed - found.signed;
             found = GirderValue { signed, x, ..found };
-            let (signed, position) = self.near_in_time(found.position, girders.deflection_stride, &mut |position| {
-                SIGNS[kind] * girders.deflection(rail, x, plane, position)
-            });
+            let (signed, position) =
+                self.near_in_time(found.position, girders.deflection_stride, &mut |position| {
+                    SIGNS[kind] * girders.deflection(rail, x, plane, position)
+                });
             if signed > found.signed {
                 found = GirderValue { signed, position, ..found };
             }
@@ -314,7 +311,8 @@ impl Refinement<'_> {
         }
         let mut value =
             |position: f64| SIGNS[kind] * self.girders.deflection(point.rail, point.x, plane, position);
-        let (signed, position) = self.over_time((peak, self.girders.deflection_stride), FORCES + plane, &mut value);
+        let (signed, position) =
+            self.over_time((peak, self.girders.deflection_stride), FORCES + plane, &mut value);
         let side = SectionSide::At;
         Some(GirderValue { signed, position, x: point.x, section: None, own: None, is_after: None, side })
     }

@@ -88,7 +88,9 @@ impl Scan {
         let sections = girders.sections;
         let mut passed = PassedLoads::default();
         for (index, member) in girders.members.members().enumerate() {
-            let Some(rail) = sections.rails.iter().position(|rail| rail.rail == member.rail) else { continue };
+            let Some(rail) = sections.rails.iter().position(|rail| rail.rail == member.rail) else {
+                continue;
+            };
             girders.members.load(index, &state.loads, &mut passed);
             for &section in &sections.of_member[index] {
                 let place = sections.sections[section].place;

@@ -120,7 +120,13 @@ impl Sections {
                         SectionSide::At => members.place(index, x),
                     };
                     of_member[index].push(sections.len());
-                    sections.push(MemberSection { point, member: index, place, side, span: rail.span(x, side) });
+                    sections.push(MemberSection {
+                        point,
+                        member: index,
+                        place,
+                        side,
+                        span: rail.span(x, side),
+                    });
                 }
             }
         }

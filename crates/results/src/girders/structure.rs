@@ -60,7 +60,8 @@ impl<'a> PreparedGirders<'a> {
         built: &BuiltFoundation,
         solved: &SolvedModel,
     ) -> Result<Option<PreparedGirders<'a>>, Error> {
-        let failed = |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };
+        let failed =
+            |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };
         let members = MemberForces::new(&solved.model, &solved.rails).map_err(failed)?;
         let sections = Sections::new(scene, s, solved, &members);
         if sections.sections.is_empty() {
@@ -124,12 +125,7 @@ impl<'a> PreparedGirders<'a> {
     }
 
     /// Extremes of all spans, at every row (`factor` 1) or every second one (2).
-    pub fn spans(
-        &self,
-        rows: Rows<'_>,
-        factor: usize,
-        accuracy: f64,
-    ) -> SpanExtremes {
+    pub fn spans(&self, rows: Rows<'_>, factor: usize, accuracy: f64) -> SpanExtremes {
         let (girders, stride) = self.loaded(rows, &self.sections, factor);
         let scan = Scan::new(&girders);
         let sizes = scan.sizes;
@@ -187,8 +183,7 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
     for (index, section) in all.sections.iter().enumerate() {
         at_point[section.point].push(index);
     }
-    let quantities: Vec<usize> =
-        (0..FORCES + 2).filter(|quantity| !refinement.is_zero(*quantity)).collect();
+    let quantities: Vec<usize> = (0..FORCES + 2).filter(|quantity| !refinement.is_zero(*quantity)).collect();
     let mut out = Vec::new();
     for (index, (point, sections)) in all.points.iter().zip(&at_point).enumerate() {
         for &quantity in &quantities {
@@ -244,8 +239,8 @@ fn coincident(
         let section = girders.sections.sections[first?];
         Some((section.member, section.place))
     });
-    let forces = section
-        .map_or([0.0; FORCES], |(member, place)| girders.forces_in(member, place, &state, found.own));
+    let forces =
+        section.map_or([0.0; FORCES], |(member, place)| girders.forces_in(member, place, &state, found.own));
     let [moment, shear] = if is_lateral {
         [GirderResponse::LateralMoment, GirderResponse::LateralShear]
     } else {
