@@ -9,7 +9,7 @@
 //! 1. All sections, and both sides of each wheel, are evaluated at all rows; so are the instants at which wheels pass
 //!    sections, on both sides ([`scan`]).
 //! 2. Each peak is refined over time between its neighbouring rows and, at sections without a wheel, along the member
-//!    ([`refine`]).
+//!    ([`refine`], [`spans`]).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes ([`structure`]).
 //! 4. The result is compared with that of every second row. Where they differ by more than the accuracy of the scene, the
@@ -18,7 +18,7 @@
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
-//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, structure, rows, this one.
+//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, spans, structure, rows, this one.
 
 mod distributed;
 mod girder;
@@ -28,6 +28,7 @@ mod refine;
 mod rows;
 mod scan;
 mod sections;
+mod spans;
 mod structure;
 
 pub(crate) use rows::{Prepared, of_run};

@@ -6,7 +6,7 @@ use formats::text::number::{number, rounded};
 use sim::{Channel, Foundation, History};
 
 use super::GirderExtremes;
-use super::refine::SpanValue;
+use super::spans::SpanValue;
 use super::structure::{PreparedGirders, Rows, SpanExtremes};
 use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};

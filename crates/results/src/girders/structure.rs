@@ -7,9 +7,10 @@ use trains::{GirderResponse, MemberForces};
 use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
 use super::instants::LoadStates;
-use super::refine::{GirderValue, Refinement, SpanValue};
+use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
+use super::spans::SpanValue;
 use super::{GirderEnvelope, GirderExtreme};
 use crate::Error;
 use crate::response::WheelLoadReader;
@@ -187,7 +188,7 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
     let mut out = Vec::new();
     for (index, (point, sections)) in all.points.iter().zip(&at_point).enumerate() {
         for &quantity in &quantities {
-            for kind in 0..2 {
+            for (kind, sign) in SIGNS.into_iter().enumerate() {
                 let found = match quantity.checked_sub(FORCES) {
                     Some(plane) => refinement.point(index, plane, kind),
                     None => sections
@@ -201,7 +202,7 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
                     x: point.x,
                     quantity: GirderResponse::ALL[quantity],
                     is_max: kind == 0,
-                    value: refinement.without_rounding(quantity, SIGNS[kind] * found.signed),
+                    value: refinement.without_rounding(quantity, sign * found.signed),
                     time: girders.states.at(found.position).time,
                     coincident: coincident(girders, point.rail, sections.first().copied(), quantity, &found),
                 });
