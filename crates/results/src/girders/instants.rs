@@ -228,8 +228,12 @@ impl<'a> Cubic<'a> {
         Cubic { rows, weights: std::array::from_fn(weight), rates }
     }
 
-    /// The value of channel `c`; `None` where it has a jump or a corner.
+    /// The value of channel `c`; `None` where it has a jump or a corner. A value that is exactly zero is a force of a
+    /// contact that is open, and there is a corner beside it.
     fn value(&self, c: usize) -> Option<f64> {
+        if self.rows.iter().any(|row| row[c] == 0.0) {
+            return None;
+        }
         let slope = |i: usize| (self.rows[i + 1][c] - self.rows[i][c]) * self.rates[i];
         let [a, b, d] = [slope(0), slope(1), slope(2)];
         let is_smooth = (d - 2.0 * b + a).abs() <= CORNER * (a.abs() + d.abs());

@@ -1,9 +1,11 @@
 //! Rows of the history from which extremes are found: those of the output, or more of them from a repetition of the run.
 
+use design::{plane_word, quantity_word};
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use formats::text::number::{number, rounded};
 use sim::{Channel, Foundation, History};
+use trains::GirderResponse;
 
 use super::GirderExtremes;
 use super::spans::SpanValue;
@@ -16,7 +18,7 @@ const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.
-const WORTHWHILE: f64 = 0.2;
+const WORTHWHILE: f64 = 0.7;
 
 /// The girders of a scene, prepared for any number of runs on the same foundations.
 pub(crate) struct Prepared<'a> {
@@ -47,7 +49,8 @@ pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 /// The extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
 /// `accuracy` times the largest value of its kind, the run is repeated with as many rows as this rate suggests, at most
-/// twice; a note says by how much the extremes still change.
+/// twice. The change after a repetition is the smaller one of that from every second row and that from the history
+/// before; a note says by how much the extremes still change.
 pub(crate) fn of_run(
     prepared: &Prepared<'_>,
     (scene, input): (&Scene, &SimulationInput),
@@ -70,14 +73,16 @@ pub(crate) fn of_run(
     let (mut rows, mut finer) = (1, None);
     for _ in 0..REPETITIONS {
         let own = finer.as_ref().unwrap_or(history);
-        let Some(more) = more_rows(scene, own, found.most_rows, found.change) else { break };
+        let Some(more) = more_rows(scene, own, found.most_rows, found.change.fraction) else { break };
         let more = more * rows;
         let Some(repeated) = repeat(more) else { break };
-        let before = found.change;
-        found = all.attempt(&repeated);
+        let before = found.change.fraction;
+        let last = std::mem::replace(&mut found, all.attempt(&repeated));
+        let from_last = found.change_from(&last);
+        found.change = found.change.smaller(from_last);
         (rows, finer) = (more, Some(repeated));
         // where forces jump, more rows do not help
-        if found.change > WORTHWHILE * before {
+        if found.change.fraction > WORTHWHILE * before {
             break;
         }
     }
@@ -96,12 +101,13 @@ pub(crate) fn of_run(
             ));
         }
     }
-    if found.change > scene.accuracy {
+    if found.change.fraction > scene.accuracy {
         out.notes.push(format!(
-            "extremes of girders still change by {} of the largest value of their kind from every second to every one of \
-             {} times",
-            number(rounded(found.change, 2)),
-            history.len()
+            "extremes of girders still change by {} of the largest value of their kind with the number of times at which \
+             they are evaluated, {}{}",
+            number(rounded(found.change.fraction, 2)),
+            history.len(),
+            found.change.place()
         ));
     }
     out
@@ -112,9 +118,47 @@ struct Attempt {
     /// By structure.
     spans: Vec<SpanExtremes>,
     /// Largest change from every second row to all rows, relative to the largest value of its kind.
-    change: f64,
+    change: Change,
     /// Largest number of rows that are all evaluated.
     most_rows: usize,
+}
+
+impl Attempt {
+    /// Largest change from the extremes of another history of the same run, relative to the largest value of its kind.
+    fn change_from(&self, other: &Attempt) -> Change {
+        let pairs = self.spans.iter().zip(&other.spans);
+        let all = pairs.map(|(own, other)| difference(own, other)).fold(Change::default(), Change::larger);
+        Change { structure: self.change.structure.clone(), ..all }
+    }
+}
+
+/// A change of extremes, relative to the largest value of their kind.
+#[derive(Clone, Debug, Default)]
+struct Change {
+    fraction: f64,
+    /// Quantity and number of the span with the largest change.
+    at: Option<(usize, usize)>,
+    /// Name of the structure.
+    structure: String,
+}
+
+impl Change {
+    fn larger(self, other: Change) -> Change {
+        if other.fraction > self.fraction { other } else { self }
+    }
+
+    fn smaller(self, other: Change) -> Change {
+        if other.fraction < self.fraction { other } else { self }
+    }
+
+    /// Where the largest change is, as the end of a sentence.
+    fn place(&self) -> String {
+        self.at.map_or_else(String::new, |(quantity, span)| {
+            let quantity = GirderResponse::ALL[quantity];
+            let (plane, word) = (plane_word(quantity), quantity_word(quantity));
+            format!("; most changes the {plane} {word} in span {span} of {}", self.structure)
+        })
+    }
 }
 
 /// Girders with what their evaluation needs beside a history.
@@ -129,12 +173,13 @@ impl Evaluation<'_> {
     fn attempt(&self, history: &History) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
         let rows = Rows { history, loads: &loads, foundations: self.foundations };
-        let mut change = 0.0_f64;
+        let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {
             let fine = girders.spans(rows, 1, self.scene.accuracy);
             let coarse = girders.spans(rows, 2, self.scene.accuracy);
-            change = change.max(difference(&fine, &coarse));
+            let structure = girders.name().to_owned();
+            change = change.larger(Change { structure, ..difference(&fine, &coarse) });
             all.push(fine);
         }
         let most_rows =
@@ -145,7 +190,7 @@ impl Evaluation<'_> {
 
 /// Largest difference of the extremes of two evaluations, relative to the largest value of their kind: of forces,
 /// moments or deflections.
-fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> f64 {
+fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> Change {
     let key = |v: &SpanValue| (v.rail, v.span, v.quantity, v.kind);
     let kind = |quantity: usize| match quantity {
         0 | 2 | 3 => 0,
@@ -154,12 +199,15 @@ fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> f64 {
     };
     let mut sizes = [0.0_f64; 3];
     fine.sizes.iter().enumerate().for_each(|(k, size)| sizes[kind(k)] = sizes[kind(k)].max(*size));
-    let mut largest = 0.0_f64;
+    let mut largest = Change::default();
     for value in &fine.values {
         let size = sizes[kind(value.quantity)];
         let Some(other) = coarse.values.iter().find(|other| key(other) == key(value)) else { continue };
         if size > 0.0 {
-            largest = largest.max((value.found.signed - other.found.signed).abs() / size);
+            let change = (value.found.signed - other.found.signed).abs() / size;
+            if change > largest.fraction {
+                largest = Change { fraction: change, at: Some((value.quantity, value.span)), ..largest };
+            }
         }
     }
     largest
