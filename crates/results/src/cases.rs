@@ -126,7 +126,12 @@ fn run_case(
     for (s, foundation) in foundations.iter_mut().enumerate() {
         foundation.recorded = recorded(s, foundation);
     }
-    let mut repeat = |rows: usize| repeated(&scene, &input, &run, &foundations, rows);
+    // after a strike forces jump between any rows, and a second repetition is not worth its time
+    let mut left = if run.strike.is_some() { 1 } else { usize::MAX };
+    let mut repeat = |rows: usize| {
+        left = left.checked_sub(1)?;
+        repeated(&scene, &input, &run, &foundations, rows)
+    };
     let girders = girders::of_run(&prepared, (&scene, &input), &run.history, &foundations, &mut repeat);
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let codes = CodeCheck::new(&scene, &input, &record)?;
