@@ -1,5 +1,7 @@
 //! `girderway design` from its files to its tables.
 
+mod moving;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

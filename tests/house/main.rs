@@ -27,7 +27,10 @@ const DEPENDENCIES: [(&str, &[&str]); 16] = [
     ("import", &["formats", "fea"]),
     ("design", &["formats", "trains", "practice", "fea", "splines"]),
     ("foundations", &["formats", "fea", "sim", "splines"]),
-    ("results", &["foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
+    (
+        "results",
+        &["foundations", "design", "trains", "practice", "formats", "fea", "sim", "splines", "adams"],
+    ),
     ("deck", &["results", "adams", "foundations", "practice", "formats", "fea", "sim", "splines"]),
     (
         "report",

@@ -6,6 +6,7 @@ use sim::Run;
 use crate::codes::CodeCheck;
 use crate::columns::NamedColumns;
 use crate::fatigue::FatigueResult;
+use crate::girders::GirderExtremes;
 use crate::response::{ColumnInfluence, Response};
 
 /// The result of one case: its run and the quantities computed from it.
@@ -39,6 +40,8 @@ pub struct CaseResult {
     pub lines: Vec<Option<ColumnInfluence>>,
     /// The response of the structures.
     pub response: Response,
+    /// Extremes and envelopes of the girders.
+    pub girders: GirderExtremes,
     /// Values of codes compared with those of the run; `None` where the scene does not request them.
     pub codes: Option<CodeCheck>,
     /// Damage at the stress points that have a detail category.

@@ -7,17 +7,18 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sim::Foundation;
+use sim::{Foundation, History, Run};
 
 use crate::Error;
 use crate::case_result::CaseResult;
 use crate::codes::{CodeCheck, SpanResponse};
 use crate::columns::NamedColumns;
 use crate::fatigue;
+use crate::girders;
 use crate::observe::ColumnObserver;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
-use formats::scene::motion::simulation_input;
+use formats::scene::motion::{SimulationInput, simulation_input};
 use formats::scene::{Case, Document, Scene};
 use foundations::{SolvedModel, SolvedStructure, solution_of};
 
@@ -120,7 +121,18 @@ fn run_case(
     if case.label.is_none() {
         response.add_bending(&scene, &input, &run.history, &built, &solved)?;
     }
-    let foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
+    let prepared = girders::Prepared::new(&scene, &built, &solved);
+    let mut foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
+    for (s, foundation) in foundations.iter_mut().enumerate() {
+        foundation.recorded = recorded(s, foundation);
+    }
+    // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
+    let mut left = if run.strike.is_some() { 0 } else { 1_usize };
+    let mut repeat = |rows: usize| {
+        left = left.checked_sub(1)?;
+        repeated(&scene, &input, &run, &foundations, rows)
+    };
+    let girders = girders::of_run(&prepared, (&scene, &input), &run.history, &foundations, &mut repeat);
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let spans = SpanResponse { history: &run.history, solved: &solved, deflections: &response.deflections };
     let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
@@ -128,7 +140,24 @@ fn run_case(
     if let Some((column, time)) = record.first_not_finite() {
         return Err(Error::NotFinite { label, column: column.to_owned(), time });
     }
-    Ok(CaseResult { label, input, run, columns: record, choices, lines, response, codes, fatigue })
+    Ok(CaseResult { label, input, run, columns: record, choices, lines, response, girders, codes, fatigue })
+}
+
+/// The history of a complete run with a number of rows in each output interval; `None` if the repetition does not end
+/// like the run.
+fn repeated(
+    scene: &Scene,
+    input: &SimulationInput,
+    run: &Run,
+    foundations: &[Foundation],
+    rows: usize,
+) -> Option<History> {
+    if !run.status.is_complete() {
+        return None;
+    }
+    let finer = sim::Scene { output_parts: rows, ..input.scene.clone() };
+    let again = sim::run_by(scene.stepping, &finer, foundations, &mut |_| ControlFlow::Continue(())).ok()?;
+    again.status.is_complete().then_some(again.history)
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

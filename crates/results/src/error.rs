@@ -30,6 +30,14 @@ pub enum Error {
         /// The error of the solver.
         source: fea::Error,
     },
+    /// The girders of a structure cannot be evaluated.
+    #[error("{structure}: {source}")]
+    Girders {
+        /// Name of the structure.
+        structure: String,
+        /// The error of the structural solver.
+        source: trains::Error,
+    },
     /// The deflections of a structure cannot be evaluated.
     #[error("{structure}: {source}")]
     Rails {

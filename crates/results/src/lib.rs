@@ -1,7 +1,8 @@
 //! One scene, from checked files to named columns.
 //!
 //! [`cases::simulate`] runs every case of a [`formats::scene::Document`]. A [`case_result::CaseResult`] contains the
-//! run, its columns ([`columns`]), the response of the structures ([`response`]), fatigue ([`fatigue`]) and values of
+//! run, its columns ([`columns`]), the response of the structures ([`response`]), extremes of
+//! girders ([`girders`]), fatigue ([`fatigue`]) and values of
 //! codes ([`codes`]). Warnings ([`warning`]) and the numbers of `summary.json` ([`summary`]) are derived from it. The
 //! crate does not depend on a command line, a progress bar, figures or exit statuses.
 //!
@@ -17,13 +18,13 @@
 //! let bogie = cases[0].columns.values("bogie.deflection");
 //! let (sample, deepest) = results::columns::peak(bogie).expect("a history with rows");
 //! assert!((deepest - 0.5473).abs() < 1e-4, "in ft, at row {sample}");
-//! let summary = results::summary::run(document.scene(), &cases[0]);
+//! let summary = results::summary::run(document.scene(), &cases[0], 1);
 //! assert_eq!(summary["status"], "done");
 //! # Ok(())
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, threads, columns, layout, response, codes, fatigue, case_result, run_error, before, warning,
+//! Wings, lowest first: error, threads, columns, layout, response, girders, codes, fatigue, case_result, run_error, before, warning,
 //! summary, observe, cases
 
 pub mod before;
@@ -33,6 +34,7 @@ pub mod codes;
 pub mod columns;
 mod error;
 pub mod fatigue;
+pub mod girders;
 pub mod layout;
 pub mod observe;
 pub mod response;

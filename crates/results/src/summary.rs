@@ -16,7 +16,7 @@ use formats::units::Dimension;
 #[must_use]
 pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map<String, Value>) -> Value {
     let scene = document.scene();
-    let mut result = run(scene, &outcomes[0]);
+    let mut result = run(scene, &outcomes[0], 1);
     result["format"] = json!("girderway-summary/1");
     result["name"] = json!(scene.name);
     result["units"] = units(scene, &outcomes[0].columns);
@@ -24,8 +24,9 @@ pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map
         .cases
         .iter()
         .zip(outcomes)
+        .enumerate()
         .skip(1)
-        .map(|(case, outcome)| (outcome.label.clone(), run(&case.scene, outcome)))
+        .map(|(index, (case, outcome))| (outcome.label.clone(), run(&case.scene, outcome, index + 1)))
         .collect();
     if !compare.is_empty() {
         result["compare"] = Value::Object(compare);
@@ -36,9 +37,9 @@ pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map
     result
 }
 
-/// The summary of one run as JSON.
+/// The summary of one run as JSON; `number` is that of its case in the document, from 1.
 #[must_use]
-pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
+pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
     let CaseResult { run, columns: record, choices, .. } = outcome;
     let (word, why) = run_error::status(&run.status);
     let structures = scene.structures.iter().enumerate();
@@ -64,6 +65,7 @@ pub fn run(scene: &Scene, outcome: &CaseResult) -> Value {
     }
     if let Some(members) = result.as_object_mut() {
         members.extend(outcome.response.json());
+        members.extend(outcome.girders.json(scene, number).map(|extremes| ("extremes".to_owned(), extremes)));
         members.extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
         members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));
     }

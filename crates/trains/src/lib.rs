@@ -9,14 +9,15 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
 //! 3. `line`, `structure`: influence lines as cubics; the structure that has them;
 //! 4. `pieces`, `running`, `plan`: responses to a train as functions of its position, and the best arrangement of trains;
 //! 5. `dead`: dead load;
-//! 6. `section`, `overrun`, `follow`: internal forces at a fixed section, and at sections beside wheels and at vertices;
+//! 6. `section`, `instant`, `overrun`, `follow`: internal forces at a fixed section, along members at one instant, and at
+//!    sections beside wheels and at vertices;
 //! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
 //! 8. `search`, `blocked`, `bicubic`, `several`, `deflection`: extremes that are enclosed by bisection;
 //! 9. `analysis`: the calculation.
@@ -31,6 +32,7 @@ mod effect;
 mod error;
 mod extremes;
 mod follow;
+mod instant;
 mod line;
 mod overrun;
 mod pieces;
@@ -51,5 +53,6 @@ pub use extremes::{
     CaseEnvelopes, EnvelopeValue, Governing, Request, SpanDeflection, SpanExtreme, TrainPosition,
 };
 pub use follow::SectionSide;
+pub use instant::{MemberForces, PassedLoads, RailLoad, RailMember};
 pub use structure::{GirderResponse, Structure};
 pub use train::{Stance, Train, TrainCase, TrainWheel};

@@ -30,7 +30,10 @@ pub(super) fn planned_files(command: &str, document: &Document) -> PlannedFiles 
             names.push(format!("{name}.adm"));
         }
     }
-    names.extend(document.cases.iter().map(history));
+    names.extend(document.cases.iter().map(|case| of_case("history", case)));
+    if !distinct_specs(document).is_empty() {
+        names.extend(document.cases.iter().map(|case| of_case("envelope", case)));
+    }
     let scene = document.scene();
     let subjects = (scene.bodies.iter().map(|body| &body.name))
         .chain(scene.rails.iter().map(|rail| &rail.name))
@@ -40,8 +43,9 @@ pub(super) fn planned_files(command: &str, document: &Document) -> PlannedFiles 
     PlannedFiles { names, plots }
 }
 
-fn history(case: &Case) -> String {
-    case.label.as_ref().map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"))
+/// Name of a table of a case.
+fn of_case(table: &str, case: &Case) -> String {
+    case.label.as_ref().map_or_else(|| format!("{table}.csv"), |label| format!("{table}-{label}.csv"))
 }
 
 /// Checks that no name of a structure or comparison makes the name of a file too long for the file system.
@@ -69,7 +73,7 @@ pub(super) fn check_names(document: &Document, folder: &Path) -> Result<(), Fail
         }
     }
     for (index, case) in labelled() {
-        check(&history(case), &comparisons.index(index).key("label"));
+        check(&of_case("envelope", case), &comparisons.index(index).key("label"));
     }
     if faults.0.is_empty() {
         return Ok(());

@@ -73,7 +73,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
         }
     }
     let sheets = parallel_map(&outcomes, global.threads, |_, outcome| outcome.columns.csv());
-    for ((case, outcome), sheet) in document.cases.iter().zip(&outcomes).zip(sheets) {
+    for (index, ((case, outcome), sheet)) in document.cases.iter().zip(&outcomes).zip(sheets).enumerate() {
         let name = case
             .label
             .as_ref()
@@ -81,6 +81,9 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
         folder.add(&name, sheet.map_err(unexpected)?);
         if let Some(cycles) = fatigue::csv(&outcome.fatigue, &outcome.columns).map_err(unexpected)? {
             folder.add(&name.replacen("history", "cycles", 1), cycles);
+        }
+        if let Some(envelope) = outcome.girders.csv(&case.scene, index + 1).map_err(unexpected)? {
+            folder.add(&name.replacen("history", "envelope", 1), envelope);
         }
     }
     let runs: Vec<_> = outcomes

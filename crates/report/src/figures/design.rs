@@ -5,7 +5,7 @@ use std::fmt::Write;
 use crate::chart::{Chart, ChartAxis, Series, Style, Svg};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
-use formats::units::{Dimension, Length};
+use formats::units::{Dimension, Length, Units};
 use trains::{GirderResponse, Governing};
 
 /// Width of a sketch in pixels.
@@ -19,20 +19,20 @@ const FINE: f64 = 10.0;
 /// Height of the axis of the girder in the sketch, in pixels from above.
 const AXIS: f64 = 92.0;
 
-/// Unit in which engineers read deflections, and its factor from that of the design.
-pub(crate) fn deflection_unit(design: &Design) -> (&'static str, f64) {
-    match design.units.length {
-        Length::Metre | Length::Millimetre => ("mm", design.units.length.in_units_of(Length::Millimetre)),
-        Length::Foot | Length::Inch => ("in", design.units.length.in_units_of(Length::Inch)),
+/// Unit in which engineers read deflections, and its factor from `units`.
+pub(crate) fn deflection_unit(units: Units) -> (&'static str, f64) {
+    match units.length {
+        Length::Metre | Length::Millimetre => ("mm", units.length.in_units_of(Length::Millimetre)),
+        Length::Foot | Length::Inch => ("in", units.length.in_units_of(Length::Inch)),
     }
 }
 
-/// Unit of a quantity for reading, and the factor from the units of the design.
-pub(crate) fn unit_of(design: &Design, quantity: GirderResponse) -> (String, f64) {
-    let plain = |dimension| (design.units.label(dimension), 1.0);
+/// Unit of a quantity for reading, and the factor from `units`.
+pub(crate) fn unit_of(units: Units, quantity: GirderResponse) -> (String, f64) {
+    let plain = |dimension| (units.label(dimension), 1.0);
     match quantity {
         GirderResponse::VerticalDeflection | GirderResponse::LateralDeflection => {
-            let (unit, factor) = deflection_unit(design);
+            let (unit, factor) = deflection_unit(units);
             (unit.to_owned(), factor)
         }
         GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear => {
@@ -135,7 +135,7 @@ pub(crate) fn envelope_charts(
     let rows = &result.cases[case].envelopes.envelopes;
     let mut out = Vec::new();
     for quantity in order {
-        let (unit, factor) = unit_of(design, quantity);
+        let (unit, factor) = unit_of(design.units, quantity);
         let points = |is_max: bool| -> Vec<[f64; 2]> {
             let own = rows.iter().filter(|e| (e.rail, e.quantity, e.is_max) == (rail, quantity, is_max));
             own.map(|e| [e.governing.x, factor * e.governing.value]).collect()

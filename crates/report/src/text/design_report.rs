@@ -68,7 +68,7 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     let rails = design.spec.rails();
     for (quantity, is_max, words) in GOVERNING {
         let Some((case, found)) = largest(result, quantity, is_max) else { continue };
-        let (unit, factor) = unit_of(design, quantity);
+        let (unit, factor) = unit_of(design.units, quantity);
         table.rows.push(vec![
             TableCell::from(words),
             TableCell::from(with_unit(digits(factor * found.governing.value, DIGITS), &unit)),
@@ -189,7 +189,7 @@ fn positions(governing: &Governing) -> String {
 }
 
 fn deflections(design: &Design, result: &DesignResult) -> ReportTable {
-    let (unit, factor) = deflection_unit(design);
+    let (unit, factor) = deflection_unit(design.units);
     let rails = design.spec.rails();
     let mut table = ReportTable {
         caption: "Deflections from the chords of the spans under the trains alone, without dead load"
@@ -257,7 +257,7 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
         if g.value.abs() <= ROUNDING * size(found.quantity) {
             continue;
         }
-        let (unit, factor) = unit_of(design, found.quantity);
+        let (unit, factor) = unit_of(design.units, found.quantity);
         let word = quantity_word(found.quantity);
         let is_plain = matches!(found.quantity, GirderResponse::Normal | GirderResponse::Torsion);
         let name = if is_plain { word.to_owned() } else { format!("{} {word}", plane_word(found.quantity)) };

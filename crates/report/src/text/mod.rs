@@ -4,5 +4,6 @@ pub(crate) mod codes;
 mod design_codes;
 pub mod design_report;
 pub(crate) mod fatigue;
+pub(crate) mod girders;
 pub(crate) mod responses;
 pub mod run_report;

@@ -1,7 +1,7 @@
 //! The report of a run: input, results and warnings, figures, structures, energy audit.
 
 use crate::figures::run_figure::RunFigure;
-use crate::text::{codes, fatigue, responses};
+use crate::text::{codes, fatigue, girders, responses};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use formats::grid::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
@@ -49,6 +49,8 @@ pub fn report(
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
     sections.extend(fatigue::section(scene, &damages));
     sections.push(audit(document, outcomes));
+    let extremes = girders::section(document, outcomes);
+    sections.splice(0..0, extremes);
     Report {
         title: scene.name.clone(),
         subtitle: format!("girderway {}: wheels on flexible rails", env!("CARGO_PKG_VERSION")),

@@ -58,7 +58,7 @@ pub struct ColumnInfluence {
 
 /// An effect as a term of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct ColumnTerm {
+pub(crate) struct ColumnTerm {
     /// Index of the column.
     pub column: usize,
     /// Factor of the effect in the column.
@@ -105,7 +105,7 @@ impl ColumnInfluence {
     ///
     /// # Errors
     /// The errors of the frame solver.
-    pub(super) fn of(
+    pub(crate) fn of(
         frame: &FactoredFrame,
         solved: &SolvedModel,
         built: &BuiltFoundation,

@@ -72,6 +72,12 @@ impl WheelLoadReader {
         WheelLoadReader { wheels: wheels.collect(), stops: stops.collect() }
     }
 
+    /// The channels that the loads are read from.
+    pub(crate) fn channels(&self) -> Vec<usize> {
+        let wheels = self.wheels.iter().flat_map(|wheel| wheel.first..wheel.first + 4);
+        wheels.chain(self.stops.iter().map(|stop| stop.channel)).collect()
+    }
+
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
     #[must_use]
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
@@ -147,14 +153,14 @@ impl LoadedStructure<'_> {
 }
 
 /// At most `most` of `count` indices, evenly distributed from the first to the last.
-pub(super) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
+pub(crate) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
     let chosen = count.min(most);
     (0..chosen).map(move |k| k * (count - 1) / (chosen - 1).max(1))
 }
 
 /// Displacements u = G F + Phi q at the probes; G: compliance, F: loads, q: degrees of freedom, Phi: their shape
 /// functions.
-fn displacements(
+pub(crate) fn displacements(
     foundation: &Foundation,
     probes: &[Probe],
     loads: &[WheelLoad],

@@ -20,7 +20,9 @@ pub use bending::Bending;
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
+pub(crate) use influence::ColumnTerm;
 pub use loaded::{WheelLoad, WheelLoadReader};
+pub(crate) use loaded::{displacements, spread};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift, spans};
 

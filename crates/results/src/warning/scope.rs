@@ -1,5 +1,5 @@
 //! Notes on the scope of `accuracy`: it is the error of values at equal times up to 100 bounces of the wheels, and up to the
-//! first strike of a flange or a stop.
+//! first strike of a flange or a stop. Extremes of girders have notes of their own.
 
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
@@ -12,7 +12,8 @@ use crate::case_result::CaseResult;
 #[must_use]
 pub fn accuracy_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let CaseResult { run, input, .. } = outcome;
-    many_bounces(scene, run).into_iter().chain(after_strike(scene, input, run)).collect()
+    let own = many_bounces(scene, run).into_iter().chain(after_strike(scene, input, run));
+    own.chain(outcome.girders.notes.iter().cloned()).collect()
 }
 
 /// A run of more bounces than those up to which errors keep the accuracy. Their sum grows with the number of bounces.

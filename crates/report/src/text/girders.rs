@@ -1,0 +1,134 @@
+//! Report content on the extremes of girders in the runs.
+
+use crate::figures::design::{digits, unit_of};
+use crate::{ReportSection, ReportTable, TableCell, TableColumn};
+use ::design::{plane_word, quantity_word};
+use formats::scene::{Document, Scene};
+use formats::units::Dimension;
+use results::case_result::CaseResult;
+use results::girders::GirderExtreme;
+use trains::{GirderResponse, SectionSide};
+
+/// Significant digits of values.
+const DIGITS: usize = 4;
+/// Largest number of rows of the table of all spans; summary.json has all.
+const ROWS: usize = 80;
+
+/// Which values stand in the first table, with their words.
+const GOVERNING: [(GirderResponse, bool, &str); 9] = [
+    (GirderResponse::VerticalMoment, true, "largest sagging moment"),
+    (GirderResponse::VerticalMoment, false, "largest hogging moment"),
+    (GirderResponse::VerticalShear, true, "largest shear force"),
+    (GirderResponse::VerticalShear, false, "smallest shear force"),
+    (GirderResponse::LateralMoment, true, "largest lateral moment"),
+    (GirderResponse::LateralMoment, false, "smallest lateral moment"),
+    (GirderResponse::Torsion, true, "largest torsion"),
+    (GirderResponse::VerticalDeflection, true, "largest deflection downwards"),
+    (GirderResponse::LateralDeflection, true, "largest deflection along +z"),
+];
+
+/// The governing values of every run, and all extremes of the first; `None` where no structure has girders.
+#[must_use]
+pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
+    if outcomes.iter().all(|outcome| outcome.girders.extremes.is_empty()) {
+        return None;
+    }
+    let scene = document.scene();
+    let (weight, deflections) = if scene.output.dead_load {
+        ("with the dead load of the structure", "; deflections are those due to the wheels")
+    } else {
+        ("without the dead load of the structure", "")
+    };
+    let mut section = ReportSection::new("Extremes of girders").paragraph(format!(
+        "Moments, shear forces and torsion of the members that carry rails, and deflections of the rails, {weight}\
+         {deflections}. A positive moment sags, shear is the derivative of the moment along the rail."
+    ));
+    section = section.table(governing(document, outcomes));
+    let first = &outcomes[0];
+    if !first.girders.extremes.is_empty() {
+        section = section.table(spans(scene, first));
+    }
+    section.paragraph("Envelopes along the rails are in envelope.csv, all extremes in summary.json.").into()
+}
+
+/// The largest values of each run over all rails and spans.
+fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportTable {
+    let length = document.scene().units.label(Dimension::LENGTH);
+    let mut table = ReportTable {
+        caption: "Governing values of every run".to_owned(),
+        columns: vec![
+            TableColumn::new("", ""),
+            TableColumn::new("run", ""),
+            TableColumn::new("value", ""),
+            TableColumn::new("rail", ""),
+            TableColumn::new("span", ""),
+            TableColumn::new("x", length),
+            TableColumn::new("side", ""),
+            TableColumn::new("time", "s"),
+        ],
+        rows: Vec::new(),
+    };
+    for (quantity, is_max, words) in GOVERNING {
+        for (case, outcome) in document.cases.iter().zip(outcomes) {
+            let sign = if is_max { 1.0 } else { -1.0 };
+            let own = outcome.girders.extremes.iter();
+            let own = own.filter(|e| e.quantity == quantity && e.is_max == is_max && sign * e.value > 0.0);
+            let best =
+                own.reduce(|best, next| if sign * next.value > sign * best.value { next } else { best });
+            let Some(found) = best else { continue };
+            let mut row = vec![TableCell::from(words), TableCell::from(outcome.label.clone())];
+            row.extend(cells(&case.scene, found));
+            table.rows.push(row);
+        }
+    }
+    table
+}
+
+/// All extremes of one run.
+fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
+    let all = &outcome.girders.extremes;
+    let shown = if all.len() > ROWS { ", the first of them; summary.json has all" } else { "" };
+    let mut table = ReportTable {
+        caption: format!("Extremes of every span in the run \"{}\"{shown}", outcome.label),
+        columns: vec![
+            TableColumn::new("quantity", ""),
+            TableColumn::new("", ""),
+            TableColumn::new("value", ""),
+            TableColumn::new("rail", ""),
+            TableColumn::new("span", ""),
+            TableColumn::new("x", scene.units.label(Dimension::LENGTH)),
+            TableColumn::new("side", ""),
+            TableColumn::new("time", "s"),
+        ],
+        rows: Vec::new(),
+    };
+    for found in all.iter().filter(|found| found.value != 0.0).take(ROWS) {
+        let word = quantity_word(found.quantity);
+        let is_plain = matches!(found.quantity, GirderResponse::Normal | GirderResponse::Torsion);
+        let name = if is_plain { word.to_owned() } else { format!("{} {word}", plane_word(found.quantity)) };
+        let kind = if found.is_max { "largest" } else { "smallest" };
+        let mut row = vec![TableCell::from(name), TableCell::from(kind)];
+        row.extend(cells(scene, found));
+        table.rows.push(row);
+    }
+    table
+}
+
+/// Value, rail, span, place, side and time.
+fn cells(scene: &Scene, found: &GirderExtreme) -> [TableCell; 6] {
+    let (unit, factor) = unit_of(scene.units, found.quantity);
+    let value = format!("{}\u{a0}{}", digits(factor * found.value, DIGITS), unit.replace(' ', "\u{a0}"));
+    let side = match found.side {
+        SectionSide::Before => "just before",
+        SectionSide::At => "",
+        SectionSide::Behind => "just behind",
+    };
+    [
+        TableCell::from(value),
+        TableCell::from(scene.rails[found.rail].name.clone()),
+        TableCell::from(found.span),
+        TableCell::from(digits(found.x, DIGITS)),
+        TableCell::from(side),
+        TableCell::from(digits(found.time, DIGITS)),
+    ]
+}

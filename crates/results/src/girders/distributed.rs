@@ -1,0 +1,134 @@
+//! Internal forces due to what is distributed along members: the inertia of the structure and its dead load.
+//!
+//! Both are computed at nodes of each member under a rail by the effects of the frame ([`ColumnInfluence`]). Between the
+//! nodes, shear, normal force and torsion are linear, and a moment is the cubic with the slopes of its shear.
+
+use formats::scene::columns::{Column, Kind};
+use formats::units::Dimension;
+use trains::{GirderResponse, MemberForces};
+
+use super::sections::Sections;
+use crate::response::{ColumnInfluence, ColumnTerm};
+use foundations::{BuiltFoundation, SolvedModel};
+
+/// Number of quantities of a section.
+pub(super) const FORCES: usize = 6;
+/// Number of sections above which only the ends and the middle of members are nodes.
+const MANY: usize = 2000;
+
+/// The quantities of a section, in the order of [`GirderResponse::ALL`].
+pub(super) type Quantities = [f64; FORCES];
+
+/// Forces of inertia and dead load along every member under a rail.
+pub(super) struct DistributedForces {
+    members: Vec<MemberNodes>,
+}
+
+#[derive(Default)]
+struct MemberNodes {
+    /// Distances from the first end of the member.
+    places: Vec<f64>,
+    dead: Vec<Quantities>,
+    /// By node: quantities per unit acceleration of each degree of freedom, with the sign of inertia.
+    inertia: Vec<Vec<Quantities>>,
+}
+
+impl DistributedForces {
+    /// The forces of a structure on the foundation `built`; `dead` is whether dead load counts.
+    ///
+    /// # Errors
+    /// The errors of the frame solver.
+    pub fn new(
+        solved: &SolvedModel,
+        built: &BuiltFoundation,
+        members: &MemberForces,
+        sections: &Sections,
+        (gravity, dead): (f64, bool),
+    ) -> Result<DistributedForces, fea::Error> {
+        let mut nodes: Vec<MemberNodes> = members.members().map(|_| MemberNodes::default()).collect();
+        if built.basis.is_none() && !dead {
+            return Ok(DistributedForces { members: nodes });
+        }
+        let mut effects = Vec::new();
+        for (index, (member, node)) in members.members().zip(&mut nodes).enumerate() {
+            node.places = vec![0.0, 0.5 * member.length, member.length];
+            if sections.sections.len() <= MANY {
+                let own = sections.of_member[index].iter().map(|section| sections.sections[*section].place);
+                node.places.extend(own);
+            }
+            node.places.sort_by(f64::total_cmp);
+            node.places.dedup_by(|b, a| *b - *a <= 1e-9 * member.length);
+            effects.extend(node.places.iter().flat_map(|place| members.effects(index, *place)));
+        }
+        let column =
+            Column { name: String::new(), dimension: Dimension::FORCE, kind: Kind::Section, direction: None };
+        let terms = (0..effects.len()).map(|column| ColumnTerm { column, weight: 1.0 }).collect();
+        let frame = members.structure().frame();
+        let columns = vec![column; effects.len()];
+        let lines = ColumnInfluence::of(frame, solved, built, gravity, columns, &effects, terms)?;
+        let mut first = 0;
+        for (index, node) in nodes.iter_mut().enumerate() {
+            for _ in 0..node.places.len() {
+                let own = std::array::from_fn(|k| if dead { lines.dead_load()[first + k] } else { 0.0 });
+                node.dead.push(members.quantities(index, own));
+                let rows: Vec<Vec<f64>> = (0..FORCES).map(|k| lines.per_acceleration(first + k)).collect();
+                let per_dof = (0..lines.dofs())
+                    .map(|dof| members.quantities(index, std::array::from_fn(|k| 0.0 - rows[k][dof])));
+                node.inertia.push(per_dof.collect());
+                first += FORCES;
+            }
+        }
+        Ok(DistributedForces { members: nodes })
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.members.iter().all(|member| member.places.is_empty())
+    }
+
+    /// The quantities of a section of a member under the accelerations of the degrees of freedom, dead load included.
+    pub fn at(&self, member: usize, place: f64, accelerations: &[f64]) -> Quantities {
+        let nodes = &self.members[member];
+        nodes.between(place, |node| {
+            let mut out = nodes.dead[node];
+            for (per, a) in nodes.inertia[node].iter().zip(accelerations) {
+                out.iter_mut().zip(per).for_each(|(sum, value)| *sum += value * a);
+            }
+            out
+        })
+    }
+
+    /// The quantities of a section under dead load.
+    pub fn dead(&self, member: usize, place: f64) -> Quantities {
+        let nodes = &self.members[member];
+        nodes.between(place, |node| nodes.dead[node])
+    }
+}
+
+impl MemberNodes {
+    /// Interpolates between the values at two nodes.
+    fn between(&self, place: f64, value: impl Fn(usize) -> Quantities) -> Quantities {
+        if self.places.is_empty() {
+            return [0.0; FORCES];
+        }
+        let b = self.places.partition_point(|node| *node < place).clamp(1, self.places.len() - 1);
+        let h = self.places[b] - self.places[b - 1];
+        let t = ((place - self.places[b - 1]) / h).clamp(0.0, 1.0);
+        if t == 0.0 || t == 1.0 {
+            return value(if t == 0.0 { b - 1 } else { b });
+        }
+        let (low, high) = (value(b - 1), value(b));
+        let mut out: Quantities = std::array::from_fn(|k| low[k] + t * (high[k] - low[k]));
+        for (moment, shear) in [
+            (GirderResponse::VerticalMoment, GirderResponse::VerticalShear),
+            (GirderResponse::LateralMoment, GirderResponse::LateralShear),
+        ] {
+            let (m, v) = (moment as usize, shear as usize);
+            // cubic with the values and slopes at both nodes, as the chord plus a part that vanishes at the nodes
+            let chord = high[m] - low[m];
+            let (from, to) = (h * low[v] - chord, h * high[v] - chord);
+            out[m] += t * (1.0 - t) * ((1.0 - t) * from - t * to);
+        }
+        out
+    }
+}

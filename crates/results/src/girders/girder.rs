@@ -1,0 +1,124 @@
+//! Internal forces and deflections of the girders of one structure at any time and place.
+
+use sim::Foundation;
+use splines::{Axis, Probe};
+use trains::{MemberForces, PassedLoads, SectionSide};
+
+use super::distributed::{DistributedForces, FORCES, Quantities};
+use super::instants::{LoadState, LoadStates};
+use super::sections::{MemberSection, Sections};
+use crate::response::{displacements, spread};
+
+/// The girders of a structure under the loads of a run.
+pub(super) struct LoadedGirders<'a> {
+    pub foundation: &'a Foundation,
+    pub members: &'a MemberForces,
+    pub distributed: &'a DistributedForces,
+    pub sections: &'a Sections,
+    pub states: LoadStates<'a>,
+    /// Whether the deflections in the vertical and in the lateral plane are known and not zero throughout.
+    pub deflects: [bool; 2],
+    /// Every how many rows deflections are evaluated: they change more slowly than forces.
+    pub deflection_stride: usize,
+}
+
+/// A load that stands at a section: its index, and whether the section is just behind it.
+pub(super) type OwnLoad = Option<(usize, bool)>;
+
+/// States in which a load passes a section: whether just after it, and whether the section is just behind the load. At the
+/// end of a member only those count in which the load can stand on this side: `is_forward` is whether it moves towards
+/// larger coordinates.
+pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> {
+    match side {
+        SectionSide::At => vec![(false, false), (false, true), (true, false), (true, true)],
+        SectionSide::Before => vec![(!is_forward, false), (!is_forward, true), (is_forward, false)],
+        SectionSide::Behind => vec![(is_forward, false), (is_forward, true), (!is_forward, true)],
+    }
+}
+
+/// Number of rows at which deflections are looked for.
+const FEW: usize = 24;
+
+/// Size of a group of points whose deflections are evaluated together.
+const GROUP: usize = 12;
+
+impl LoadedGirders<'_> {
+    /// The quantities of a section at a distance from the first end of a member.
+    pub fn forces_in(&self, member: usize, place: f64, state: &LoadState, own: OwnLoad) -> Quantities {
+        let mut passed = PassedLoads::default();
+        self.members.load(member, &state.loads, &mut passed);
+        self.sum(member, place, state, &passed, own)
+    }
+
+    /// The same where the loads on the member are known.
+    pub fn sum(
+        &self,
+        member: usize,
+        place: f64,
+        state: &LoadState,
+        passed: &PassedLoads,
+        own: OwnLoad,
+    ) -> Quantities {
+        let mut out = passed.quantities(place, own);
+        if !self.distributed.is_empty() {
+            let more = self.distributed.at(member, place, &state.accelerations);
+            out.iter_mut().zip(more).for_each(|(sum, value)| *sum += value);
+        }
+        out
+    }
+
+    /// The quantities of a section at a time.
+    pub fn forces(&self, section: &MemberSection, position: f64) -> Quantities {
+        self.forces_in(section.member, section.place, &self.states.at(position), None)
+    }
+
+    /// The member of a rail on which a coordinate lies within a span, and the place on it.
+    pub fn member_at(&self, rail: usize, x: f64, span: usize) -> Option<(usize, f64)> {
+        let outline = &self.sections.rails[rail];
+        let [from, to] = outline.bounds(span);
+        if x < from || x > to || (from == to) {
+            return None;
+        }
+        let of_rail = self.members.members().enumerate().filter(|(_, m)| m.rail == outline.rail);
+        let mut on = of_rail.filter(|(_, m)| m.x[0] <= x && x <= m.x[1] && m.x[0] < to && m.x[1] > from);
+        on.next().map(|(index, _)| (index, self.members.place(index, x)))
+    }
+
+    /// Deflections of points of a rail, downwards or along +z; `None` where they are not known or the structure is
+    /// unrestrained in this direction.
+    pub fn deflections(&self, rail: usize, x: &[f64], plane: usize, state: &LoadState) -> Option<Vec<f64>> {
+        if !self.deflects[plane] {
+            return None;
+        }
+        let (axis, sign) = if plane == 0 { (Axis::Vertical, -1.0) } else { (Axis::Lateral, 1.0) };
+        let rail = self.sections.rails[rail].rail;
+        let mut out = Vec::with_capacity(x.len());
+        for group in x.chunks(GROUP) {
+            let probes: Vec<Probe> = group.iter().map(|&x| Probe { rail, x, axis }).collect();
+            let moved = displacements(self.foundation, &probes, &state.wheels, &state.dofs).ok()?;
+            out.extend(moved.into_iter().map(|value| sign * value));
+        }
+        Some(out)
+    }
+
+    /// Whether a plane has deflections at one of a few rows that are evenly distributed.
+    pub fn has_deflections(&self, plane: usize) -> bool {
+        let rails = &self.sections.rails;
+        spread(self.states.len(), FEW).any(|row| {
+            let state = self.states.at_row(row);
+            let moved = |rail: usize| self.deflections(rail, &rails[rail].places, plane, &state);
+            (0..rails.len()).filter_map(moved).flatten().any(|value| value != 0.0)
+        })
+    }
+
+    /// Deflection of one point at a time.
+    pub fn deflection(&self, rail: usize, x: f64, plane: usize, position: f64) -> f64 {
+        let state = self.states.at(position);
+        self.deflections(rail, &[x], plane, &state).map_or(0.0, |all| all[0])
+    }
+
+    /// Dead load at a section.
+    pub fn dead(&self, member: usize, place: f64) -> Quantities {
+        if self.distributed.is_empty() { [0.0; FORCES] } else { self.distributed.dead(member, place) }
+    }
+}

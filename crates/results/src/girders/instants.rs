@@ -1,0 +1,242 @@
+//! Loads on a structure and motions of its degrees of freedom between the rows of a history.
+
+use sim::{Channel, History};
+use trains::RailLoad;
+
+use crate::response::{WheelLoad, WheelLoadReader};
+
+/// Change of the slope from interval to interval, relative to the slopes beside it, above which values are interpolated
+/// linearly: a force jumps there or has a corner.
+const CORNER: f64 = 0.25;
+
+/// State of a structure at one time.
+#[derive(Clone, Debug, Default)]
+pub(super) struct LoadState {
+    pub time: f64,
+    /// Loads on its rails, always in the same order.
+    pub loads: Vec<RailLoad>,
+    /// The same loads as the simulation has them.
+    pub wheels: Vec<WheelLoad>,
+    /// Displacements and accelerations of its degrees of freedom.
+    pub dofs: Vec<f64>,
+    pub accelerations: Vec<f64>,
+}
+
+/// The states of a structure over time: rows of the history `stride` apart, and between them cubic polynomials through
+/// four rows, channel by channel.
+///
+/// Forces have corners, and with dampers jumps, where wheels pass the ends of members. No polynomial extends to these
+/// times: beside them it is one through rows of the same side, extrapolated. Where the four rows show another jump or corner, for instance of a contact
+/// that opens, values are interpolated linearly.
+pub(super) struct LoadStates<'a> {
+    history: &'a History,
+    loads: &'a WheelLoadReader,
+    s: usize,
+    /// First channels of displacements and accelerations, with their number.
+    dofs: Option<(usize, usize, usize)>,
+    rows: Vec<usize>,
+    /// Channels that are interpolated.
+    channels: Vec<usize>,
+    /// Times at which loads pass ends of members, counted in rows, increasing.
+    corners: Vec<f64>,
+}
+
+impl<'a> LoadStates<'a> {
+    /// The states of structure `s` with `dofs` recorded degrees of freedom. `ends` are the ends of members by rail.
+    pub fn new(
+        history: &'a History,
+        loads: &'a WheelLoadReader,
+        (s, dofs): (usize, usize),
+        ends: &[(usize, f64)],
+        stride: usize,
+    ) -> LoadStates<'a> {
+        let channel = |wanted| history.position(wanted);
+        let first = channel(Channel::Coordinate(s, 0)).zip(channel(Channel::Acceleration(s, 0)));
+        let dofs = first.map(|(q, a)| (q, a, dofs));
+        let mut channels = loads.channels();
+        channels.extend(dofs.iter().flat_map(|(q, a, n)| (*q..q + n).chain(*a..a + n)));
+        let last = history.len().saturating_sub(1);
+        let mut rows: Vec<usize> = (0..history.len()).step_by(stride.max(1)).collect();
+        if rows.last().is_some_and(|row| *row != last) {
+            rows.push(last);
+        }
+        let mut out = LoadStates { history, loads, s, dofs, rows, channels, corners: Vec::new() };
+        out.corners = out.all_corners(ends);
+        out
+    }
+
+    fn all_corners(&self, ends: &[(usize, f64)]) -> Vec<f64> {
+        let mut corners = Vec::new();
+        let mut before: Option<LoadState> = None;
+        for row in 0..self.len() {
+            let state = self.at_row(row);
+            for (load, (a, b)) in before.iter().flat_map(|s| &s.loads).zip(&state.loads).enumerate() {
+                let (low, high) = (a.x.min(b.x), a.x.max(b.x));
+                let passed = ends.iter().filter(|(rail, x)| *rail == a.rail && low <= *x && *x <= high);
+                for (_, x) in passed.filter(|_| low < high) {
+                    corners.push((row - 1) as f64 + self.passage(row - 1, load, *x, [a.x, b.x]));
+                }
+            }
+            before = Some(state);
+        }
+        for corner in &mut corners {
+            if (*corner - corner.round()).abs() < 1e-5 {
+                *corner = corner.round();
+            }
+        }
+        corners.sort_by(f64::total_cmp);
+        corners.dedup();
+        corners
+    }
+
+    /// Number of rows.
+    pub fn len(&self) -> usize {
+        self.rows.len()
+    }
+
+    fn sample(&self, row: usize) -> &'a [f64] {
+        self.history.sample(self.rows[row])
+    }
+
+    /// The state at a row.
+    pub fn at_row(&self, row: usize) -> LoadState {
+        self.state(self.sample(row))
+    }
+
+    /// The state at a time that is counted in rows, between the first and the last.
+    pub fn at(&self, position: f64) -> LoadState {
+        let last = self.len() - 1;
+        let row = (position.max(0.0) as usize).min(last.saturating_sub(1));
+        let fraction = position - row as f64;
+        if fraction <= 0.0 || last == 0 {
+            return self.at_row(row);
+        }
+        if fraction >= 1.0 {
+            return self.at_row(row + 1);
+        }
+        let ends = [self.sample(row), self.sample(row + 1)];
+        let mut out = ends[0].to_vec();
+        out[0] = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
+        let starts = self.starts(row, position);
+        let cubics = starts.map(|start| start.map(|start| Cubic::new(self.four(start), out[0])));
+        for &c in &self.channels {
+            let smooth = cubics.iter().flatten().find_map(|cubic| cubic.value(c));
+            out[c] = smooth.unwrap_or_else(|| ends[0][c] + fraction * (ends[1][c] - ends[0][c]));
+        }
+        self.state(&out)
+    }
+
+    fn four(&self, start: usize) -> [&'a [f64]; 4] {
+        std::array::from_fn(|k| self.sample(start + k))
+    }
+
+    /// First rows of the polynomials for a position behind `row`, best first: four rows without a corner between them.
+    fn starts(&self, row: usize, position: f64) -> [Option<usize>; 3] {
+        let own = self.corners.iter().find(|corner| (row as f64..=(row + 1) as f64).contains(*corner));
+        let wanted = match own {
+            Some(corner) if position <= *corner => [row.checked_sub(3), None, None],
+            Some(_) => [Some(row + 1), None, None],
+            None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
+        };
+        wanted.map(|start| start.filter(|start| self.is_clear(*start)))
+    }
+
+    /// Whether there are four rows without a corner from `start`.
+    fn is_clear(&self, start: usize) -> bool {
+        let range = start as f64..=(start + 3) as f64;
+        start + 3 < self.len() && !self.corners.iter().any(|corner| range.contains(corner))
+    }
+
+    /// The state just before or just after a corner; the state at the time itself if it is none.
+    pub fn limit(&self, position: f64, is_after: bool) -> LoadState {
+        let corner = self.corners.iter().find(|corner| (**corner - position).abs() < 1e-6);
+        let Some(&corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
+        let (row, start) = if is_after {
+            let row = corner.floor() as usize + 1;
+            (row, Some(row))
+        } else {
+            let row = (corner.ceil() as usize).checked_sub(1);
+            (row.unwrap_or_default(), row.and_then(|row| row.checked_sub(3)))
+        };
+        let row = row.min(self.len() - 1);
+        let Some(start) = start.filter(|start| self.is_clear(*start)) else { return self.at_row(row) };
+        let between = self.at(corner).time;
+        let cubic = Cubic::new(self.four(start), between);
+        let mut out = self.sample(row).to_vec();
+        out[0] = between;
+        for &c in &self.channels {
+            out[c] = cubic.value(c).unwrap_or(out[c]);
+        }
+        self.state(&out)
+    }
+
+    /// Fraction of the interval behind `row` at which a load passes `x`, by regula falsi (Illinois). `ends` are its
+    /// coordinates at both rows.
+    pub fn passage(&self, row: usize, load: usize, x: f64, ends: [f64; 2]) -> f64 {
+        let (mut a, mut b) = (0.0, 1.0);
+        let [mut low, mut high] = ends.map(|end| end - x);
+        if low == 0.0 || low == high {
+            return 0.0;
+        }
+        if high == 0.0 {
+            return 1.0;
+        }
+        let scale = low.abs().max(high.abs());
+        for _ in 0..24 {
+            let middle = (a * high - b * low) / (high - low);
+            let value = self.at(row as f64 + middle).loads[load].x - x;
+            if value.abs() <= 1e-12 * scale {
+                return middle;
+            }
+            if (value > 0.0) == (high > 0.0) {
+                (b, high) = (middle, value);
+                low *= 0.5;
+            } else {
+                (a, low) = (middle, value);
+                high *= 0.5;
+            }
+        }
+        0.5 * (a + b)
+    }
+
+    fn state(&self, sample: &[f64]) -> LoadState {
+        let mut wheels = self.loads.at(sample);
+        wheels.retain(|load| load.structure == self.s);
+        let loads = wheels.iter().map(|w| RailLoad { rail: w.rail, x: w.x, force: w.force }).collect();
+        let part = |from: usize, n: usize| sample[from..from + n].to_vec();
+        let (dofs, accelerations) =
+            self.dofs.map_or_else(Default::default, |(q, a, n)| (part(q, n), part(a, n)));
+        LoadState { time: sample[0], loads, wheels, dofs, accelerations }
+    }
+}
+
+/// The Lagrange polynomials through four rows at one time.
+struct Cubic<'a> {
+    rows: [&'a [f64]; 4],
+    weights: [f64; 4],
+    /// Reciprocals of the three intervals.
+    rates: [f64; 3],
+}
+
+impl<'a> Cubic<'a> {
+    fn new(rows: [&'a [f64]; 4], time: f64) -> Cubic<'a> {
+        let weight = |i: usize| {
+            let others = rows.iter().enumerate().filter(|(j, _)| *j != i);
+            others.map(|(_, other)| (time - other[0]) / (rows[i][0] - other[0])).product()
+        };
+        let rates = std::array::from_fn(|i| 1.0 / (rows[i + 1][0] - rows[i][0]));
+        Cubic { rows, weights: std::array::from_fn(weight), rates }
+    }
+
+    /// The value of channel `c`; `None` where it has a jump or a corner. A value that is exactly zero is a force of a
+    /// contact that is open, and there is a corner beside it.
+    fn value(&self, c: usize) -> Option<f64> {
+        if self.rows.iter().any(|row| row[c] == 0.0) {
+            return None;
+        }
+        let slope = |i: usize| (self.rows[i + 1][c] - self.rows[i][c]) * self.rates[i];
+        let [a, b, d] = [slope(0), slope(1), slope(2)];
+        let is_smooth = (d - 2.0 * b + a).abs() <= CORNER * (a.abs() + d.abs());
+        is_smooth.then(|| self.rows.iter().zip(self.weights).map(|(row, weight)| weight * row[c]).sum())
+    }
+}

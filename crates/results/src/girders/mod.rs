@@ -1,0 +1,164 @@
+//! Extremes and envelopes of the girders in a run: moments, shear forces, normal forces and torsion of the members that
+//! carry rails, and deflections of the rails, with the signs of [`trains::GirderResponse`].
+//!
+//! At each row of the history the forces of a member follow from the influence lines of its end, by equilibrium with the
+//! wheels on it, so that sections anywhere, and those just before and just behind each wheel, cost little
+//! ([`trains::MemberForces`]). Inertia and dead load are added ([`distributed`]). Between the rows positions, forces and
+//! motions are interpolated ([`instants`]).
+//!
+//! 1. All sections, and both sides of each wheel, are evaluated at all rows; so are the instants at which wheels pass
+//!    sections, on both sides ([`scan`]).
+//! 2. Each peak is refined over time between its neighbouring rows and, at sections without a wheel, along the member
+//!    ([`refine`], [`spans`]).
+//! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
+//!    extremes ([`structure`]).
+//! 4. The result is compared with that of every second row. Where they differ by more than the accuracy of the scene, the
+//!    run is repeated with more rows ([`rows`]).
+//!
+//! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
+//! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
+//!
+//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, spans, structure, rows, this one.
+
+mod distributed;
+mod girder;
+mod instants;
+mod peaks;
+mod refine;
+mod rows;
+mod scan;
+mod sections;
+mod spans;
+mod structure;
+
+pub(crate) use rows::{Prepared, of_run};
+
+use design::{plane_word, quantity_word, side_word};
+use formats::scene::Scene;
+use serde_json::{Value, json};
+use trains::{GirderResponse, SectionSide};
+
+use crate::columns::bytes;
+
+/// The extreme of one quantity over a span.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GirderExtreme {
+    /// Index of the rail in the scene.
+    pub rail: usize,
+    /// Number of the span, from 1; 0 and one more than the last for overhangs.
+    pub span: usize,
+    /// The quantity.
+    pub quantity: GirderResponse,
+    /// Whether it is the largest value; otherwise the smallest.
+    pub is_max: bool,
+    /// The value; it includes the dead load where the output of the scene requests it.
+    pub value: f64,
+    /// The part that is due to dead load; 0 for deflections.
+    pub dead: f64,
+    /// Rail coordinate of the section.
+    pub x: f64,
+    /// Side of the section.
+    pub side: SectionSide,
+    /// Time.
+    pub time: f64,
+}
+
+/// The largest or smallest value of one quantity at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct GirderEnvelope {
+    /// Index of the rail in the scene.
+    pub rail: usize,
+    /// Rail coordinate.
+    pub x: f64,
+    /// The quantity.
+    pub quantity: GirderResponse,
+    /// Whether it is the largest value; otherwise the smallest.
+    pub is_max: bool,
+    /// The value, the larger one of both sides of the section.
+    pub value: f64,
+    /// Time.
+    pub time: f64,
+    /// Moment, shear and deflection of the same section and plane at this time.
+    pub coincident: [f64; 3],
+}
+
+/// Extremes and envelopes of the girders of a run. Rails and quantities that are zero throughout are left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GirderExtremes {
+    /// Extremes by rail, span and quantity, largest first.
+    pub extremes: Vec<GirderExtreme>,
+    /// Envelopes by rail, place and quantity, largest first.
+    pub envelope: Vec<GirderEnvelope>,
+    /// What the user should know.
+    pub notes: Vec<String>,
+}
+
+/// Word of a kind of extreme.
+const fn kind_word(is_max: bool) -> &'static str {
+    if is_max { "max" } else { "min" }
+}
+
+impl GirderExtremes {
+    /// The member `extremes` of the summary of case `number`, counted from 1; `None` without girders.
+    #[must_use]
+    pub fn json(&self, scene: &Scene, number: usize) -> Option<Value> {
+        let one = |found: &GirderExtreme| {
+            json!({
+                "case": number,
+                "rail": scene.rails[found.rail].name,
+                "span": found.span,
+                "quantity": quantity_word(found.quantity),
+                "plane": plane_word(found.quantity),
+                "kind": kind_word(found.is_max),
+                "value": found.value,
+                "x": found.x,
+                "side": side_word(found.side),
+                "dead": found.dead,
+                "time": found.time,
+            })
+        };
+        (!self.extremes.is_empty()).then(|| self.extremes.iter().map(one).collect())
+    }
+
+    /// The envelopes of case `number`, counted from 1, as comma-separated values; `None` without girders.
+    ///
+    /// # Errors
+    /// None in practice: writing to memory does not fail.
+    pub fn csv(&self, scene: &Scene, number: usize) -> Result<Option<Vec<u8>>, csv::Error> {
+        if self.envelope.is_empty() {
+            return Ok(None);
+        }
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.write_record([
+            "case",
+            "rail",
+            "plane",
+            "x",
+            "quantity",
+            "kind",
+            "value",
+            "time",
+            "moment",
+            "shear",
+            "deflection",
+        ])?;
+        let text = |value: f64| format!("{}", value + 0.0);
+        for row in &self.envelope {
+            let [moment, shear, deflection] = row.coincident.map(text);
+            writer.write_record([
+                number.to_string(),
+                scene.rails[row.rail].name.clone(),
+                plane_word(row.quantity).to_owned(),
+                text(row.x),
+                quantity_word(row.quantity).to_owned(),
+                kind_word(row.is_max).to_owned(),
+                text(row.value),
+                text(row.time),
+                moment,
+                shear,
+                deflection,
+            ])?;
+        }
+        bytes(writer).map(Some)
+    }
+}

@@ -1,0 +1,227 @@
+//! Rows of the history from which extremes are found: those of the output, or more of them from a repetition of the run.
+
+use design::{plane_word, quantity_word};
+use formats::scene::Scene;
+use formats::scene::motion::SimulationInput;
+use formats::text::number::{number, rounded};
+use sim::{Channel, Foundation, History};
+use trains::GirderResponse;
+
+use super::GirderExtremes;
+use super::spans::SpanValue;
+use super::structure::{PreparedGirders, Rows, SpanExtremes};
+use crate::response::WheelLoadReader;
+use foundations::{BuiltFoundation, SolvedModel};
+
+/// Largest number of rows, and of values of a history, to which a repetition is raised.
+const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
+/// Largest number of repetitions.
+const REPETITIONS: usize = 2;
+/// Ratio of the changes before and after a repetition above which there is no other one.
+const WORTHWHILE: f64 = 0.7;
+
+/// The girders of a scene, prepared for any number of runs on the same foundations.
+pub(crate) struct Prepared<'a> {
+    girders: Vec<PreparedGirders<'a>>,
+    notes: Vec<String>,
+}
+
+impl<'a> Prepared<'a> {
+    /// Prepares the girders of every structure with a spec. A structure that cannot be evaluated has a note instead.
+    pub fn new(scene: &'a Scene, built: &[BuiltFoundation], solved: &[Option<&SolvedModel>]) -> Prepared<'a> {
+        let (mut girders, mut notes) = (Vec::new(), Vec::new());
+        for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
+            let Some(solved) = solved else { continue };
+            match PreparedGirders::new(scene, s, built, solved) {
+                Ok(prepared) => girders.extend(prepared),
+                Err(error) => notes.push(format!("extremes of girders are missing: {error}")),
+            }
+        }
+        Prepared { girders, notes }
+    }
+}
+
+/// Repeats a run with a number of rows in each output interval; `None` if it cannot be repeated.
+pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
+
+/// The extremes and envelopes of all girders of a scene.
+///
+/// The extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
+/// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
+/// `accuracy` times the largest value of its kind, the run is repeated with as many rows as this rate suggests, at most
+/// twice. The change after a repetition is the smaller one of that from every second row and that from the history
+/// before; a note says by how much the extremes still change.
+pub(crate) fn of_run(
+    prepared: &Prepared<'_>,
+    (scene, input): (&Scene, &SimulationInput),
+    history: &History,
+    foundations: &[Foundation],
+    repeat: &mut Repetition<'_>,
+) -> GirderExtremes {
+    let Prepared { girders, notes } = prepared;
+    let mut out = GirderExtremes { notes: notes.clone(), ..GirderExtremes::default() };
+    let is_known = |girders: &&PreparedGirders<'_>| {
+        let s = girders.structure();
+        foundations[s].dofs() == 0 || history.position(Channel::Coordinate(s, 0)).is_some()
+    };
+    let girders: Vec<&PreparedGirders<'_>> = girders.iter().filter(is_known).collect();
+    if girders.is_empty() || history.len() < 2 {
+        return out;
+    }
+    let all = Evaluation { scene, input, foundations, girders: &girders };
+    let mut found = all.attempt(history);
+    let (mut rows, mut finer) = (1, None);
+    for _ in 0..REPETITIONS {
+        let own = finer.as_ref().unwrap_or(history);
+        let Some(more) = more_rows(scene, own, found.most_rows, found.change.fraction) else { break };
+        let more = more * rows;
+        let Some(repeated) = repeat(more) else { break };
+        let before = found.change.fraction;
+        let last = std::mem::replace(&mut found, all.attempt(&repeated));
+        let from_last = found.change_from(&last);
+        found.change = found.change.smaller(from_last);
+        (rows, finer) = (more, Some(repeated));
+        // where forces jump, more rows do not help
+        if found.change.fraction > WORTHWHILE * before {
+            break;
+        }
+    }
+    let history = finer.as_ref().unwrap_or(history);
+    let loads = WheelLoadReader::new(scene, input, history);
+    for (girders, spans) in girders.iter().zip(&found.spans) {
+        let rows = Rows { history, loads: &loads, foundations };
+        let (extremes, envelope) = girders.results(rows, spans, scene.accuracy);
+        out.extremes.extend(extremes);
+        out.envelope.extend(envelope);
+        if spans.stride > 1 {
+            out.notes.push(format!(
+                "{}: extremes of girders are evaluated at one of {} output times, because they are many",
+                girders.name(),
+                spans.stride
+            ));
+        }
+    }
+    if found.change.fraction > scene.accuracy {
+        out.notes.push(format!(
+            "extremes of girders still change by {} of the largest value of their kind with the number of times at which \
+             they are evaluated, {}{}",
+            number(rounded(found.change.fraction, 2)),
+            history.len(),
+            found.change.place()
+        ));
+    }
+    out
+}
+
+/// The extremes at the rows of one history.
+struct Attempt {
+    /// By structure.
+    spans: Vec<SpanExtremes>,
+    /// Largest change from every second row to all rows, relative to the largest value of its kind.
+    change: Change,
+    /// Largest number of rows that are all evaluated.
+    most_rows: usize,
+}
+
+impl Attempt {
+    /// Largest change from the extremes of another history of the same run, relative to the largest value of its kind.
+    fn change_from(&self, other: &Attempt) -> Change {
+        let pairs = self.spans.iter().zip(&other.spans);
+        let all = pairs.map(|(own, other)| difference(own, other)).fold(Change::default(), Change::larger);
+        Change { structure: self.change.structure.clone(), ..all }
+    }
+}
+
+/// A change of extremes, relative to the largest value of their kind.
+#[derive(Clone, Debug, Default)]
+struct Change {
+    fraction: f64,
+    /// Quantity and number of the span with the largest change.
+    at: Option<(usize, usize)>,
+    /// Name of the structure.
+    structure: String,
+}
+
+impl Change {
+    fn larger(self, other: Change) -> Change {
+        if other.fraction > self.fraction { other } else { self }
+    }
+
+    fn smaller(self, other: Change) -> Change {
+        if other.fraction < self.fraction { other } else { self }
+    }
+
+    /// Where the largest change is, as the end of a sentence.
+    fn place(&self) -> String {
+        self.at.map_or_else(String::new, |(quantity, span)| {
+            let quantity = GirderResponse::ALL[quantity];
+            let (plane, word) = (plane_word(quantity), quantity_word(quantity));
+            format!("; most changes the {plane} {word} in span {span} of {}", self.structure)
+        })
+    }
+}
+
+/// Girders with what their evaluation needs beside a history.
+struct Evaluation<'a> {
+    scene: &'a Scene,
+    input: &'a SimulationInput,
+    foundations: &'a [Foundation],
+    girders: &'a [&'a PreparedGirders<'a>],
+}
+
+impl Evaluation<'_> {
+    fn attempt(&self, history: &History) -> Attempt {
+        let loads = WheelLoadReader::new(self.scene, self.input, history);
+        let rows = Rows { history, loads: &loads, foundations: self.foundations };
+        let mut change = Change::default();
+        let mut all = Vec::new();
+        for girders in self.girders {
+            let fine = girders.spans(rows, 1, self.scene.accuracy);
+            let coarse = girders.spans(rows, 2, self.scene.accuracy);
+            let structure = girders.name().to_owned();
+            change = change.larger(Change { structure, ..difference(&fine, &coarse) });
+            all.push(fine);
+        }
+        let most_rows =
+            self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
+        Attempt { spans: all, change, most_rows }
+    }
+}
+
+/// Largest difference of the extremes of two evaluations, relative to the largest value of their kind: of forces,
+/// moments or deflections.
+fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> Change {
+    let key = |v: &SpanValue| (v.rail, v.span, v.quantity, v.kind);
+    let kind = |quantity: usize| match quantity {
+        0 | 2 | 3 => 0,
+        1 | 4 | 5 => 1,
+        _ => 2,
+    };
+    let mut sizes = [0.0_f64; 3];
+    fine.sizes.iter().enumerate().for_each(|(k, size)| sizes[kind(k)] = sizes[kind(k)].max(*size));
+    let mut largest = Change::default();
+    for value in &fine.values {
+        let size = sizes[kind(value.quantity)];
+        let Some(other) = coarse.values.iter().find(|other| key(other) == key(value)) else { continue };
+        if size > 0.0 {
+            let change = (value.found.signed - other.found.signed).abs() / size;
+            if change > largest.fraction {
+                largest = Change { fraction: change, at: Some((value.quantity, value.span)), ..largest };
+            }
+        }
+    }
+    largest
+}
+
+/// By how many times the rows of a history must increase; `None` where the extremes change by no more than the accuracy,
+/// or where the history would become too long.
+fn more_rows(scene: &Scene, history: &History, most: usize, change: f64) -> Option<usize> {
+    if change <= scene.accuracy {
+        return None;
+    }
+    let factor = (1.5 * (change / scene.accuracy).cbrt()).clamp(2.0, 16.0).ceil() as usize;
+    let width = history.channels().len().max(1);
+    let most = most.min(MAX_ROWS[0]).min(MAX_ROWS[1] / width) / history.len().max(1);
+    let factor = factor.min(most);
+    (factor >= 2).then_some(factor)
+}

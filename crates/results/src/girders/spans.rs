@@ -1,0 +1,217 @@
+//! Extremes of spans: the largest values of their sections, those beside wheels, and those between sections.
+
+use trains::SectionSide;
+
+use super::distributed::FORCES;
+use super::peaks::{Peak, largest};
+use super::refine::{EVALUATIONS, GirderValue, Refinement, is_moment, offer};
+use super::scan::{SIGNS, Scan};
+
+/// Rounds of refinement over time and along the girder in turn.
+const ROUNDS: usize = 3;
+/// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
+const NEAR: f64 = 0.05;
+
+/// The largest or smallest value of one quantity over a span.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SpanValue {
+    /// Index in the list of rails.
+    pub rail: usize,
+    pub span: usize,
+    /// Index of the quantity in [`trains::GirderResponse::ALL`].
+    pub quantity: usize,
+    /// 0: largest, 1: smallest.
+    pub kind: usize,
+    pub found: GirderValue,
+}
+
+impl Refinement<'_> {
+    /// The extremes of every span that has sections.
+    pub fn spans(&self) -> Vec<SpanValue> {
+        let mut out = Vec::new();
+        for (rail, outline) in self.girders.sections.rails.iter().enumerate() {
+            for span in 0..=outline.ends.len() {
+                let [from, to] = outline.bounds(span);
+                if to - from <= 1e-9 * (outline.range[1] - outline.range[0]) {
+                    continue;
+                }
+                for quantity in (0..FORCES + 2).filter(|quantity| !self.is_zero(*quantity)) {
+                    for kind in 0..2 {
+                        let found = match quantity.checked_sub(FORCES) {
+                            None => self.span_force(rail, span, quantity, kind),
+                            Some(plane) => self.span_deflection(rail, span, plane, kind),
+                        };
+                        out.extend(found.map(|found| SpanValue { rail, span, quantity, kind, found }));
+                    }
+                }
+            }
+        }
+        out
+    }
+
+    /// The largest of sign times a force over a span: at its sections, where wheels pass them, and beside wheels.
+    fn span_force(&self, rail: usize, span: usize, quantity: usize, kind: usize) -> Option<GirderValue> {
+        let Scan { sections: peaks, wheels, .. } = self.scan;
+        let all = &self.girders.sections;
+        let own: Vec<usize> = (0..all.sections.len())
+            .filter(|at| all.sections[*at].span == span && all.points[all.sections[*at].point].rail == rail)
+            .collect();
+        let loads = wheels.len() / (2 * self.scan.first_span[self.scan.first_span.len() - 1]).max(1);
+        let tracks: Vec<(usize, bool, &Peak)> = (0..loads)
+            .flat_map(|load| [(load, false), (load, true)])
+            .map(|(load, behind)| {
+                (load, behind, &wheels[self.scan.wheel(load, behind, rail, span)][quantity][kind])
+            })
+            .collect();
+        let heights = own.iter().map(|at| peaks[*at][quantity][kind].height);
+        let best = heights.chain(tracks.iter().map(|track| track.2.height)).fold(f64::NEG_INFINITY, f64::max);
+        let least = best - NEAR * self.size(quantity);
+        let mut found: Option<GirderValue> = None;
+        for &at in &own {
+            let is_near = peaks[at][quantity][kind].height >= least;
+            offer(&mut found, self.section(at, quantity, kind, is_near));
+        }
+        if let Some(own) = found.filter(|own| own.own.is_none() && !self.girders.distributed.is_empty()) {
+            offer(&mut found, self.along(rail, span, quantity, kind, own));
+        }
+        for (load, behind, peak) in tracks.into_iter().filter(|track| track.2.height >= least) {
+            offer(&mut found, self.beside(rail, span, (load, behind), quantity, kind, peak));
+        }
+        found
+    }
+
+    /// The largest value just before or just behind a wheel in a span.
+    fn beside(
+        &self,
+        rail: usize,
+        span: usize,
+        own: (usize, bool),
+        quantity: usize,
+        kind: usize,
+        peak: &Peak,
+    ) -> Option<GirderValue> {
+        if peak.height == f64::NEG_INFINITY {
+            return None;
+        }
+        let girders = self.girders;
+        // a load on another rail of the same member stands opposite to a section of this one
+        let place = |position: f64| {
+            let state = girders.states.at(position);
+            let mut passed = trains::PassedLoads::default();
+            let on = |(index, member): (usize, trains::RailMember)| {
+                if member.rail != girders.sections.rails[rail].rail {
+                    return None;
+                }
+                girders.members.load(index, &state.loads, &mut passed);
+                let (_, place) = passed.places().find(|(load, _)| *load == own.0)?;
+                let x = girders.members.coordinate(index, place);
+                girders.member_at(rail, x, span).is_some().then_some((index, place, x))
+            };
+            let found = girders.members.members().enumerate().find_map(on)?;
+            Some((state, found))
+        };
+        let value = |position: f64, is_behind: bool| {
+            place(position).map_or(f64::NEG_INFINITY, |(state, (member, place, _))| {
+                SIGNS[kind] * girders.forces_in(member, place, &state, Some((own.0, is_behind)))[quantity]
+            })
+        };
+        let (signed, position) = self.over_time((peak, 1), quantity, &mut |position| value(position, own.1));
+        let (_, (member, place, x)) = place(position)?;
+        let side = match own.1 {
+            _ if is_moment(quantity) => SectionSide::At,
+            true => SectionSide::Behind,
+            false => SectionSide::Before,
+        };
+        let section = Some((member, place));
+        Some(GirderValue { signed, position, x, section, own: Some(own), is_after: None, side })
+    }
+
+    /// Refines a value at a section along its member and over time in turn.
+    fn along(
+        &self,
+        rail: usize,
+        span: usize,
+        quantity: usize,
+        kind: usize,
+        from: GirderValue,
+    ) -> Option<GirderValue> {
+        let girders = self.girders;
+        let (member, _) = from.section?;
+        let outline = &girders.sections.rails[rail];
+        let ends = girders.members.members().nth(member)?.x;
+        let bounds = outline.bounds(span);
+        let neighbours = neighbours(&outline.places, from.x);
+        let near = [neighbours[0].max(ends[0]).max(bounds[0]), neighbours[1].min(ends[1]).min(bounds[1])];
+        let value = |x: f64, position: f64| {
+            let place = girders.members.place(member, x);
+            SIGNS[kind] * girders.forces_in(member, place, &girders.states.at(position), None)[quantity]
+        };
+        let mut found = from;
+        for _ in 0..ROUNDS {
+            let (signed, x) = largest(near, EVALUATIONS, &mut |x| value(x, found.position));
+            if signed <= found.signed + 1e-3 * self.accuracy * self.size(quantity) {
+                break;
+            }
+            found = GirderValue {
+                signed,
+                x,
+                section: Some((member, girders.members.place(member, x))),
+                side: SectionSide::At,
+                ..found
+            };
+            let (signed, position) = self.near_in_time(found.position, 1, &mut |position| value(x, position));
+            if signed > found.signed {
+                found = GirderValue { signed, position, ..found };
+            }
+        }
+        Some(found)
+    }
+
+    /// The largest of sign times the deflection over a span.
+    fn span_deflection(&self, rail: usize, span: usize, plane: usize, kind: usize) -> Option<GirderValue> {
+        let (girders, sections) = (self.girders, self.girders.sections);
+        let outline = &sections.rails[rail];
+        let [from, to] = outline.bounds(span);
+        let own = (0..sections.points.len()).filter(|at| {
+            let point = sections.points[*at];
+            point.rail == rail && point.x >= from && point.x <= to
+        });
+        let at = own.max_by(|a, b| {
+            let height = |at: &usize| self.scan.points[*at][plane][kind].height;
+            // of equal heights the first one counts
+            height(a).total_cmp(&height(b)).then(b.cmp(a))
+        })?;
+        let mut found = self.point(at, plane, kind)?;
+        let near = neighbours(&outline.places, found.x);
+        let near = [near[0].max(from), near[1].min(to)];
+        for _ in 0..ROUNDS {
+            let state = girders.states.at(found.position);
+            let (signed, x) = largest(near, EVALUATIONS, &mut |x| {
+                girders.deflections(rail, &[x], plane, &state).map_or(0.0, |all| SIGNS[kind] * all[0])
+            });
+            if signed <= found.signed {
+                break;
+            }
+            let gain = signed - found.signed;
+            found = GirderValue { signed, x, ..found };
+            let (signed, position) =
+                self.near_in_time(found.position, girders.deflection_stride, &mut |position| {
+                    SIGNS[kind] * girders.deflection(rail, x, plane, position)
+                });
+            if signed > found.signed {
+                found = GirderValue { signed, position, ..found };
+            }
+            if gain <= 1e-3 * self.accuracy * self.size(FORCES + plane) {
+                break;
+            }
+        }
+        Some(found)
+    }
+}
+
+/// The places beside a coordinate.
+fn neighbours(places: &[f64], x: f64) -> [f64; 2] {
+    let before = places.iter().rev().find(|place| **place < x);
+    let after = places.iter().find(|place| **place > x);
+    [before.map_or(x, |place| *place), after.map_or(x, |place| *place)]
+}

@@ -1,0 +1,248 @@
+//! Internal forces of the members that carry rails under concentrated loads at one instant.
+//!
+//! The six quantities Q(0) just inside the first end of a member follow from its influence lines. At a distance s they
+//! follow by equilibrium of the part between: each load passed at s_k < s changes force and couple by its jump, and
+//! moments by (s - s_k) times the jump of the shear. Loads may stand anywhere; nothing is sampled along the member.
+
+use fea::{Effect, Model, Rail};
+use splines::{InfluenceLines, Probe};
+
+use crate::error::Error;
+use crate::section::slope_index;
+use crate::structure::{Carrier, QUANTITIES, Structure, end_effects};
+use crate::train::axis;
+
+/// Distance from the end of a member, relative to its length along the rail, within which a load counts as just inside.
+const INSIDE: f64 = 1e-9;
+
+/// A concentrated load on a rail.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RailLoad {
+    /// Index of the rail.
+    pub rail: usize,
+    /// Rail coordinate.
+    pub x: f64,
+    /// Components along +x, up and along +z of the rail.
+    pub force: [f64; 3],
+}
+
+/// The members that carry the rails of a structure, with the influence lines of their end forces.
+///
+/// # Example
+/// ```
+/// use fea::Girder;
+/// use trains::{GirderResponse, MemberForces, PassedLoads, RailLoad};
+///
+/// let girder = Girder { spans: vec![8.0], e: 2.1e8, i_vertical: 5e-4, ..Girder::default() };
+/// let (model, rail) = girder.model_and_rail()?;
+/// let members = MemberForces::new(&model, &[rail])?;
+/// // 10 kN at midspan: M = F L / 4
+/// let mut at = PassedLoads::default();
+/// members.load(0, &[RailLoad { rail: 0, x: 4.0, force: [0.0, -10.0, 0.0] }], &mut at);
+/// let forces = at.quantities(4.0, None);
+/// assert!((forces[GirderResponse::VerticalMoment as usize] - 20.0).abs() < 1e-9);
+/// # Ok::<(), trains::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct MemberForces {
+    structure: Structure,
+    /// Influence lines of the six components of the force inside the first end of each carrier.
+    lines: Vec<InfluenceLines>,
+    /// Rail elements on the member of each carrier.
+    elements: Vec<Vec<LoadedElement>>,
+}
+
+/// A rail element on a member: where loads on it stand on the member, and what changes where they have been passed.
+#[derive(Debug)]
+struct LoadedElement {
+    rail: usize,
+    x: [f64; 2],
+    /// Place on the member at the first coordinate, and its change by the coordinate.
+    start: f64,
+    rate: f64,
+    /// Jump of the quantities by a unit load in each direction.
+    jumps: [[f64; QUANTITIES]; 3],
+}
+
+/// A member that carries a rail.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RailMember {
+    /// Index of the rail.
+    pub rail: usize,
+    /// Rail coordinates of its ends.
+    pub x: [f64; 2],
+    /// Its length.
+    pub length: f64,
+}
+
+/// The loads that stand on a member, and the quantities just inside its first end.
+#[derive(Clone, Debug, Default)]
+pub struct PassedLoads {
+    base: [f64; QUANTITIES],
+    passed: Vec<PassedLoad>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct PassedLoad {
+    /// Index in the list of loads.
+    index: usize,
+    place: f64,
+    jump: [f64; QUANTITIES],
+}
+
+impl MemberForces {
+    /// Solves a model with its rails.
+    ///
+    /// # Errors
+    /// A model or a rail that cannot be used, or a structure that can move without strain.
+    pub fn new(model: &Model, rails: &[Rail]) -> Result<MemberForces, Error> {
+        let structure = Structure::new(model, rails, false)?;
+        let mut lines = Vec::with_capacity(structure.carriers.len());
+        let mut elements = Vec::with_capacity(structure.carriers.len());
+        for carrier in &structure.carriers {
+            lines.push(structure.frame.influence_lines(&structure.model, &end_effects(carrier))?);
+            elements.push(loaded_elements(&structure, carrier)?);
+        }
+        Ok(MemberForces { structure, lines, elements })
+    }
+
+    /// The structure.
+    #[must_use]
+    pub fn structure(&self) -> &Structure {
+        &self.structure
+    }
+
+    /// The members, rail by rail in the order of the model.
+    pub fn members(&self) -> impl ExactSizeIterator<Item = RailMember> + '_ {
+        self.structure.carriers.iter().map(|c| RailMember { rail: c.rail, x: c.x, length: c.length })
+    }
+
+    /// Distance of a section from the first end of a member, by its rail coordinate.
+    #[must_use]
+    pub fn place(&self, member: usize, x: f64) -> f64 {
+        self.structure.carriers[member].place(x)
+    }
+
+    /// Rail coordinate of the section at a distance from the first end of a member.
+    #[must_use]
+    pub fn coordinate(&self, member: usize, place: f64) -> f64 {
+        self.structure.carriers[member].coordinate(place)
+    }
+
+    /// The six components of the internal force of the section at a distance from the first end of a member, as effects
+    /// of the frame.
+    #[must_use]
+    pub fn effects(&self, member: usize, place: f64) -> [Effect; QUANTITIES] {
+        let carrier = &self.structure.carriers[member];
+        let fraction = (place / carrier.length).clamp(0.0, 1.0);
+        let place = if carrier.reversed { 1.0 - fraction } else { fraction };
+        fea::ForceComponent::ALL.map(|component| Effect::InternalForce {
+            member: carrier.member,
+            place,
+            component,
+        })
+    }
+
+    /// The quantities, in the order of [`crate::GirderResponse::ALL`] without the deflections, by the six components of
+    /// [`MemberForces::effects`].
+    #[must_use]
+    pub fn quantities(&self, member: usize, components: [f64; QUANTITIES]) -> [f64; QUANTITIES] {
+        self.structure.carriers[member].quantities(components)
+    }
+
+    /// Writes the state of a member under loads into `out`. A load within 1e-9 of an end of the member, relative to its
+    /// length, counts as just inside. Components in which the structure is unrestrained are neglected.
+    pub fn load(&self, member: usize, loads: &[RailLoad], out: &mut PassedLoads) {
+        out.passed.clear();
+        let mut own = [0.0; QUANTITIES];
+        let mut unit = [0.0; QUANTITIES];
+        for (index, load) in loads.iter().enumerate() {
+            let (x, element) = self.inside(member, load);
+            let mut jump = [0.0; QUANTITIES];
+            let mut is_felt = false;
+            for k in (0..3).filter(|k| load.force[*k] != 0.0) {
+                let probe = Probe { rail: load.rail, x, axis: axis(k) };
+                if self.lines[member].fill(probe, &mut unit).is_err() {
+                    continue;
+                }
+                is_felt = true;
+                own.iter_mut().zip(unit).for_each(|(sum, value)| *sum += load.force[k] * value);
+                if let Some(element) = element {
+                    jump.iter_mut().zip(element.jumps[k]).for_each(|(sum, a)| *sum += load.force[k] * a);
+                }
+            }
+            if let (Some(element), true) = (element, is_felt) {
+                let place = element.start + (x - element.x[0]) * element.rate;
+                out.passed.push(PassedLoad { index, place, jump });
+            }
+        }
+        out.base = self.structure.carriers[member].quantities(own);
+    }
+
+    /// The coordinate at which a load counts, and the rail element of the member on which it stands.
+    fn inside(&self, member: usize, load: &RailLoad) -> (f64, Option<&LoadedElement>) {
+        for element in self.elements[member].iter().filter(|element| element.rail == load.rail) {
+            let near = INSIDE * (element.x[1] - element.x[0]);
+            if load.x >= element.x[0] - near && load.x <= element.x[1] + near {
+                return (load.x.clamp(element.x[0] + near, element.x[1] - near), Some(element));
+            }
+        }
+        (load.x, None)
+    }
+}
+
+/// The rail elements on the member of a carrier.
+fn loaded_elements(structure: &Structure, carrier: &Carrier) -> Result<Vec<LoadedElement>, Error> {
+    let mut out = Vec::new();
+    for other in structure.carriers.iter().filter(|other| other.member == carrier.member) {
+        let same = other.reversed == carrier.reversed;
+        let stretch = structure.rails[other.rail]
+            .stretches
+            .iter()
+            .find(|stretch| stretch.element == other.element)
+            .expect("a carrier is made from a stretch of its rail");
+        let mut jumps = [[0.0; QUANTITIES]; 3];
+        for (component, jump) in jumps.iter_mut().enumerate() {
+            let [force, couple] = structure.load(stretch, component)?;
+            *jump = carrier.jump(&force, &couple);
+        }
+        out.push(LoadedElement {
+            rail: other.rail,
+            x: other.x,
+            start: if same { 0.0 } else { carrier.length },
+            rate: if same { other.rate() } else { -other.rate() },
+            jumps,
+        });
+    }
+    Ok(out)
+}
+
+impl PassedLoads {
+    /// Loads that stand on the member, by their index in the list, with their distances from its first end.
+    pub fn places(&self) -> impl Iterator<Item = (usize, f64)> + '_ {
+        self.passed.iter().map(|load| (load.index, load.place))
+    }
+
+    /// The six quantities of the section at a distance from the first end of the member. `own` is a load that stands at
+    /// the section, and whether the section is just behind it.
+    #[must_use]
+    pub fn quantities(&self, place: f64, own: Option<(usize, bool)>) -> [f64; QUANTITIES] {
+        let mut out = self.base;
+        for (k, value) in out.iter_mut().enumerate() {
+            *value += slope_index(k).map_or(0.0, |shear| place * self.base[shear]);
+        }
+        for load in &self.passed {
+            let is_passed = match own {
+                Some((index, is_behind)) if index == load.index => is_behind,
+                _ => load.place < place,
+            };
+            if is_passed {
+                let lever = place - load.place;
+                for (k, value) in out.iter_mut().enumerate() {
+                    *value += load.jump[k] + slope_index(k).map_or(0.0, |shear| load.jump[shear] * lever);
+                }
+            }
+        }
+        out
+    }
+}
