@@ -12,7 +12,7 @@ const DIGITS: usize = 4;
 
 /// The limits of deflections.
 pub(super) fn limits(design: &Design, result: &DesignResult) -> ReportTable {
-    let (unit, factor) = deflection_unit(design);
+    let (unit, factor) = deflection_unit(design.units);
     let columns = [
         ("case", ""),
         ("rail", ""),
