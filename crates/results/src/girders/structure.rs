@@ -17,9 +17,9 @@ use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
-const MAX_VALUES: usize = 10_000_000;
+const MAX_VALUES: usize = 2_000_000;
 /// Number of rows above which deflections are evaluated at fewer rows.
-const MAX_DEFLECTIONS: usize = 2000;
+const MAX_DEFLECTIONS: usize = 500;
 
 /// A structure prepared for any number of runs.
 pub(super) struct PreparedGirders<'a> {
