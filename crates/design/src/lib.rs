@@ -27,5 +27,5 @@ pub use loads::LoadKind;
 pub use outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
 pub use solve::solve;
 pub use summary::summary;
-pub use tables::{envelope_csv, reactions_csv};
+pub use tables::{envelope_csv, load_word, reactions_csv};
 pub use words::{plane_word, quantity_word, side_word};

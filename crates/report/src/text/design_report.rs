@@ -3,7 +3,7 @@
 use crate::figures::design::{deflection_unit, digits, envelope_charts, position_sketch, unit_of};
 use crate::text::design_codes::{codes, limits, sources};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
-use ::design::{DesignResult, LoadKind, ReactionExtremes, SolvedCase, plane_word, quantity_word};
+use ::design::{DesignResult, ReactionExtremes, SolvedCase, load_word, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
 use trains::{GirderResponse, Governing, SectionSide, SpanExtreme};
@@ -308,14 +308,7 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
         let mut columns = vec![TableColumn::new("support", ""), TableColumn::new("direction", "")];
         columns.push(TableColumn::new("dead", &unit));
         for (kind, _) in &case.by_load {
-            let word = match kind {
-                LoadKind::All => "all",
-                LoadKind::Vertical => "vertical",
-                LoadKind::SideThrust => "side thrust",
-                LoadKind::Traction => "traction",
-                LoadKind::Buffer => "buffer",
-                LoadKind::Skewing => "skewing",
-            };
+            let word = load_word(*kind);
             columns.push(TableColumn::new(format!("{word}, largest"), &unit));
             columns.push(TableColumn::new("smallest", &unit));
         }
