@@ -70,7 +70,9 @@ fn stopped(end: f64) -> Vec<String> {
 #[test]
 fn runs_say_from_which_strike_of_a_stop_on_only_extremes_are_promised() {
     assert_eq!(stopped(1.9), Vec::<String>::new());
-    let all = stopped(2.5);
+    // Extremes of girders may change with the number of rows after a strike, which has a note of its own.
+    let all: Vec<String> =
+        stopped(2.5).into_iter().filter(|note| !note.starts_with("extremes of girders")).collect();
     let wanted = "the stop buffer strikes at t = 2.000000 s: from then on small differences grow";
     assert!(all.len() == 1 && all[0].starts_with(wanted) && all[0].contains("for the extremes"), "{all:?}");
 }
