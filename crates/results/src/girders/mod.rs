@@ -3,17 +3,17 @@
 //!
 //! At each row of the history the forces of a member follow from the influence lines of its end, by equilibrium with the
 //! wheels on it, so that sections anywhere, and those just before and just behind each wheel, cost little
-//! ([`trains::MemberForces`]). Inertia and dead load are added ([`distributed`]). Between the rows positions, forces and
-//! motions are interpolated ([`instants`]).
+//! ([`trains::MemberForces`]). Inertia and dead load are added (`distributed`). Between the rows positions, forces and
+//! motions are interpolated (`instants`).
 //!
 //! 1. All sections, and both sides of each wheel, are evaluated at all rows; so are the instants at which wheels pass
-//!    sections, on both sides ([`scan`]).
+//!    sections, on both sides (`scan`).
 //! 2. Each peak is refined over time between its neighbouring rows and, at sections without a wheel, along the member
-//!    ([`refine`], [`spans`]).
+//!    (`refine`, `spans`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
-//!    extremes ([`structure`]).
+//!    extremes (`structure`).
 //! 4. The result is compared with that of every second row. Where they differ by more than the accuracy of the scene, the
-//!    run is repeated with more rows ([`rows`]).
+//!    run is repeated with more rows (`rows`).
 //!
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
