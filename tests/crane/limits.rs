@@ -1,8 +1,8 @@
 //! Deflections under static wheel loads beside the limits of codes.
 
-use std::process::Command;
-
 use serde_json::{Value, json};
+
+use super::{read, run_in};
 
 /// A crane of 120 000 lb with two wheels on each of two simply supported girders of 60 ft; E = 4.2e9 lb/ft2, Iz = 3 and
 /// Iy = 1 ft4.
@@ -41,17 +41,7 @@ fn deflections_under_static_loads_are_those_of_the_closed_form() {
     for (name, value) in scene() {
         std::fs::write(folder.path().join(name), value.to_string()).expect("written");
     }
-    let out = folder.path().join("out");
-    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
-        .arg("run")
-        .arg(folder.path().join("scene.json"))
-        .arg("-o")
-        .arg(&out)
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = std::fs::read_to_string(out.join("summary.json")).expect("a summary");
-    let summary: Value = serde_json::from_str(&text).expect("a summary");
+    let summary = read(&run_in(folder.path()).join("summary.json"));
     let limits = summary["practice"]["limits"].as_array().expect("limits");
     assert_eq!(limits.len(), 4, "two directions on two rails");
     let (load, a, span) = (30_000.0_f64, 25.0_f64, 60.0_f64);

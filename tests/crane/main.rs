@@ -61,6 +61,20 @@ fn run(scene: &Value) -> (Vec<History>, Value) {
     (histories, summary)
 }
 
+/// Runs the scene of a folder; returns the folder of its results.
+fn run_in(folder: &Path) -> PathBuf {
+    let out = folder.join("out");
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .arg("run")
+        .arg(folder.join("scene.json"))
+        .arg("-o")
+        .arg(&out)
+        .output()
+        .expect("the program starts");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    out
+}
+
 /// The same with the report.
 fn run_whole(scene: &Value) -> (Vec<History>, Value, String) {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -68,15 +82,7 @@ fn run_whole(scene: &Value) -> (Vec<History>, Value, String) {
         std::fs::copy(example().join(spec), folder.path().join(spec)).expect("a copy");
     }
     std::fs::write(folder.path().join("scene.json"), scene.to_string()).expect("written");
-    let out = folder.path().join("out");
-    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
-        .arg("run")
-        .arg(folder.path().join("scene.json"))
-        .arg("-o")
-        .arg(&out)
-        .output()
-        .expect("the program starts");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let out = run_in(folder.path());
     let mut files = vec![out.join("history.csv")];
     let labels = scene["compare"].as_array().into_iter().flatten();
     files.extend(

@@ -1,12 +1,10 @@
 //! Cases from the groups of crane loads of a code.
 
 use formats::design::{Design, DesignCase, WHOLE};
-use practice::aist::CraneKind;
 use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups};
 use practice::factor::{Release, phi5};
+use practice::limit_choice::code_name;
 use practice::mill_combination::{asce_group, mill_combinations, mill_fatigue};
-
-use crate::crane::phi2_of;
 
 /// A design with the cases of its code's groups behind its own, where its `practice` asks for them. Every case without
 /// factors of its own is repeated with the factors of each group whose loads it has.
@@ -69,10 +67,12 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
 fn groups(design: &Design) -> Result<(Vec<LoadGroup>, DynamicFactors), String> {
     let code = design.practice.code.as_deref().unwrap_or("");
     let plain = DynamicFactors { phi: [1.0; 7], remaining: 0.0 };
-    match code.split(':').next().unwrap_or(code).trim() {
+    match code_name(code) {
         "EN 1991-3" | "EN 1993-6" => {
-            let phi2 =
-                phi2_of(design).ok_or("groups of EN 1991-3: give `hoisting` and `hoist_speed` for phi2")?;
+            let phi2 = design
+                .practice
+                .phi2()
+                .ok_or("groups of EN 1991-3: give `hoisting` and `hoist_speed` for phi2")?;
             let [_, phi5] = phi5(design.practice.drives);
             let factors =
                 DynamicFactors::of_crane(phi2, phi5, design.practice.release.unwrap_or(Release::Rapid));
@@ -113,7 +113,8 @@ fn factors(
     }
     let is_asce = group.clause.standard.starts_with("ASCE");
     let is_mill = group.clause.standard.starts_with("AIST");
-    let impact = of(CraneLoad::Impact) * if is_mill { impact_of(design.practice.kind) } else { 1.0 };
+    // TR-13 factors the impact of the kind of crane, ASCE 7 gives it.
+    let impact = of(CraneLoad::Impact) * if is_mill { design.practice.kind.fractions().impact } else { 1.0 };
     let [crane, hoist] = [of(CraneLoad::SelfWeight), of(CraneLoad::HoistLoad)].map(|factor| factor + impact);
     // The factors 0.2 and 0.1 of ASCE 7 make the forces that the trains give already.
     let given = |factor: f64| if is_asce { f64::from(u8::from(factor != 0.0)) } else { factor };
@@ -132,9 +133,4 @@ fn factors(
         out.push((WHOLE.to_owned(), crane));
     }
     Ok(out)
-}
-
-/// Vertical impact of AIST TR-13, as a fraction of the wheel loads.
-fn impact_of(kind: CraneKind) -> f64 {
-    kind.fractions().impact
 }

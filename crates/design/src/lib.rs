@@ -4,13 +4,11 @@
 //! the positions that govern them, and reactions by load. [`envelope_csv`], [`reactions_csv`] and [`summary`] write
 //! the results as files.
 //!
-//! Files, lowest first: `words` (names of quantities), `error`, `loads` (trains of a case with its factors),
-//! `outcome` (what a calculation gives), `crane` (what codes need of the crane), `combinations` (cases of
-//! codes), `limits` (limits of codes), `rounding` (what is only rounding), `solve`,
-//! `tables`, `summary`.
+//! Files, lowest first: `words` (names of quantities, members for clauses), `error`, `loads` (trains of a case with its
+//! factors), `outcome` (what a calculation gives), `combinations` (cases of codes), `limits` (limits of codes), `rounding`
+//! (what is only rounding), `solve`, `tables`, `summary`.
 
 mod combinations;
-mod crane;
 mod error;
 mod limits;
 mod loads;
@@ -28,4 +26,4 @@ pub use outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes, Reac
 pub use solve::solve;
 pub use summary::summary;
 pub use tables::{envelope_csv, load_word, reactions_csv};
-pub use words::{plane_word, quantity_word, side_word};
+pub use words::{clause_json, plane_word, quantity_word, side_word};

@@ -1,17 +1,13 @@
 //! Limits of codes against the results of a design, and loads for fatigue.
 
-use formats::design::{Design, DesignCase, DesignTrain};
+use formats::design::{CODE_PARTS, Design, DesignCase, DesignTrain, DesignWheel};
 use formats::units::{Dimension, Scale, Units};
 use practice::duty::{equivalent_load, fatigue_factor};
 use practice::factor::PHI1;
 use practice::limits::{DeflectionLimit, LimitedDisplacement};
 use trains::GirderResponse;
 
-use crate::crane::phi2_of;
 use crate::outcome::{FatigueLoads, LimitCheck, SolvedCase};
-
-/// Parts of vertical forces by their names in a design.
-const PARTS: [&str; 2] = ["crane", "hoist"];
 
 /// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
 /// and without factors, as the codes want them.
@@ -52,7 +48,7 @@ fn words(
     design: &Design,
     case: &DesignCase,
 ) -> Option<&'static str> {
-    let is_thrust = || case.trains.iter().flat_map(|&k| &design.trains[k].wheels).any(|w| w.lateral != 0.0);
+    let is_thrust = || case.trains.iter().any(|&train| design.trains[train].has_lateral_forces());
     match (limit.displacement, quantity) {
         (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
             Some("vertical deflection")
@@ -71,7 +67,7 @@ pub(crate) fn left_out(design: &Design, groups: &[String]) -> Vec<String> {
         let why = match limit.displacement {
             LimitedDisplacement::RunwayVertical => continue,
             LimitedDisplacement::RunwayLateral
-                if design.trains.iter().flat_map(|train| &train.wheels).any(|w| w.lateral != 0.0) =>
+                if design.trains.iter().any(DesignTrain::has_lateral_forces) =>
             {
                 continue;
             }
@@ -85,7 +81,7 @@ pub(crate) fn left_out(design: &Design, groups: &[String]) -> Vec<String> {
         let clause = limit.clause;
         out.push(format!("{name} ({} {}): {why}", clause.standard, clause.clause));
     }
-    if design.practice.s_class.is_some() && phi2_of(design).is_none() {
+    if design.practice.s_class.is_some() && design.practice.phi2().is_none() {
         out.push("damage-equivalent wheel loads: give `hoisting` and `hoist_speed` for phi2".to_owned());
     }
     if design.practice.s_class.is_some() && !design.trains.iter().any(has_parts) {
@@ -98,14 +94,15 @@ pub(crate) fn left_out(design: &Design, groups: &[String]) -> Vec<String> {
 }
 
 fn has_parts(train: &DesignTrain) -> bool {
-    let in_parts = |(name, _): &(String, f64)| PARTS.contains(&name.as_str());
-    train.wheels.iter().all(|wheel| wheel.vertical.iter().all(in_parts))
+    train.wheels.iter().all(DesignWheel::has_code_parts)
 }
 
 /// Damage-equivalent loads Q_e = lambda (phi_fat,1 Q_C + phi_fat,2 Q_H), phi_fat,i = (1 + phi_i)/2, by EN 1991-3, 2.12.1,
 /// of the trains whose vertical forces are given in the parts `crane` and `hoist`.
 pub(crate) fn fatigue_loads(design: &Design) -> Vec<FatigueLoads> {
-    let (Some(class), Some(phi2)) = (design.practice.s_class, phi2_of(design)) else { return Vec::new() };
+    let (Some(class), Some(phi2)) = (design.practice.s_class, design.practice.phi2()) else {
+        return Vec::new();
+    };
     let lambda = [class.normal(), class.shear()];
     let Ok(dynamic) = fatigue_factor(PHI1[1]).and_then(|a| Ok([a, fatigue_factor(phi2)?])) else {
         return Vec::new();
@@ -113,7 +110,7 @@ pub(crate) fn fatigue_loads(design: &Design) -> Vec<FatigueLoads> {
     let of_wheel = |vertical: &[(String, f64)]| {
         lambda.map(|lambda| {
             let part = |(name, force): &(String, f64)| {
-                let factor = dynamic[usize::from(name == PARTS[1])];
+                let factor = dynamic[usize::from(name == CODE_PARTS[1])];
                 equivalent_load(*force, lambda, factor).unwrap_or(0.0)
             };
             vertical.iter().map(part).sum()

@@ -1,5 +1,7 @@
 //! Words of results.
 
+use practice::clause::CodeClause;
+use serde_json::{Value, json};
 use trains::{GirderResponse, SectionSide};
 
 /// Word of a quantity: `moment`, `shear`, `normal`, `torsion` or `deflection`.
@@ -39,4 +41,15 @@ pub const fn side_word(side: SectionSide) -> &'static str {
 /// `max` or `min`.
 pub(crate) const fn kind_word(is_max: bool) -> &'static str {
     if is_max { "max" } else { "min" }
+}
+
+/// Code, edition, clause and source of a value as members of a summary.
+#[must_use]
+pub fn clause_json(clause: &CodeClause) -> Value {
+    json!({
+        "code": clause.standard,
+        "edition": clause.edition,
+        "clause": clause.clause,
+        "source": clause.evidence.words(),
+    })
 }

@@ -5,7 +5,7 @@
 //! move along together, the second derivative G_xx + 2 G_xp + G_pp is that of one polynomial, without a kink at the load.
 
 use crate::error::Error;
-use crate::line::{LineCell, Lines, NODES, in_powers};
+use crate::line::{LineCell, Lines, NODES, in_powers, shifted};
 use crate::structure::{Carrier, GirderResponse, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 
@@ -68,14 +68,9 @@ fn within(cell: &LineCell<1>, [from, to]: [f64; 2]) -> bool {
 
 /// The cubic of a cell in the fraction of a stretch.
 fn about(cell: &LineCell<1>, component: usize, [from, to]: [f64; 2]) -> [f64; 4] {
-    let [a, b, c, d] = cell.cubics[component][0];
-    let (t, h) = (from - cell.x[0], to - from);
-    [
-        a + t * (b + t * (c + t * d)),
-        h * (b + t * (2.0 * c + 3.0 * t * d)),
-        h * h * (c + 3.0 * t * d),
-        h * h * h * d,
-    ]
+    let [a, b, c, d] = shifted(&cell.cubics[component][0], from - cell.x[0]);
+    let h = to - from;
+    [a, h * b, h * h * c, h * h * h * d]
 }
 
 /// A polynomial of degree three in two fractions u and v: coefficients by powers of u and v.

@@ -7,7 +7,9 @@ use splines::Probe;
 use crate::error::Error;
 use crate::line::Lines;
 use crate::polynomial::Polynomial;
-use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure, deflection_axis, end_effects};
+use crate::structure::{
+    Carrier, GirderResponse, OnMember, QUANTITIES, Structure, deflection_axis, end_effects,
+};
 
 /// Loads that stay.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -153,10 +155,8 @@ impl Structure {
         let section = &self.model.sections[self.model.members[carrier.member].section];
         let mut force = up * (-section.mass * dead.gravity);
         let mut couple = Vector3::zeros();
-        for other in self.carriers.iter().filter(|other| other.member == carrier.member) {
-            let stretches = &self.rails[other.rail].stretches;
-            let stretch = stretches.iter().find(|stretch| stretch.element == other.element);
-            let [f, m] = self.load(stretch.expect("a carrier is made from a stretch"), 1)?;
+        for OnMember { other, stretch, .. } in self.on_member(carrier) {
+            let [f, m] = self.load(stretch, 1)?;
             let load = -dead.line(other.rail) / other.rate();
             force += f * load;
             couple += m * load;

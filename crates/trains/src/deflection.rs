@@ -32,7 +32,7 @@ use crate::pieces::{Piece, Pieces};
 use crate::plan::{Arrangement, CasePlan};
 use crate::polynomial::Polynomial;
 use crate::search::{Bend, Margin, Search};
-use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure, deflection_axis};
+use crate::structure::{Carrier, GirderResponse, OnMember, QUANTITIES, Structure, deflection_axis};
 use crate::train::{COMPONENTS, PlacedTrain, axis};
 
 /// Most evaluations for one extreme under several trains, whose slope jumps under wheels.
@@ -229,7 +229,7 @@ impl<'a> Deflections<'a> {
                             let bend = Bend { kinks: if follows { 0.0 } else { bend.kinks }, ..bend };
                             let margin: Margin<'_> = match &blocked {
                                 Some(blocked) => Box::new(|x| blocked.margin(x)),
-                                None => Box::new(move |x| Bend::margin(x, bend)),
+                                None => Box::new(move |x| bend.margin(x)),
                             };
                             let mut search = Search::new(sign, margin, window, |x| {
                                 Ok(self.best(case, carrier.rail, x, quantity, sign)?.map(|(found, _)| found))
@@ -295,7 +295,7 @@ impl<'a> Deflections<'a> {
                     }
                     let bend = self.bend(case, carrier, span, all, quantity, load);
                     for sign in [1.0, -1.0] {
-                        let margin = Box::new(move |x| Bend::margin(x, bend));
+                        let margin = Box::new(move |x| bend.margin(x));
                         let mut search = Search::new(sign, margin, window, |x| {
                             let r = (x - ends[0]) / (ends[1] - ends[0]);
                             let places = [[x, 1.0], [ends[0], r - 1.0], [ends[1], -r]];
@@ -407,13 +407,8 @@ impl<'a> Deflections<'a> {
 
     /// Force and couple about the axis of the member of a carrier from each wheel that can stand on it, global.
     fn loads_on(&self, carrier: &Carrier, train: &PlacedTrain) -> Vec<[Vector3<f64>; 2]> {
-        let rails = self.structure.carriers.iter().filter(|other| other.member == carrier.member);
-        let stretches = rails.filter_map(|other| {
-            let own = &self.structure.rails[other.rail].stretches;
-            own.iter().find(|stretch| stretch.element == other.element)
-        });
         let mut out = Vec::new();
-        for stretch in stretches {
+        for OnMember { stretch, .. } in self.structure.on_member(carrier) {
             for wheel in train.wheels.iter().filter(|wheel| wheel.rail == stretch.rail) {
                 let mut total = [Vector3::zeros(); 2];
                 for (component, load) in wheel.load.iter().enumerate().filter(|(_, load)| **load != 0.0) {

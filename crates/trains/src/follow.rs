@@ -7,6 +7,7 @@
 //! (`section`); this file does the others.
 
 use crate::dead::DeadLoad;
+use crate::line::shifted;
 use crate::pieces::Pieces;
 use crate::polynomial::Polynomial;
 use crate::running::PiecewiseFunction;
@@ -175,15 +176,7 @@ impl State<'_> {
     /// Response k at a place that is linear in the distance from position `from` of the piece, the first `count` wheels
     /// counted as before it.
     fn quantity(&self, k: usize, place: &Polynomial, from: f64, count: usize) -> Polynomial {
-        let base = |k: usize| {
-            let [a, b, c, d] = self.base[k];
-            Polynomial::new(&[
-                a + from * (b + from * (c + from * d)),
-                b + from * (2.0 * c + from * (3.0 * d)),
-                c + 3.0 * from * d,
-                d,
-            ])
-        };
+        let base = |k: usize| Polynomial::new(&shifted(&self.base[k], from));
         let mut out = base(k);
         if let Some(shear) = slope_index(k) {
             out = out.plus(&base(shear).times(place), 1.0);

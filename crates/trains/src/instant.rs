@@ -9,7 +9,7 @@ use splines::{InfluenceLines, Probe};
 
 use crate::error::Error;
 use crate::section::slope_index;
-use crate::structure::{Carrier, QUANTITIES, Structure, end_effects};
+use crate::structure::{Carrier, OnMember, QUANTITIES, Structure, end_effects};
 use crate::train::axis;
 
 /// Distance from the end of a member, relative to its length along the rail, within which a load counts as just inside.
@@ -194,25 +194,13 @@ impl MemberForces {
 /// The rail elements on the member of a carrier.
 fn loaded_elements(structure: &Structure, carrier: &Carrier) -> Result<Vec<LoadedElement>, Error> {
     let mut out = Vec::new();
-    for other in structure.carriers.iter().filter(|other| other.member == carrier.member) {
-        let same = other.reversed == carrier.reversed;
-        let stretch = structure.rails[other.rail]
-            .stretches
-            .iter()
-            .find(|stretch| stretch.element == other.element)
-            .expect("a carrier is made from a stretch of its rail");
+    for OnMember { other, stretch, start, rate } in structure.on_member(carrier) {
         let mut jumps = [[0.0; QUANTITIES]; 3];
         for (component, jump) in jumps.iter_mut().enumerate() {
             let [force, couple] = structure.load(stretch, component)?;
             *jump = carrier.jump(&force, &couple);
         }
-        out.push(LoadedElement {
-            rail: other.rail,
-            x: other.x,
-            start: if same { 0.0 } else { carrier.length },
-            rate: if same { other.rate() } else { -other.rate() },
-            jumps,
-        });
+        out.push(LoadedElement { rail: other.rail, x: other.x, start, rate, jumps });
     }
     Ok(out)
 }

@@ -79,6 +79,11 @@ pub(crate) fn cubics<E>(
         .collect())
 }
 
+/// The cubic c(x + t).
+pub(crate) fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
+    [a + t * (b + t * (c + t * d)), b + t * (2.0 * c + t * (3.0 * d)), c + 3.0 * t * d, *d]
+}
+
 /// Coefficients of the cubic with the values f at the nodes.
 pub(crate) fn in_powers(f: [f64; 4]) -> [f64; 4] {
     let [a, b, c, d] = NODES;

@@ -1,6 +1,6 @@
 //! Responses to a train as piecewise cubics in its position.
 
-use crate::line::{LineCell, Lines, cell_at};
+use crate::line::{LineCell, Lines, cell_at, shifted};
 use crate::polynomial::Polynomial;
 use crate::train::{COMPONENTS, PlacedTrain};
 
@@ -105,9 +105,6 @@ fn under<const N: usize>(cell: &LineCell<N>, load: &[f64; COMPONENTS]) -> [[f64;
 }
 
 /// Adds the cubic c(x + t) to a cubic in x.
-fn add_shifted(sum: &mut [f64; 4], [a, b, c, d]: &[f64; 4], t: f64) {
-    sum[0] += a + t * (b + t * (c + t * d));
-    sum[1] += b + t * (2.0 * c + t * (3.0 * d));
-    sum[2] += c + 3.0 * t * d;
-    sum[3] += d;
+fn add_shifted(sum: &mut [f64; 4], cubic: &[f64; 4], t: f64) {
+    sum.iter_mut().zip(shifted(cubic, t)).for_each(|(sum, c)| *sum += c);
 }

@@ -55,8 +55,9 @@ struct Order {
 pub(crate) struct Way {
     /// The first stance of this way round.
     pub stance: usize,
-    /// As a function of the position, and of the position counted backwards.
-    function: [PiecewiseFunction; 2],
+    /// As a function of the position, and of the position counted backwards where an order needs it.
+    function: PiecewiseFunction,
+    mirrored: Option<PiecewiseFunction>,
 }
 
 /// Value, and train, stance and position of each train of a group.
@@ -237,8 +238,10 @@ impl CasePlan {
                 continue;
             }
             for &train in &group.orders[0].trains {
-                let own = |stance: usize| PiecewiseFunction::of(&pieces[train][stance], k, sign, stance);
-                ways[train] = self.ways(train, &distinct[train], own);
+                let own = distinct[train]
+                    .iter()
+                    .map(|&stance| (stance, PiecewiseFunction::of(&pieces[train][stance], k, sign, stance)));
+                ways[train] = self.ways(train, own);
             }
             let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
             let mut best: Option<Chain> = None;
@@ -323,22 +326,26 @@ impl CasePlan {
         }
     }
 
-    /// A response to a train each way round, from that in each of the listed stances.
-    pub fn ways(&self, train: usize, listed: &[usize], own: impl Fn(usize) -> PiecewiseFunction) -> Vec<Way> {
+    /// A response to a train each way round, from that in each of some stances.
+    pub fn ways(
+        &self,
+        train: usize,
+        stances: impl IntoIterator<Item = (usize, PiecewiseFunction)>,
+    ) -> Vec<Way> {
         let mut out: Vec<(bool, usize, PiecewiseFunction)> = Vec::new();
-        for &stance in listed {
+        for (stance, own) in stances {
             let turned = self.trains[train][stance].stance.turned;
-            let own = own(stance);
             match out.iter_mut().find(|(known, ..)| *known == turned) {
                 Some((_, _, function)) => *function = larger_of(function, &own),
                 None => out.push((turned, stance, own)),
             }
         }
-        let both = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
-            let mirrored = function.mirrored();
-            Way { stance, function: [function, mirrored] }
+        let backwards = self.groups.iter().flat_map(|group| &group.orders).any(|order| order.mirrored);
+        let way = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
+            let mirrored = backwards.then(|| function.mirrored());
+            Way { stance, function, mirrored }
         };
-        out.into_iter().map(both).collect()
+        out.into_iter().map(way).collect()
     }
 
     /// The best positions of trains in one order and one way round each, if the value is above `limit`: train, stance and
@@ -347,7 +354,8 @@ impl CasePlan {
         let stances: Vec<usize> = ways.iter().map(|way| way.stance).collect();
         let mut sums: Vec<PiecewiseFunction> = Vec::with_capacity(ways.len());
         for (at, way) in ways.iter().enumerate() {
-            let mut sum = way.function[usize::from(order.mirrored)].clone();
+            let own = if order.mirrored { way.mirrored.as_ref() } else { Some(&way.function) };
+            let mut sum = own.expect("a plan with mirrored orders mirrors every way").clone();
             for &j in &order.before[at] {
                 sum = sum_of(&sum, &running_maximum(&sums[j], self.step(order, &stances, j, at)))?;
             }

@@ -29,9 +29,9 @@ pub(crate) struct Bend {
 
 impl Bend {
     /// k h^2/8 + s h/4 on an interval of length h.
-    pub fn margin([from, to]: [f64; 2], bend: Bend) -> f64 {
+    pub fn margin(self, [from, to]: [f64; 2]) -> f64 {
         let h = to - from;
-        bend.curvature * h * h / 8.0 + bend.kinks * h / 4.0
+        self.curvature * h * h / 8.0 + self.kinks * h / 4.0
     }
 }
 

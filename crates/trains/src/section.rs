@@ -5,8 +5,9 @@
 //! s times its shear at the end plus (s - s_k) times the jump of the shear.
 
 use crate::error::Error;
+use crate::line::shifted;
 use crate::pieces::{Piece, Pieces};
-use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
+use crate::structure::{Carrier, GirderResponse, OnMember, QUANTITIES, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 use nalgebra::Vector3;
 
@@ -66,13 +67,7 @@ impl TrainOnCarrier {
         train: &PlacedTrain,
     ) -> Result<TrainOnCarrier, Error> {
         let mut mappings = Vec::new();
-        for other in structure.carriers.iter().filter(|other| other.member == carrier.member) {
-            let same = other.reversed == carrier.reversed;
-            let stretch = structure.rails[other.rail]
-                .stretches
-                .iter()
-                .find(|stretch| stretch.element == other.element)
-                .expect("a carrier is made from a stretch of its rail");
+        for OnMember { other, stretch, start, rate } in structure.on_member(carrier) {
             let mut units = [[Vector3::zeros(); 2]; COMPONENTS];
             for (component, unit) in units.iter_mut().enumerate() {
                 *unit = structure.load(stretch, component)?;
@@ -87,8 +82,8 @@ impl TrainOnCarrier {
                 rail: other.rail,
                 element: other.element,
                 x: other.x[0],
-                s: if same { 0.0 } else { carrier.length },
-                rate: if same { other.rate() } else { -other.rate() },
+                s: start,
+                rate,
                 jumps: train.wheels.iter().map(jump).collect(),
             });
         }
@@ -242,9 +237,4 @@ enum Side {
 fn ends_of(piece: &Piece<QUANTITIES>, ends: &[f64]) -> [f64; 2] {
     let at = |t: f64| if t >= piece.length() { piece.position[1] } else { piece.position[0] + t };
     [at(ends[0]), at(ends[1])]
-}
-
-/// The cubic c(x + t).
-fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
-    [a + t * (b + t * (c + t * d)), b + t * (2.0 * c + t * (3.0 * d)), c + 3.0 * t * d, *d]
 }

@@ -89,9 +89,10 @@ fn beside_wheels(
     let all = |s: f64| -> Vec<Vec<Way>> {
         let sections = over.section(s);
         let of = |(train, stances): (usize, &Vec<Vec<Piece<QUANTITIES>>>)| {
-            let listed: Vec<usize> = (0..stances.len()).collect();
-            let own = |stance: usize| PiecewiseFunction::of(&stances[stance], target.k, target.sign, stance);
-            plan.ways(train, &listed, own)
+            let own = stances.iter().enumerate().map(|(stance, pieces)| {
+                (stance, PiecewiseFunction::of(pieces, target.k, target.sign, stance))
+            });
+            plan.ways(train, own)
         };
         sections.iter().enumerate().map(of).collect()
     };
@@ -100,12 +101,12 @@ fn beside_wheels(
     for (train, stances) in plan.trains.iter().enumerate() {
         for wheel in 0..stances[0].wheels.len() {
             for side in [SectionSide::Before, SectionSide::Behind] {
-                let own = |stance: usize| {
-                    over.on[train][stance].beside(&over.pieces[train][stance], target, wheel, side, stance)
+                let beside = |stance: usize| {
+                    let pieces = &over.pieces[train][stance];
+                    (stance, over.on[train][stance].beside(pieces, target, wheel, side, stance))
                 };
-                let listed: Vec<usize> =
-                    (0..stances.len()).filter(|&stance| !own(stance).is_empty()).collect();
-                let following = plan.ways(train, &listed, own);
+                let within = (0..stances.len()).map(beside).filter(|(_, function)| !function.is_empty());
+                let following = plan.ways(train, within);
                 let Some(found) = plan.best_around(train, &following, &passed, &ahead) else { continue };
                 let standing = found.trains[train];
                 let mut at = Vec::new();

@@ -140,6 +140,17 @@ impl Carrier {
     }
 }
 
+/// A rail element on the member of a carrier: where loads on it stand on the member.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct OnMember<'s> {
+    /// The rail element as a carrier.
+    pub other: &'s Carrier,
+    pub stretch: &'s Stretch,
+    /// Place along the carrier at the first coordinate of the element, and its change by the coordinate.
+    pub start: f64,
+    pub rate: f64,
+}
+
 /// A rail with the frame of its coordinates.
 #[derive(Clone, Debug)]
 pub(crate) struct RailFrame {
@@ -266,6 +277,22 @@ impl Structure {
     pub(crate) fn shifts(&self, first: usize) -> Vec<f64> {
         let origin = self.rails[first].origin;
         self.rails.iter().map(|rail| (origin - rail.origin).dot(&rail.axes[0])).collect()
+    }
+
+    /// The rail elements on the member of a carrier, its own included.
+    pub(crate) fn on_member<'s>(&'s self, carrier: &'s Carrier) -> impl Iterator<Item = OnMember<'s>> + 's {
+        let others = self.carriers.iter().filter(|other| other.member == carrier.member);
+        others.map(|other| {
+            let same = other.reversed == carrier.reversed;
+            let stretches = &self.rails[other.rail].stretches;
+            let stretch = stretches.iter().find(|stretch| stretch.element == other.element);
+            OnMember {
+                other,
+                stretch: stretch.expect("a carrier is made from a stretch of its rail"),
+                start: if same { 0.0 } else { carrier.length },
+                rate: if same { other.rate() } else { -other.rate() },
+            }
+        })
     }
 
     /// Whether the structure resists a component of load on a rail.

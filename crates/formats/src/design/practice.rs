@@ -3,7 +3,7 @@
 use practice::aist::CraneKind;
 use practice::asce::CraneOperation;
 use practice::factor::DriveOnset;
-use practice::limit_choice::{LIMIT_CODES, limits_of};
+use practice::limit_choice::{LIMIT_CODES, code_name, limits_of};
 
 use super::raw::RawDesignPractice;
 use super::values::DesignPractice;
@@ -65,7 +65,7 @@ fn limits(
     check: &mut Check<'_>,
 ) -> Vec<practice::limits::DeflectionLimit> {
     let Some(code) = &raw.code else { return Vec::new() };
-    let name = code.split(':').next().unwrap_or(code).trim();
+    let name = code_name(code);
     let known: Vec<(&str, usize)> =
         LIMIT_CODES.iter().chain([&ASCE_7]).enumerate().map(|(k, word)| (*word, k)).collect();
     if resolve(name, &known, "code", &at.key("code"), check.faults).is_none() || name == ASCE_7 {

@@ -28,9 +28,6 @@ const STANDARD_GRAVITY: f64 = 9.806_65;
 /// Names of loads that every case may factor, beside those of parts of vertical forces.
 const LOADS: [&str; 6] = ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer"];
 
-/// Parts of vertical forces that the groups of loads of a code need.
-const GROUP_PARTS: [&str; 2] = ["crane", "hoist"];
-
 impl Design {
     /// Reads a design and the spec that it names.
     ///
@@ -472,10 +469,7 @@ fn require_parts(
         if !cases.iter().any(|case| case.factors.is_empty() && case.trains.contains(&index)) {
             continue;
         }
-        let lacking = train
-            .wheels
-            .iter()
-            .position(|wheel| !wheel.vertical.iter().all(|(name, _)| GROUP_PARTS.contains(&name.as_str())));
+        let lacking = train.wheels.iter().position(|wheel| !wheel.has_code_parts());
         if let Some(wheel) = lacking {
             let train = at.index(index);
             let wheels = train.key("wheels");

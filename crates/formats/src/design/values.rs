@@ -5,7 +5,7 @@ use std::sync::Arc;
 use practice::aist::CraneKind;
 use practice::asce::CraneOperation;
 use practice::duty::FatigueClass;
-use practice::factor::{DriveOnset, HoistingClass, Release};
+use practice::factor::{DriveOnset, HoistingClass, Release, phi2};
 use practice::limits::DeflectionLimit;
 
 use crate::spec::Spec;
@@ -64,6 +64,14 @@ pub struct DesignPractice {
     pub combinations: bool,
 }
 
+impl DesignPractice {
+    /// phi2 of the hoisting class at the rated speed; `None` where the design does not give both.
+    #[must_use]
+    pub fn phi2(&self) -> Option<f64> {
+        phi2(self.hoisting?, self.hoist_speed?).ok()
+    }
+}
+
 /// Dead load of a design.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DesignDead {
@@ -111,6 +119,25 @@ pub struct DesignWheel {
     pub buffer: f64,
     /// Distance of the forces from the line of the rail along +z.
     pub eccentricity: f64,
+}
+
+/// Parts of vertical forces that codes factor apart: the weight of the crane and the hoisted load.
+pub const CODE_PARTS: [&str; 2] = ["crane", "hoist"];
+
+impl DesignWheel {
+    /// Whether its vertical force is given in the parts that codes factor apart.
+    #[must_use]
+    pub fn has_code_parts(&self) -> bool {
+        self.vertical.iter().all(|(name, _)| CODE_PARTS.contains(&name.as_str()))
+    }
+}
+
+impl DesignTrain {
+    /// Whether any wheel has a lateral force.
+    #[must_use]
+    pub fn has_lateral_forces(&self) -> bool {
+        self.wheels.iter().any(|wheel| wheel.lateral != 0.0)
+    }
 }
 
 /// Trains that stand on the rails at once.

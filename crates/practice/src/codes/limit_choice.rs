@@ -36,6 +36,12 @@ pub fn building_class(letter: &str) -> Option<BuildingClass> {
     }
 }
 
+/// The name of a code without the edition behind a colon, as in `EN 1993-6:2007`.
+#[must_use]
+pub fn code_name(code: &str) -> &str {
+    code.split_once(':').map_or(code, |(name, _)| name).trim()
+}
+
 /// The limits of a code by its name and class. An edition after the name, as in `EN 1993-6:2007`, is ignored.
 ///
 /// The class is that of the crane (A to F) for AISC Design Guide 7, that of the building (A to D) for AIST TR-13, and
@@ -54,8 +60,7 @@ pub fn building_class(letter: &str) -> Option<BuildingClass> {
 /// ```
 #[must_use]
 pub fn limits_of(code: &str, class: Option<&str>) -> Option<Vec<DeflectionLimit>> {
-    let name = code.split(':').next().unwrap_or(code).trim();
-    match name {
+    match code_name(code) {
         "EN 1991-3" | "EN 1993-6" => Some(EN_1993_6_LIMITS.to_vec()),
         "CMAA 70" => Some(CMAA_LIMITS.to_vec()),
         "AISC Design Guide 7" => Some(design_guide_limits(service_class(class?)?).to_vec()),

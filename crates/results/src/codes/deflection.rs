@@ -4,6 +4,7 @@
 //! chord between its ends is therefore computed once more: at the positions of the wheels in the run, with the static
 //! load of each wheel by statics. Laterally, a tenth of the static loads of the wheels on the span's own rail acts.
 
+use design::clause_json;
 use foundations::SolvedModel;
 use practice::aist::{BuildingClass, CraneKind};
 use practice::limits::{
@@ -15,7 +16,6 @@ use sim::History;
 use splines::{Axis, Compliance, Influence, Probe};
 
 use super::crane::{CraneData, to_si};
-use super::value::clause_json;
 use crate::response::{Deflection, WheelLoad, WheelLoadReader};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Practice, Scene, root_body};

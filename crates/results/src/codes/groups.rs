@@ -1,12 +1,12 @@
 //! Groups of crane loads with their factors for one crane.
 
+use design::clause_json;
 use practice::combination::{DynamicFactors, LoadGroup, eurocode_groups};
 use practice::factor;
 use practice::mill_combination::mill_fatigue;
 use serde_json::{Map, Value, json};
 
 use super::case::CodeCase;
-use super::value::clause_json;
 
 /// A group of loads with the factors of one crane.
 #[derive(Clone, Debug, PartialEq)]

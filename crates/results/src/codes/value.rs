@@ -1,5 +1,6 @@
 //! Values by codes, with code, edition, clause, formula and the check of the value.
 
+use design::clause_json;
 use practice::clause::CodeClause;
 use serde_json::{Value, json};
 
@@ -21,16 +22,6 @@ impl CodeValue {
         members["value"] = json!(self.value + 0.0);
         members
     }
-}
-
-/// Code, edition, clause and source as members of a summary.
-pub(super) fn clause_json(clause: &CodeClause) -> Value {
-    json!({
-        "code": clause.standard,
-        "edition": clause.edition,
-        "clause": clause.clause,
-        "source": clause.evidence.words(),
-    })
 }
 
 /// Values for one quantity; values outside the domain of a formula are omitted.

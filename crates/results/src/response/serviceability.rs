@@ -5,6 +5,7 @@
 //! forces and the recorded degrees of freedom, u = G F + Phi q ([`LoadedStructure::displacements`]), at several
 //! positions within each span or at the columns of a frame. The largest value is stored with its position and time.
 
+use design::clause_json;
 use fea::{Model, Rail};
 use nalgebra::Vector3;
 use practice::clause::{CodeClause, Evidence, aist_2021, en_1993_6};
@@ -189,15 +190,11 @@ impl Drift {
     #[must_use]
     pub fn json(&self) -> Value {
         let limit = |(clause, formula, most): &(CodeClause, &str, f64)| {
-            json!({
-                "code": clause.standard,
-                "edition": clause.edition,
-                "clause": clause.clause,
-                "source": clause.evidence.words(),
-                "formula": formula,
-                "value": most,
-                "within": self.value <= *most,
-            })
+            let mut members = clause_json(clause);
+            members["formula"] = json!(formula);
+            members["value"] = json!(most);
+            members["within"] = json!(self.value <= *most);
+            members
         };
         json!({
             "rail": self.rail,
