@@ -1,5 +1,7 @@
 //! The calculation: for each member its influence lines, for each case the extremes over it and the envelopes at places.
 
+use std::collections::VecDeque;
+
 use crate::collect::{Accumulated, Entry, entry, is_better, offer, sign_of, spans_of, standings};
 use crate::dead::{DeadLoad, DeadLoads};
 use crate::deflection::Deflections;
@@ -9,11 +11,11 @@ use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtr
 use crate::follow::{SectionSide, Target};
 use crate::line::Lines;
 use crate::overrun::Overrun;
-use crate::pieces::Piece;
-use crate::plan::{Arrangement, CasePlan, TIE};
+use crate::plan::{Arrangement, CasePlan, Standing, TIE};
+use crate::rail_deflection::CarrierLines;
 use crate::several;
 use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
-use crate::train::TrainCase;
+use crate::train::{COMPONENTS, TrainCase};
 
 /// Carriers whose influence lines are solved at once.
 const BATCH: usize = 32;
@@ -54,22 +56,30 @@ pub fn envelopes(
     request: &Request,
 ) -> Result<Vec<CaseEnvelopes>, Error> {
     let (plans, used) = plans(structure, dead, cases)?;
-    let analysis = Analysis { structure, plans: &plans, request };
+    let analysis = Analysis { structure, plans: &plans, request, used };
     let mut extremes: Vec<Accumulated> = cases.iter().map(|_| Accumulated::default()).collect();
-    let mut kept = Vec::new();
+    let mut out = vec![CaseEnvelopes::default(); cases.len()];
+    let mut waiting: VecDeque<Prepared<'_>> = VecDeque::new();
     for carriers in structure.carriers.chunks(BATCH) {
-        let lines = structure.end_lines(carriers, used)?;
-        let loads = structure.dead_loads(dead, carriers, &lines)?;
-        for ((carrier, lines), load) in carriers.iter().zip(lines).zip(loads) {
-            analysis.extremes_on(carrier, &lines, &load, &mut extremes)?;
-            kept.push((carrier, lines, load));
+        let forces = structure.end_lines(carriers, used)?;
+        let loads = structure.dead_loads(dead, carriers, &forces)?;
+        for ((carrier, forces), load) in carriers.iter().zip(forces).zip(loads) {
+            let prepared = analysis.prepared(carrier, forces, &load)?;
+            analysis.extremes_on(&prepared, &mut extremes, &mut out)?;
+            waiting.push_back(prepared);
+            // Extremes of a span are final when all its members, and those of the next one, are done.
+            let done = |first: &Prepared<'_>| {
+                first.carrier.rail != carrier.rail
+                    || analysis.spans(first.carrier)[1] + 1 < analysis.spans(carrier)[0]
+            };
+            while waiting.front().is_some_and(done) {
+                let first = waiting.pop_front().expect("there is a first one");
+                analysis.envelopes_on(&first, &mut extremes, &mut out);
+            }
         }
     }
-    let deflections = Deflections::new(structure, &plans, request, used, &kept);
-    deflections.extremes(&mut extremes)?;
-    let mut out = vec![CaseEnvelopes::default(); cases.len()];
-    for (carrier, lines, load) in &kept {
-        analysis.envelopes_on(carrier, lines, load, &deflections, (&mut extremes, &mut out))?;
+    for prepared in &waiting {
+        analysis.envelopes_on(prepared, &mut extremes, &mut out);
     }
     for (case, out) in out.iter_mut().enumerate() {
         out.envelopes.sort_by(|a, b| {
@@ -78,7 +88,7 @@ pub fn envelopes(
             place.then(key(a).cmp(&key(b)))
         });
         out.extremes = finished(&extremes[case], &out.envelopes, structure.slack());
-        out.deflections = deflections.beside_chords(case, &extremes[case])?;
+        out.deflections.sort_by_key(|d| (d.rail, d.span, d.quantity));
     }
     for (out, effects) in
         out.iter_mut().zip(extremes_of_effects(structure, dead, &plans, &request.effects, used)?)
@@ -95,10 +105,12 @@ fn finished(all: &Accumulated, envelopes: &[EnvelopeValue], slack: f64) -> Vec<S
         .iter()
         .filter_map(|entry| {
             let mut governing = entry.governing.clone()?;
-            let same = envelopes.iter().find(|e| {
-                (e.rail, e.quantity, e.is_max) == (entry.rail, entry.quantity, entry.is_max)
-                    && (e.governing.x - governing.x).abs() <= slack
-            });
+            let first =
+                envelopes.partition_point(|e| (e.rail, e.governing.x) < (entry.rail, governing.x - slack));
+            let same = envelopes[first..]
+                .iter()
+                .take_while(|e| e.rail == entry.rail && e.governing.x <= governing.x + slack)
+                .find(|e| (e.quantity, e.is_max) == (entry.quantity, entry.is_max));
             governing.coincident = same.map_or([0.0; 3], |e| e.governing.coincident);
             let sign = sign_of(entry.is_max);
             let bound = entry.bound.map_or(governing.value, |bound| sign * bound.max(sign * governing.value));
@@ -115,50 +127,103 @@ struct Analysis<'a> {
     structure: &'a Structure,
     plans: &'a [CasePlan],
     request: &'a Request,
+    used: [bool; COMPONENTS],
 }
 
-impl Analysis<'_> {
-    /// Extremes of the internal forces over a carrier, span by span.
+/// A carrier with the trains of each case over it and the dead load with the factor of the case.
+struct Prepared<'a> {
+    carrier: &'a Carrier,
+    lines: CarrierLines,
+    cases: Vec<(Overrun, DeadLoad)>,
+}
+
+impl<'a> Analysis<'a> {
+    /// Influence lines of a carrier, and the responses of its ends to all trains.
+    fn prepared(
+        &self,
+        carrier: &'a Carrier,
+        forces: Lines<QUANTITIES>,
+        load: &DeadLoad,
+    ) -> Result<Prepared<'a>, Error> {
+        let deflections = |direction| self.structure.deflection_lines(carrier, direction, None, self.used);
+        let lines = CarrierLines { forces, deflections: [deflections(0)?, deflections(1)?] };
+        let case = |plan: &CasePlan| {
+            Ok((Overrun::new(self.structure, plan, carrier, &lines)?, load.times(plan.dead)))
+        };
+        let cases = self.plans.iter().map(case).collect::<Result<_, Error>>()?;
+        Ok(Prepared { carrier, lines, cases })
+    }
+
+    /// Numbers of the first and the last span over a carrier.
+    fn spans(&self, carrier: &Carrier) -> [usize; 2] {
+        let spans = spans_of(self.request, self.structure, carrier);
+        let number = |span: Option<&(usize, [f64; 2])>| span.map_or(0, |(number, _)| *number);
+        [number(spans.first()), number(spans.last())]
+    }
+
+    /// Extremes over a carrier, span by span: of the internal forces, then of the deflections.
     fn extremes_on(
         &self,
-        carrier: &Carrier,
-        lines: &Lines<QUANTITIES>,
-        load: &DeadLoad,
-        out: &mut [Accumulated],
+        prepared: &Prepared<'_>,
+        extremes: &mut [Accumulated],
+        out: &mut [CaseEnvelopes],
     ) -> Result<(), Error> {
-        for (plan, out) in self.plans.iter().zip(out) {
-            let dead = load.times(plan.dead);
-            let over = Overrun::new(self.structure, plan, carrier, lines)?;
-            for (span, ends) in spans_of(self.request, self.structure, carrier) {
-                let window = ends.map(|x| carrier.place(x));
-                let sections = [0, 1].map(|end| Section {
-                    plan,
-                    dead: &dead,
-                    pieces: over.section(window[end]),
-                    s: window[end],
-                    x: ends[end],
-                    side: self.side_of_end(carrier, ends[end], end),
-                });
-                for quantity in &GirderResponse::ALL[..QUANTITIES] {
-                    for is_max in [true, false] {
-                        let sign = sign_of(is_max);
-                        let entry = entry(out, carrier.rail, span, *quantity, is_max);
-                        for section in &sections {
-                            let found = section.best(*quantity, sign).map(|(governing, _)| governing);
-                            offer(&mut entry.governing, found, sign);
-                        }
-                        let target = Target { k: *quantity as usize, sign, window, dead: &dead };
-                        if plan.trains.len() == 1 {
-                            let found = follow_one(plan, &over, carrier, &target, entry.governing.as_ref());
-                            offer(&mut entry.governing, found, sign);
-                            continue;
-                        }
-                        let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
-                        if let Some((found, bound)) = several::enclosed(plan, &over, carrier, &target, known)?
-                        {
-                            offer(&mut entry.governing, found, sign);
-                            entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
-                        }
+        let each = self.plans.iter().zip(&prepared.cases).zip(extremes.iter_mut().zip(out));
+        for ((plan, (over, dead)), (extremes, out)) in each {
+            self.forces_on(prepared.carrier, plan, over, dead, extremes)?;
+            let deflections = Deflections {
+                structure: self.structure,
+                request: self.request,
+                used: self.used,
+                plan,
+                carrier: prepared.carrier,
+                lines: &prepared.lines,
+                dead,
+                over,
+            };
+            deflections.extremes(extremes)?;
+            deflections.beside_chords(extremes, &mut out.deflections)?;
+        }
+        Ok(())
+    }
+
+    /// Extremes of the internal forces over a carrier in one case.
+    fn forces_on(
+        &self,
+        carrier: &Carrier,
+        plan: &CasePlan,
+        over: &Overrun,
+        dead: &DeadLoad,
+        out: &mut Accumulated,
+    ) -> Result<(), Error> {
+        for (span, ends) in spans_of(self.request, self.structure, carrier) {
+            let window = ends.map(|x| carrier.place(x));
+            let sections = [0, 1].map(|end| Section {
+                plan,
+                dead,
+                over,
+                s: window[end],
+                x: ends[end],
+                side: self.side_of_end(carrier, ends[end], end),
+            });
+            for quantity in &GirderResponse::ALL[..QUANTITIES] {
+                for is_max in [true, false] {
+                    let sign = sign_of(is_max);
+                    let entry = entry(out, carrier.rail, span, *quantity, is_max);
+                    for section in &sections {
+                        let found = section.best(*quantity, sign, None).map(|(governing, _)| governing);
+                        offer(&mut entry.governing, found, sign);
+                    }
+                    let target = Target { k: *quantity as usize, sign, window, dead };
+                    if plan.trains.len() == 1 {
+                        let found = follow_one(plan, over, carrier, &target, entry.governing.as_ref());
+                        offer(&mut entry.governing, found, sign);
+                        continue;
+                    }
+                    let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                    if let Some((found, bound)) = several::enclosed(plan, over, carrier, &target, known)? {
+                        offer(&mut entry.governing, found, sign);
+                        entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
                     }
                 }
             }
@@ -178,55 +243,33 @@ impl Analysis<'_> {
     }
 
     /// Envelopes at the places of the request and of the extremes within a carrier.
-    fn envelopes_on(
-        &self,
-        carrier: &Carrier,
-        lines: &Lines<QUANTITIES>,
-        load: &DeadLoad,
-        deflections: &Deflections<'_>,
-        (extremes, out): (&mut [Accumulated], &mut [CaseEnvelopes]),
-    ) -> Result<(), Error> {
+    fn envelopes_on(&self, prepared: &Prepared<'_>, extremes: &mut [Accumulated], out: &mut [CaseEnvelopes]) {
         let slack = self.structure.slack();
-        for (case, (plan, out)) in self.plans.iter().zip(out).enumerate() {
-            let dead = load.times(plan.dead);
-            let over = Overrun::new(self.structure, plan, carrier, lines)?;
-            for x in self.places_on(carrier, &extremes[case]) {
+        let carrier = prepared.carrier;
+        let each = self.plans.iter().zip(&prepared.cases).zip(extremes.iter().zip(out));
+        for ((plan, (over, dead)), (extremes, out)) in each {
+            let mut hints = vec![None; 2 * GirderResponse::ALL.len()];
+            for x in self.places_on(carrier, extremes) {
                 let end = usize::from((x - carrier.x[1]).abs() <= slack);
                 let s = carrier.place(x);
                 let side = self.side_of_end(carrier, x, end);
-                let section = Section { plan, dead: &dead, pieces: over.section(s), s, x, side };
-                let at = (case, carrier.rail, x);
+                let section = Section { plan, dead, over, s, x, side };
                 for quantity in GirderResponse::ALL {
+                    let exists = (quantity as usize).checked_sub(QUANTITIES);
+                    if exists.is_some_and(|direction| prepared.lines.deflections[direction].is_none()) {
+                        continue;
+                    }
                     for is_max in [true, false] {
-                        let sign = sign_of(is_max);
-                        let Some(governing) = section.envelope(quantity, sign, at, deflections)? else {
+                        let hint = &mut hints[2 * quantity as usize + usize::from(is_max)];
+                        let Some(governing) = section.envelope(quantity, sign_of(is_max), hint) else {
                             continue;
                         };
-                        let known = out.envelopes.iter_mut().rev().take(4 * GirderResponse::ALL.len()).find(
-                            |known| {
-                                known.rail == carrier.rail
-                                    && (known.governing.x - x).abs() <= slack
-                                    && known.quantity == quantity
-                                    && known.is_max == is_max
-                            },
-                        );
-                        match known {
-                            Some(known) if is_better(&governing, &known.governing, sign) => {
-                                known.governing = governing
-                            }
-                            Some(_) => {}
-                            None => out.envelopes.push(EnvelopeValue {
-                                rail: carrier.rail,
-                                quantity,
-                                is_max,
-                                governing,
-                            }),
-                        }
+                        let found = EnvelopeValue { rail: carrier.rail, quantity, is_max, governing };
+                        offer_envelope(&mut out.envelopes, found, slack);
                     }
                 }
             }
         }
-        Ok(())
     }
 
     /// Places of the request and of the extremes of a case on a carrier, increasing.
@@ -243,20 +286,41 @@ impl Analysis<'_> {
     }
 }
 
+/// Adds a value of an envelope, or replaces that of the other side of the same place if it is better. Places come in
+/// increasing order, so that those at the same place are among the last.
+fn offer_envelope(all: &mut Vec<EnvelopeValue>, found: EnvelopeValue, slack: f64) {
+    let known = all.iter_mut().rev().take(4 * GirderResponse::ALL.len()).find(|known| {
+        known.rail == found.rail
+            && (known.governing.x - found.governing.x).abs() <= slack
+            && known.quantity == found.quantity
+            && known.is_max == found.is_max
+    });
+    match known {
+        Some(known) if is_better(&found.governing, &known.governing, sign_of(found.is_max)) => *known = found,
+        Some(_) => {}
+        None => all.push(found),
+    }
+}
+
 /// A section of a carrier under the trains of a case.
 struct Section<'a> {
     plan: &'a CasePlan,
     dead: &'a DeadLoad,
-    pieces: Vec<Vec<Vec<Piece<QUANTITIES>>>>,
+    over: &'a Overrun,
     s: f64,
     x: f64,
     side: SectionSide,
 }
 
 impl Section<'_> {
-    /// The governing state of an internal force, without coincident values.
-    fn best(&self, quantity: GirderResponse, sign: f64) -> Option<(Governing, Arrangement)> {
-        let found = self.plan.best(&self.pieces, quantity as usize, sign, f64::NEG_INFINITY)?;
+    /// The governing state of a quantity, without coincident values.
+    fn best(
+        &self,
+        quantity: GirderResponse,
+        sign: f64,
+        hint: Option<&Standing>,
+    ) -> Option<(Governing, Arrangement)> {
+        let found = self.over.best(self.plan, quantity as usize, sign, self.s, hint)?;
         let dead = self.dead.at(quantity, self.s);
         let governing = Governing {
             value: sign * found.signed + dead,
@@ -269,60 +333,24 @@ impl Section<'_> {
         Some((governing, found))
     }
 
-    /// The governing state of any quantity with the moment, shear and deflection of the same state.
+    /// The governing state of a quantity with the moment, shear and deflection of the same state. `hint` is the state of
+    /// the section before, and then that of this one.
     fn envelope(
         &self,
         quantity: GirderResponse,
         sign: f64,
-        (case, rail, x): (usize, usize, f64),
-        deflections: &Deflections<'_>,
-    ) -> Result<Option<Governing>, Error> {
-        let is_force = (quantity as usize) < QUANTITIES;
-        let found = if is_force {
-            self.best(quantity, sign)
-        } else {
-            deflections.best(case, rail, x, quantity, sign)?
-        };
-        let Some((mut governing, mut arrangement)) = found else { return Ok(None) };
-        if !is_force {
-            self.locate(&mut arrangement);
-            governing.side = self.side;
-        }
-        let [moment, shear, deflection] = quantity.coincident();
-        let dead = self.dead.at(deflection, self.s);
-        let bent = if quantity == deflection {
-            governing.value
-        } else {
-            dead + deflections.value(case, rail, x, deflection, &arrangement)?
-        };
-        let force = |k: GirderResponse| {
-            if k == quantity { governing.value } else { self.value(k, &arrangement) }
-        };
-        governing.coincident = [force(moment), force(shear), bent];
-        Ok(Some(governing))
-    }
-
-    /// Finds the pieces in which the trains of an arrangement stand.
-    fn locate(&self, arrangement: &mut Arrangement) {
-        for (standing, stances) in arrangement.trains.iter_mut().zip(&self.pieces) {
-            let list = &stances[standing.stance];
-            let found = list.partition_point(|piece| piece.position[1] < standing.position);
-            standing.piece = found.min(list.len() - 1);
-        }
-    }
-
-    /// An internal force in an arrangement, dead load included.
-    fn value(&self, quantity: GirderResponse, arrangement: &Arrangement) -> f64 {
-        let live: f64 = arrangement
-            .trains
-            .iter()
-            .zip(&self.pieces)
-            .map(|(standing, stances)| {
-                let piece = &stances[standing.stance][standing.piece];
-                piece.polynomial(quantity as usize).at(standing.position - piece.position[0])
-            })
-            .sum();
-        live + self.dead.at(quantity, self.s)
+        hint: &mut Option<Standing>,
+    ) -> Option<Governing> {
+        let (mut governing, arrangement) = self.best(quantity, sign, hint.as_ref())?;
+        *hint = arrangement.trains.first().copied();
+        governing.coincident = quantity.coincident().map(|k| {
+            if k == quantity {
+                governing.value
+            } else {
+                self.over.value(k as usize, self.s, &arrangement) + self.dead.at(k, self.s)
+            }
+        });
+        Some(governing)
     }
 }
 
@@ -338,7 +366,7 @@ fn follow_one(
     for (stance, placed) in plan.trains[0].iter().enumerate() {
         let so_far = best.as_ref().or(known).map_or(f64::NEG_INFINITY, |g| target.sign * g.value);
         let floor = so_far - TIE * so_far.abs();
-        let Some(peak) = over.on[0][stance].follow(&over.pieces[0][stance], target, floor) else { continue };
+        let Some(peak) = over.passages[0][stance].follow(target, floor) else { continue };
         let dead = target.dead.at(GirderResponse::ALL[target.k], peak.place);
         let found = Governing {
             value: target.sign * peak.signed,

@@ -5,8 +5,9 @@
 //! move along together, the second derivative G_xx + 2 G_xp + G_pp is that of one polynomial, without a kink at the load.
 
 use crate::error::Error;
-use crate::line::{LineCell, Lines, NODES, in_powers, shifted};
-use crate::structure::{Carrier, GirderResponse, Structure};
+use crate::line::{LineCell, Lines, NODES, in_powers};
+use crate::rail_deflection::POWERS;
+use crate::structure::{Carrier, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 
 /// Bounds of the second derivative of the deflection of one carrier per unit load: by rail and component.
@@ -20,30 +21,25 @@ impl SecondDerivatives {
     pub fn new(
         structure: &Structure,
         carrier: &Carrier,
-        quantity: GirderResponse,
-        used: [bool; COMPONENTS],
+        direction: usize,
+        lines: &Lines<POWERS>,
     ) -> Result<SecondDerivatives, Error> {
         let width = carrier.x[1] - carrier.x[0];
-        let mut at_nodes = Vec::with_capacity(NODES.len());
-        for node in NODES {
-            let x = carrier.x[0] + node * width;
-            at_nodes.push(structure.deflection_line(carrier.rail, &[[x, 1.0]], quantity, used)?);
-        }
+        let loads = structure.unit_kernels(carrier, direction)?;
         let mut rails = vec![[0.0_f64; COMPONENTS]; structure.rail_count()];
-        for (rail, bounds) in rails.iter_mut().enumerate() {
-            // A cell is divided where the member of the carrier has the place: its parts are the two polynomials.
-            for stretch in &structure.rails[rail].stretches {
-                let cells = |lines: &Lines<1>| -> Vec<LineCell<1>> {
-                    let own = lines.rails[rail].iter().filter(|cell| cell.element == stretch.element);
-                    own.filter(|cell| within(cell, stretch.x)).cloned().collect()
-                };
-                let [first, second, third, last] = [0, 1, 2, 3].map(|node: usize| cells(&at_nodes[node]));
-                for (((a, b), c), d) in first.iter().zip(&second).zip(&third).zip(&last) {
-                    for (component, bound) in bounds.iter_mut().enumerate() {
-                        let cubics = [a, b, c, d].map(|cell| about(cell, component, stretch.x));
-                        let found = Bicubic::new(cubics).second(width, stretch.x[1] - stretch.x[0]);
-                        *bound = bound.max(found);
-                    }
+        for (bounds, cells) in rails.iter_mut().zip(&lines.rails) {
+            for cell in cells {
+                let h = cell.x[1] - cell.x[0];
+                let on = loads.iter().find(|(on, _)| on.other.element == cell.element);
+                for (component, bound) in bounds.iter_mut().enumerate() {
+                    let ahead = of_cell(cell, component);
+                    *bound = bound.max(ahead.second(width, h));
+                    let Some((on, kernels)) = on else { continue };
+                    let first = on.start + on.rate * (cell.x[0] - on.other.x[0]);
+                    let kernel = Bicubic::new(NODES.map(|node| {
+                        in_fractions(kernels[component].passing(node * carrier.length - first, on.rate), h)
+                    }));
+                    *bound = bound.max(ahead.plus(&kernel).second(width, h));
                 }
             }
         }
@@ -60,16 +56,13 @@ impl SecondDerivatives {
     }
 }
 
-/// Whether a cell is a part of a stretch of rail.
-fn within(cell: &LineCell<1>, [from, to]: [f64; 2]) -> bool {
-    let middle = 0.5 * (cell.x[0] + cell.x[1]);
-    from <= middle && middle <= to
+/// The deflection with the load in a cell, not passed.
+fn of_cell(cell: &LineCell<POWERS>, component: usize) -> Bicubic {
+    Bicubic { c: cell.cubics[component].map(|cubic| in_fractions(cubic, cell.x[1] - cell.x[0])) }
 }
 
-/// The cubic of a cell in the fraction of a stretch.
-fn about(cell: &LineCell<1>, component: usize, [from, to]: [f64; 2]) -> [f64; 4] {
-    let [a, b, c, d] = shifted(&cell.cubics[component][0], from - cell.x[0]);
-    let h = to - from;
+/// A cubic in the fraction of a length.
+fn in_fractions([a, b, c, d]: [f64; 4], h: f64) -> [f64; 4] {
     [a, h * b, h * h * c, h * h * h * d]
 }
 
@@ -87,6 +80,10 @@ impl Bicubic {
             (0..4).for_each(|i| c[i][j] = in_u[i]);
         }
         Bicubic { c }
+    }
+
+    fn plus(&self, other: &Bicubic) -> Bicubic {
+        Bicubic { c: std::array::from_fn(|i| std::array::from_fn(|j| self.c[i][j] + other.c[i][j])) }
     }
 
     /// Bound over both fractions from 0 to 1 of the size of the second derivative by u, and of that along u and v together,

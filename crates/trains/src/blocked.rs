@@ -14,10 +14,10 @@
 
 use crate::follow::Target;
 use crate::overrun::Overrun;
-use crate::pieces::{Piece, Pieces};
+use crate::pieces::{Piece, Pieces, ResponsePiece};
 use crate::plan::CasePlan;
 use crate::search::Bend;
-use crate::section::{TrainOnCarrier, slope_index};
+use crate::section::{Passage, slope_index};
 use crate::structure::{Carrier, QUANTITIES, Structure};
 use crate::train::PlacedWheel;
 
@@ -25,7 +25,7 @@ use crate::train::PlacedWheel;
 const SMOOTH: f64 = 1e-9;
 
 /// What bounds a quantity of a carrier between two places.
-#[derive(Debug)]
+#[derive(Debug, Default)]
 pub(crate) struct Blocked {
     /// Bounds of the second derivative, the slope, the jumps of the slope and the jumps of the value, all by rail
     /// coordinate.
@@ -49,18 +49,19 @@ impl Blocked {
         let rate = carrier.rate();
         let shear = slope_index(target.k);
         let (mut curvature, mut slope, mut kinks, mut jumps) = (0.0, 0.0, 0.0, 0.0);
-        for (pieces, on) in over.pieces.iter().zip(&over.on) {
-            let bends = pieces.iter().map(|pieces| bends(pieces, target, rate));
+        for stances in &over.passages {
+            let bends = stances.iter().map(|passage| bends(&passage.pieces, target, rate));
             let [bend, steep] = bends.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
             curvature += bend;
             slope += steep;
-            let most =
-                |k: usize| on.iter().map(|on| on.jumps(k).map(f64::abs).sum::<f64>()).fold(0.0, f64::max);
+            let most = |k: usize| {
+                stances.iter().map(|p| p.on.jumps(k).map(f64::abs).sum::<f64>()).fold(0.0, f64::max)
+            };
             jumps += most(target.k);
             if let Some(shear) = shear {
                 kinks += most(shear) * rate;
                 // A section that moves past held wheels changes its moment by the shear force.
-                let largest = pieces.iter().map(|pieces| largest(pieces, shear)).fold(0.0, f64::max);
+                let largest = stances.iter().map(|p| largest(&p.pieces, shear)).fold(0.0, f64::max);
                 slope += (largest + most(shear)) * rate;
             }
         }
@@ -68,10 +69,10 @@ impl Blocked {
         curvature += (-2.0 * target.sign * c * rate * rate).max(0.0);
         slope += (b.abs() + 2.0 * c.abs() * carrier.length) * rate;
         let places = places(plan, over, carrier, &|train, stance| {
-            sharp_positions(&over.pieces[train][stance], &over.on[train][stance], target)
+            sharp_positions(&over.passages[train][stance], target)
         });
         let trains = plan.trains.len() as f64;
-        let opposed = over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels);
+        let opposed = over.all().any(|passage| passage.on.has_opposed_wheels());
         let only_kinks = shear.is_some() && jumps == 0.0;
         Blocked { curvature, slope, kinks, jumps, places, opposed, trains, only_kinks }
     }
@@ -95,7 +96,7 @@ impl Blocked {
             all.filter(|p| *p > first && *p < last).collect()
         });
         let trains = plan.trains.len() as f64;
-        let opposed = over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels);
+        let opposed = over.all().any(|passage| passage.on.has_opposed_wheels());
         let Bend { curvature, kinks } = bend;
         Blocked { curvature, slope: 0.0, kinks, jumps: 0.0, places, opposed, trains, only_kinks: true }
     }
@@ -184,7 +185,7 @@ fn places(
     let mut out = Vec::new();
     plan.for_each_arrangement(&ways, &mut |order, stances| {
         let mut add = |k: usize, position: f64| {
-            over.on[order[k]][stances[k]].coordinates(carrier, position, &mut out);
+            over.passages[order[k]][stances[k]].on.coordinates(carrier, position, &mut out);
         };
         let step = |j: usize, k: usize| plan.distance((order[j], stances[j]), (order[k], stances[k]));
         for k in 0..order.len() {
@@ -216,33 +217,34 @@ fn places(
 }
 
 /// Positions at which the response of a section to a train has a kink or a jump although no wheel passes the section.
-fn sharp_positions(pieces: &Pieces<QUANTITIES>, on: &TrainOnCarrier, target: &Target<'_>) -> Vec<f64> {
+fn sharp_positions(passage: &Passage, target: &Target<'_>) -> Vec<f64> {
     let mut out = Vec::new();
     let [from, to] = target.window;
+    let shear = slope_index(target.k);
     // The response is linear in the place: two sections tell for all.
     for third in [1.0, 2.0] {
         let s = from + (to - from) * third / 3.0;
-        let list = on.section(pieces, s);
-        let size = |k: usize| {
-            list.iter().map(|piece| start(piece, k)[0].abs().max(end(piece, k)[0].abs())).fold(0.0, f64::max)
+        let list = passage.response(target.k, s);
+        let shears = shear.map(|shear| passage.response(shear, s));
+        let size = |list: &[ResponsePiece]| {
+            list.iter().map(|piece| start(piece)[0].abs().max(end(piece)[0].abs())).fold(0.0, f64::max)
         };
-        let sizes: [f64; QUANTITIES] = std::array::from_fn(size);
         let length = list.last().map_or(0.0, |last| last.position[1]) - list[0].position[0];
-        let shear = slope_index(target.k);
-        let breaks = pieces.list.iter().skip(1).map(|piece| piece.position[0]);
+        let breaks = passage.pieces.list.iter().skip(1).map(|piece| piece.position[0]);
         for position in breaks {
             let after = list.partition_point(|piece| piece.position[0] < position);
-            let Some([before, behind]) = after.checked_sub(1).and_then(|k| list.get(k..k + 2)) else {
-                continue;
+            let change = |list: &[ResponsePiece]| {
+                let [before, behind] =
+                    after.checked_sub(1).and_then(|k| list.get(k..k + 2)).map(|pair| [pair[0], pair[1]])?;
+                let ([a, b], [c, d]) = (end(&before), start(&behind));
+                Some([c - a, d - b])
             };
-            let change = |k: usize| {
-                let ([a, b], [c, d]) = (end(before, k), start(behind, k));
-                [c - a, d - b]
-            };
-            let [jump, kink] = change(target.k);
-            let sharp = jump.abs() > SMOOTH * sizes[target.k]
-                || kink.abs() * length > 10.0 * SMOOTH * sizes[target.k]
-                || shear.is_some_and(|shear| change(shear)[0].abs() > SMOOTH * sizes[shear]);
+            let Some([jump, kink]) = change(&list) else { continue };
+            let sharp = jump.abs() > SMOOTH * size(&list)
+                || kink.abs() * length > 10.0 * SMOOTH * size(&list)
+                || shears.as_ref().is_some_and(|list| {
+                    change(list).is_some_and(|[jump, _]| jump.abs() > SMOOTH * size(list))
+                });
             if sharp {
                 out.push(position);
             }
@@ -252,14 +254,14 @@ fn sharp_positions(pieces: &Pieces<QUANTITIES>, on: &TrainOnCarrier, target: &Ta
 }
 
 /// Value and slope of a response where a piece begins.
-fn start<const N: usize>(piece: &Piece<N>, k: usize) -> [f64; 2] {
-    let [a, b, ..] = piece.cubics[k];
+fn start(piece: &ResponsePiece) -> [f64; 2] {
+    let [a, b, ..] = piece.cubic;
     [a, b]
 }
 
 /// Value and slope of a response where a piece ends.
-fn end<const N: usize>(piece: &Piece<N>, k: usize) -> [f64; 2] {
+fn end(piece: &ResponsePiece) -> [f64; 2] {
     let h = piece.length();
-    let [a, b, c, d] = piece.cubics[k];
+    let [a, b, c, d] = piece.cubic;
     [a + h * (b + h * (c + h * d)), b + h * (2.0 * c + 3.0 * d * h)]
 }

@@ -1,5 +1,7 @@
 //! Extremes while they are collected over carriers, and which of two states governs.
 
+use std::collections::HashMap;
+
 use crate::extremes::{Governing, Request, TrainPosition};
 use crate::plan::{Arrangement, CasePlan, TIE};
 use crate::structure::{Carrier, GirderResponse, Structure};
@@ -8,6 +10,8 @@ use crate::structure::{Carrier, GirderResponse, Structure};
 #[derive(Debug, Default)]
 pub(crate) struct Accumulated {
     pub list: Vec<Entry>,
+    /// Where each entry stands in the list, by rail, span, quantity and kind.
+    places: HashMap<(usize, usize, usize, bool), usize>,
 }
 
 /// An extreme whose value may still be unknown.
@@ -30,9 +34,8 @@ pub(crate) fn entry(
     quantity: GirderResponse,
     is_max: bool,
 ) -> &mut Entry {
-    let key = (rail, span, quantity, is_max);
     let list = &mut all.list;
-    let at = list.iter().position(|e| (e.rail, e.span, e.quantity, e.is_max) == key).unwrap_or_else(|| {
+    let at = *all.places.entry((rail, span, quantity as usize, is_max)).or_insert_with(|| {
         list.push(Entry { rail, span, quantity, is_max, governing: None, bound: None });
         list.len() - 1
     });

@@ -8,7 +8,7 @@ use crate::error::Error;
 use crate::line::Lines;
 use crate::polynomial::Polynomial;
 use crate::structure::{
-    Carrier, GirderResponse, OnMember, QUANTITIES, Structure, deflection_axis, end_effects,
+    Carrier, DEFLECTIONS, GirderResponse, OnMember, QUANTITIES, Structure, deflection_axis, end_effects,
 };
 
 /// Loads that stay.
@@ -51,6 +51,12 @@ impl DeadLoad {
         }
         let linear = Polynomial::new(&[a]).plus(place, b);
         if c == 0.0 { linear } else { linear.plus(&place.times(place), c) }
+    }
+
+    /// A deflection at a place that is linear.
+    pub fn deflection_along(&self, direction: usize, place: &Polynomial) -> Polynomial {
+        let add = |sum: Polynomial, c: &f64| sum.times(place).plus(&Polynomial::new(&[*c]), 1.0);
+        self.deflections[direction].iter().rev().fold(Polynomial::default(), add)
     }
 
     /// Coefficients of quantity k.
@@ -177,11 +183,7 @@ impl Structure {
     ) -> Result<(), Error> {
         for (carrier, load) in carriers.iter().zip(out) {
             let interior = self.interior_motion(carrier, load);
-            for (direction, quantity) in
-                [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection]
-                    .into_iter()
-                    .enumerate()
-            {
+            for (direction, quantity) in DEFLECTIONS.into_iter().enumerate() {
                 let (axis, sign) = deflection_axis(quantity);
                 if !self.rails[carrier.rail].resists[axis.component()] {
                     continue;
@@ -195,7 +197,7 @@ impl Structure {
                         break;
                     }
                     let used = [false, true, false, false, false];
-                    let line = self.deflection_line(carrier.rail, &[[x, 1.0]], quantity, used)?;
+                    let line = self.deflection_line(carrier.rail, x, quantity, used)?;
                     for (rail, cells) in line.rails.iter().enumerate() {
                         let all = cells.iter().map(|cell| integral(&cell.cubics[1][0], cell.x));
                         *end -= dead.line(rail) * all.sum::<f64>();

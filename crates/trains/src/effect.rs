@@ -7,8 +7,8 @@ use crate::dead::DeadLoads;
 use crate::error::Error;
 use crate::extremes::Governing;
 use crate::follow::SectionSide;
-use crate::pieces::{Piece, Pieces};
-use crate::plan::CasePlan;
+use crate::pieces::Pieces;
+use crate::plan::{CasePlan, Responses};
 use crate::structure::Structure;
 use crate::train::{COMPONENTS, TrainCase};
 
@@ -82,13 +82,11 @@ pub(crate) fn extremes_of_effects(
         for (plan, out) in plans.iter().zip(&mut out) {
             let own = plan.dead * of_dead;
             let slack = structure.slack();
-            let pieces: Vec<Vec<Vec<Piece<1>>>> = plan
-                .trains
-                .iter()
-                .map(|stances| stances.iter().map(|train| Pieces::sum(&line, train, slack).list).collect())
-                .collect();
+            let of = |(stance, train)| (stance, Pieces::sum(&line, train, slack).responses());
+            let responses: Responses =
+                plan.trains.iter().map(|stances| stances.iter().enumerate().map(of).collect()).collect();
             out.push([1.0, -1.0].map(|sign| {
-                let found = plan.best(&pieces, 0, sign, f64::NEG_INFINITY).unwrap_or_default();
+                let found = plan.best(&responses, sign).unwrap_or_default();
                 Governing {
                     value: sign * found.signed + own,
                     dead: own,

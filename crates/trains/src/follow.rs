@@ -8,10 +8,9 @@
 
 use crate::dead::DeadLoad;
 use crate::line::shifted;
-use crate::pieces::Pieces;
 use crate::polynomial::Polynomial;
 use crate::running::PiecewiseFunction;
-use crate::section::{TrainOnCarrier, WheelOnMember, slope_index};
+use crate::section::{Passage, WheelOnMember, slope_index};
 use crate::structure::QUANTITIES;
 
 /// Which side of a wheel a section is on.
@@ -44,15 +43,14 @@ pub(crate) struct Target<'a> {
     pub dead: &'a DeadLoad,
 }
 
-impl TrainOnCarrier {
+impl Passage {
     /// The largest value of a target at sections beside wheels and at vertices; `None` where there is none above
     /// `floor`.
-    pub fn follow(&self, pieces: &Pieces<QUANTITIES>, target: &Target<'_>, floor: f64) -> Option<Peak> {
+    pub fn follow(&self, target: &Target<'_>, floor: f64) -> Option<Peak> {
         let mut best: Option<Peak> = None;
-        let mut wheels = Vec::new();
-        for (index, piece) in pieces.list.iter().enumerate() {
-            self.wheels(pieces, index, &mut wheels);
-            let state = State { base: &piece.cubics, wheels: &wheels };
+        for (index, piece) in self.pieces.list.iter().enumerate() {
+            let wheels = self.wheels(index);
+            let state = State { base: &piece.cubics, wheels };
             let h = piece.length();
             for (j, wheel) in wheels.iter().enumerate() {
                 // Positions at which the wheel is within the window.
@@ -90,16 +88,14 @@ impl TrainOnCarrier {
     /// window, as a function of the position.
     pub fn beside(
         &self,
-        pieces: &Pieces<QUANTITIES>,
         target: &Target<'_>,
         wheel: usize,
         side: SectionSide,
         stance: usize,
     ) -> PiecewiseFunction {
         let mut out = PiecewiseFunction::default();
-        let mut wheels = Vec::new();
-        for (index, piece) in pieces.list.iter().enumerate() {
-            self.wheels(pieces, index, &mut wheels);
+        for (index, piece) in self.pieces.list.iter().enumerate() {
+            let wheels = self.wheels(index);
             let Some(j) = wheels.iter().position(|on| on.wheel == wheel) else { continue };
             let times = target.window.map(|s| (s - wheels[j].start) / wheels[j].rate);
             let from = times[0].min(times[1]).max(0.0);
@@ -107,7 +103,7 @@ impl TrainOnCarrier {
             if from > to {
                 continue;
             }
-            let state = State { base: &piece.cubics, wheels: &wheels };
+            let state = State { base: &piece.cubics, wheels };
             let place = Polynomial::new(&[wheels[j].start + wheels[j].rate * from, wheels[j].rate]);
             let live = state.quantity(target.k, &place, from, j + usize::from(side == SectionSide::Behind));
             let dead = target.dead.along(target.k, &place);
@@ -150,7 +146,7 @@ impl TrainOnCarrier {
                     wheel.map_or(end, |wheel| wheel.start + wheel.rate * t)
                 };
                 let from = at(count.checked_sub(1).and_then(|k| state.wheels.get(k)), 0.0);
-                let to = at(state.wheels.get(count), self.length());
+                let to = at(state.wheels.get(count), self.on.length());
                 let inside = place >= from.max(target.window[0]) && place <= to.min(target.window[1]);
                 let limit = best.map_or(floor, |best| best.signed);
                 if inside && signed.at(t) > limit {
@@ -183,9 +179,9 @@ impl State<'_> {
         }
         for wheel in &self.wheels[..count] {
             let own = Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
-            out = out.plus(&Polynomial::new(&[wheel.jump[k]]), 1.0);
+            out = out.plus(&Polynomial::new(&[wheel.jump(k)]), 1.0);
             if let Some(shear) = slope_index(k) {
-                out = out.plus(place, wheel.jump[shear]).plus(&own, -wheel.jump[shear]);
+                out = out.plus(place, wheel.jump(shear)).plus(&own, -wheel.jump(shear));
             }
         }
         out

@@ -9,19 +9,22 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, dead, section, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
-//! 3. `line`, `structure`: influence lines as cubics; the structure that has them;
+//! 3. `line`, `structure`: influence lines as cubics; the structure that has them; `kernel`, `rail_deflection`: the
+//!    deflection of a rail over a member as polynomials of the place and of the load's position;
 //! 4. `pieces`, `running`, `plan`: responses to a train as functions of its position, and the best arrangement of trains;
 //! 5. `dead`: dead load;
 //! 6. `section`, `instant`, `overrun`, `follow`: internal forces at a fixed section, along members at one instant, and at
 //!    sections beside wheels and at vertices;
 //! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
-//! 8. `search`, `blocked`, `bicubic`, `several`, `deflection`: extremes that are enclosed by bisection;
+//! 8. `search`, `blocked`, `bicubic`, `several`, `under_wheels`, `alone`, `deflection`: extremes that are enclosed by
+//!    bisection;
 //! 9. `analysis`: the calculation.
 
+mod alone;
 mod analysis;
 mod bicubic;
 mod blocked;
@@ -33,17 +36,20 @@ mod error;
 mod extremes;
 mod follow;
 mod instant;
+mod kernel;
 mod line;
 mod overrun;
 mod pieces;
 mod plan;
 mod polynomial;
+mod rail_deflection;
 mod running;
 mod search;
 mod section;
 mod several;
 mod structure;
 mod train;
+mod under_wheels;
 
 pub use analysis::envelopes;
 pub use dead::DeadLoads;

@@ -24,14 +24,15 @@ pub(crate) struct Lines<const N: usize> {
     pub rails: Vec<Vec<LineCell<N>>>,
 }
 
-impl Lines<1> {
-    /// The response to a load at a coordinate of a rail; 0 beyond its ends.
-    pub fn value(&self, rail: usize, x: f64, load: &[f64; COMPONENTS]) -> f64 {
-        let cells = &self.rails[rail];
-        let Some(k) = cell_at(cells, x) else { return 0.0 };
-        let t = x - cells[k].x[0];
-        let cubic = |c: &[f64; 4]| c.iter().rev().fold(0.0, |sum, c| sum * t + c);
-        load.iter().zip(&cells[k].cubics).map(|(load, [c])| load * cubic(c)).sum()
+impl<const N: usize> Lines<N> {
+    /// Lines that are zero, with the cells of others.
+    pub fn zeros_like<const M: usize>(other: &Lines<M>) -> Lines<N> {
+        let zero = |cell: &LineCell<M>| LineCell {
+            x: cell.x,
+            element: cell.element,
+            cubics: [[[0.0; 4]; N]; COMPONENTS],
+        };
+        Lines { rails: other.rails.iter().map(|cells| cells.iter().map(zero).collect()).collect() }
     }
 }
 

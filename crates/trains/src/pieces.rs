@@ -17,9 +17,54 @@ impl<const N: usize> Piece<N> {
     pub fn length(&self) -> f64 {
         self.position[1] - self.position[0]
     }
+}
 
-    pub fn polynomial(&self, response: usize) -> Polynomial {
-        Polynomial::new(&self.cubics[response])
+/// One response to a train between two of its positions.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct ResponsePiece {
+    /// First and last position. Values at the ends are the limits from inside.
+    pub position: [f64; 2],
+    /// Cubic in the distance from the first position.
+    pub cubic: [f64; 4],
+    /// The piece of the train's positions, and the part of it between passages of the section.
+    pub origin: [usize; 2],
+}
+
+impl ResponsePiece {
+    pub fn length(&self) -> f64 {
+        self.position[1] - self.position[0]
+    }
+
+    /// Value at a position.
+    pub fn at(&self, position: f64) -> f64 {
+        let t = position - self.position[0];
+        self.cubic.iter().rev().fold(0.0, |sum, c| sum * t + c)
+    }
+
+    /// A factor times the response.
+    pub fn times(&self, factor: f64) -> Polynomial {
+        Polynomial::new(&self.cubic.map(|c| factor * c))
+    }
+
+    /// A bound of sign times the response: the largest of its Bernstein coefficients.
+    pub fn bound(&self, sign: f64) -> f64 {
+        let h = self.length();
+        let [a, b, c, d] = self.cubic.map(|c| sign * c);
+        let (b, c, d) = (b * h, c * h * h, d * h * h * h);
+        let inner = (a + b / 3.0).max(a + (2.0 * b + c) / 3.0);
+        inner.max(a).max(a + b + c + d)
+    }
+}
+
+impl Pieces<1> {
+    /// The pieces as responses of an effect that no wheel passes.
+    pub fn responses(&self) -> Vec<ResponsePiece> {
+        let of = |(index, piece): (usize, &Piece<1>)| ResponsePiece {
+            position: piece.position,
+            cubic: piece.cubics[0],
+            origin: [index, 0],
+        };
+        self.list.iter().enumerate().map(of).collect()
     }
 }
 

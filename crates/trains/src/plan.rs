@@ -11,15 +11,16 @@
 //! maxima are added; where one is followed by several, positions are counted backwards.
 
 use crate::error::Error;
-use crate::pieces::Piece;
+use crate::pieces::ResponsePiece;
 use crate::running::{PiecewiseFunction, larger_of, running_maximum, sum_of};
 use crate::structure::Structure;
 use crate::train::{COMPONENTS, PlacedTrain, TrainCase};
 
 /// Values closer than this, relative to their size, count as equal.
 pub(crate) const TIE: f64 = 1e-12;
-/// Responses that differ by no more than this, relative to the largest, are those of one stance.
-const EQUAL: f64 = 1e-14;
+
+/// A response to each train of a case: stances, each with its pieces by position.
+pub(crate) type Responses = Vec<Vec<(usize, Vec<ResponsePiece>)>>;
 
 /// A case with its trains in every stance.
 #[derive(Clone, Debug)]
@@ -68,8 +69,8 @@ type Chain = (f64, Vec<(usize, usize, f64)>);
 pub(crate) struct Standing {
     pub stance: usize,
     pub position: f64,
-    /// Index of the piece that holds the position.
-    pub piece: usize,
+    /// The piece of the train's positions that holds the position, and the part of it between passages of the section.
+    pub origin: [usize; 2],
 }
 
 /// The best arrangement for a response: sign times its value without dead load, and where each train stands.
@@ -215,32 +216,25 @@ impl CasePlan {
         if order.mirrored { self.distance(second, first) } else { self.distance(first, second) }
     }
 
-    /// The arrangement with the largest value of sign times response `k`; `pieces[train][stance]` are the responses to
-    /// each train. `None` where nothing reaches `floor`, for a case of one train.
-    pub fn best<const N: usize>(
-        &self,
-        pieces: &[Vec<Vec<Piece<N>>>],
-        k: usize,
-        sign: f64,
-        floor: f64,
-    ) -> Option<Arrangement> {
-        let distinct: Vec<Vec<usize>> = pieces.iter().map(|stances| distinct_stances(stances, k)).collect();
-        if let ([stances], [distinct]) = (pieces, &distinct[..]) {
-            return best_of_one(stances, distinct, k, sign, floor);
+    /// The arrangement with the largest value of sign times a response.
+    pub fn best(&self, responses: &Responses, sign: f64) -> Option<Arrangement> {
+        if let [own] = &responses[..] {
+            let (signed, standing) = best_of_one(own, sign)?;
+            return Some(Arrangement { signed, trains: vec![standing] });
         }
-        let mut out = Arrangement { signed: 0.0, trains: vec![Standing::default(); pieces.len()] };
-        let mut ways: Vec<Vec<Way>> = pieces.iter().map(|_| Vec::new()).collect();
+        let mut out = Arrangement { signed: 0.0, trains: vec![Standing::default(); responses.len()] };
+        let mut ways: Vec<Vec<Way>> = responses.iter().map(|_| Vec::new()).collect();
         for group in &self.groups {
             if let [train] = group.orders[0].trains[..] {
-                let one = best_of_one(&pieces[train], &distinct[train], k, sign, f64::NEG_INFINITY)?;
-                out.signed += one.signed;
-                out.trains[train] = one.trains[0];
+                let (signed, standing) = best_of_one(&responses[train], sign)?;
+                out.signed += signed;
+                out.trains[train] = standing;
                 continue;
             }
             for &train in &group.orders[0].trains {
-                let own = distinct[train]
+                let own = responses[train]
                     .iter()
-                    .map(|&stance| (stance, PiecewiseFunction::of(&pieces[train][stance], k, sign, stance)));
+                    .map(|(stance, pieces)| (*stance, PiecewiseFunction::of(pieces, sign, *stance)));
                 ways[train] = self.ways(train, own);
             }
             let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
@@ -255,12 +249,13 @@ impl CasePlan {
             let (signed, trains) = best?;
             out.signed += signed;
             for (train, stance, position) in trains {
-                let list = &pieces[train][stance];
+                let own = responses[train].iter().find(|(known, _)| *known == stance);
+                let (_, list) = own.expect("the stance is one of those that were given");
                 let piece = list.partition_point(|piece| piece.position[1] < position).min(list.len() - 1);
-                out.trains[train] = Standing { stance, position, piece };
+                out.trains[train] = Standing { stance, position, origin: list[piece].origin };
             }
         }
-        (out.signed >= floor).then_some(out)
+        Some(out)
     }
 
     /// The best positions for a train whose response is known only where one of its wheels is at the section, with the
@@ -302,7 +297,7 @@ impl CasePlan {
         let (signed, found) = best?;
         let mut trains = vec![Standing::default(); self.trains.len()];
         for (train, stance, position) in found {
-            trains[train] = Standing { stance, position, piece: 0 };
+            trains[train] = Standing { stance, position, origin: [0; 2] };
         }
         Some(Arrangement { signed, trains })
     }
@@ -426,56 +421,33 @@ fn choices(order: &[usize], listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize]
     }
 }
 
-/// The stances of a train that differ in a response: of those with equal pieces the first. A lateral force, for
-/// instance, does not change a vertical moment, whatever its sign.
-fn distinct_stances<const N: usize>(stances: &[Vec<Piece<N>>], k: usize) -> Vec<usize> {
-    let size = |pieces: &Vec<Piece<N>>| {
-        let value = |piece: &Piece<N>| {
-            let h = piece.length();
-            let [a, b, c, d] = piece.cubics[k].map(f64::abs);
-            a + h * (b + h * (c + h * d))
-        };
-        pieces.iter().map(value).fold(0.0, f64::max)
-    };
-    let slack = EQUAL * stances.iter().map(size).fold(0.0, f64::max);
-    let same = |a: &Piece<N>, b: &Piece<N>| {
-        let h = a.length();
-        let powers = [1.0, h, h * h, h * h * h];
-        a.position == b.position
-            && (0..4).all(|p| (a.cubics[k][p] - b.cubics[k][p]).abs() * powers[p] <= slack)
-    };
-    let equal =
-        |a: &Vec<Piece<N>>, b: &Vec<Piece<N>>| a.len() == b.len() && a.iter().zip(b).all(|(a, b)| same(a, b));
-    let mut out: Vec<usize> = Vec::new();
-    for (stance, pieces) in stances.iter().enumerate() {
-        if !out.iter().any(|&known| equal(&stances[known], pieces)) {
-            out.push(stance);
-        }
+/// The largest value for one train in some stances.
+fn best_of_one(stances: &[(usize, Vec<ResponsePiece>)], sign: f64) -> Option<(f64, Standing)> {
+    let mut best = None;
+    for (stance, pieces) in stances {
+        pieces.iter().for_each(|piece| offer_part(&mut best, piece, *stance, sign, f64::NEG_INFINITY));
     }
-    out
+    best
 }
 
-/// The largest value for one train in the listed stances.
-fn best_of_one<const N: usize>(
-    stances: &[Vec<Piece<N>>],
-    listed: &[usize],
-    k: usize,
+/// Takes the largest value of a part if it is better than the best, or the first to reach the floor.
+pub(crate) fn offer_part(
+    best: &mut Option<(f64, Standing)>,
+    part: &ResponsePiece,
+    stance: usize,
     sign: f64,
     floor: f64,
-) -> Option<Arrangement> {
-    let mut best: Option<(f64, Standing)> = None;
-    for &stance in listed {
-        for (index, piece) in stances[stance].iter().enumerate() {
-            let limit = best.map_or(floor, |(value, _)| value + TIE * value.abs());
-            let signed = crate::polynomial::Polynomial::default().plus(&piece.polynomial(k), sign);
-            if let Some((t, value)) = signed.largest_above(piece.length(), limit)
-                && (value > limit || best.is_none() && value >= floor)
-            {
-                best = Some((value, Standing { stance, position: piece.position[0] + t, piece: index }));
-            }
-        }
+) {
+    let limit = best.map_or(floor, |(value, _)| value + TIE * value.abs());
+    if part.bound(sign) < limit {
+        return;
     }
-    best.map(|(signed, standing)| Arrangement { signed, trains: vec![standing] })
+    if let Some((t, value)) = part.times(sign).largest_above(part.length(), limit)
+        && (value > limit || best.is_none() && value >= floor)
+    {
+        let position = part.position[0] + t;
+        *best = Some((value, Standing { stance, position, origin: part.origin }));
+    }
 }
 
 /// Groups of trains that share rails, directly or through others, with their orders.

@@ -66,17 +66,6 @@ impl Polynomial {
         out
     }
 
-    /// The polynomial p(t/h).
-    pub fn stretched(&self, h: f64) -> Polynomial {
-        let mut out = self.coefficients;
-        let mut power = 1.0;
-        out.iter_mut().for_each(|c| {
-            *c /= power;
-            power *= h;
-        });
-        Polynomial::new(&out)
-    }
-
     fn derivative(&self) -> Polynomial {
         let mut out = [0.0; MOST + 1];
         for (k, c) in self.used().iter().enumerate().skip(1) {

@@ -1,6 +1,6 @@
 //! Piecewise cubic functions of a position: running maxima and sums.
 
-use crate::pieces::Piece;
+use crate::pieces::ResponsePiece;
 use crate::polynomial::Polynomial;
 
 /// Distances of positions that count as rounding, relative to the positions.
@@ -80,12 +80,10 @@ impl PiecewiseFunction {
         self.pieces.is_empty()
     }
 
-    /// Sign times response k of a list of pieces in a stance.
-    pub fn of<const N: usize>(pieces: &[Piece<N>], k: usize, sign: f64, stance: usize) -> PiecewiseFunction {
-        let cubic = |piece: &Piece<N>| Polynomial::default().plus(&piece.polynomial(k), sign);
-        PiecewiseFunction {
-            pieces: pieces.iter().map(|piece| Part::new(piece.position, cubic(piece), stance)).collect(),
-        }
+    /// Sign times a response in a stance.
+    pub fn of(pieces: &[ResponsePiece], sign: f64, stance: usize) -> PiecewiseFunction {
+        let part = |piece: &ResponsePiece| Part::new(piece.position, piece.times(sign), stance);
+        PiecewiseFunction { pieces: pieces.iter().map(part).collect() }
     }
 
     /// The largest value, at the first position that has it.

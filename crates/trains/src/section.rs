@@ -1,12 +1,15 @@
-//! Internal forces at a fixed section of a member that carries rails, under a train.
+//! A train over one member that carries rails, and its responses at a fixed section.
 //!
 //! From the quantities Q(0) just inside the first end of the member, those at a distance s follow by equilibrium of the
 //! part between: with a load passed at s_k < s, force and couple change by its jump a_k, and each moment by
-//! s times its shear at the end plus (s - s_k) times the jump of the shear.
+//! s times its shear at the end plus (s - s_k) times the jump of the shear. The deflection of the rail is a cubic in s,
+//! to which each load that has been passed adds its kernel.
 
 use crate::error::Error;
-use crate::line::shifted;
-use crate::pieces::{Piece, Pieces};
+use crate::kernel::{Kernel, RailPoint};
+use crate::line::{Lines, shifted};
+use crate::pieces::{Pieces, ResponsePiece};
+use crate::rail_deflection::{CarrierLines, POWERS};
 use crate::structure::{Carrier, GirderResponse, OnMember, QUANTITIES, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 use nalgebra::Vector3;
@@ -21,8 +24,15 @@ struct Mapping {
     s: f64,
     /// Change of the place by the coordinate.
     rate: f64,
-    /// Jump of the quantities where each wheel of the train has been passed.
-    jumps: Vec<[f64; QUANTITIES]>,
+    /// What changes where each wheel of the train has been passed.
+    changes: Vec<Change>,
+}
+
+/// What changes in the quantities of a section, and in both deflections, where a wheel has been passed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Change {
+    jump: [f64; QUANTITIES],
+    kernels: [Kernel; 2],
 }
 
 /// A train over one carrier.
@@ -44,14 +54,29 @@ pub(crate) struct WheelOnMember {
     pub start: f64,
     /// Change of the place by the position.
     pub rate: f64,
-    /// What changes where it has been passed.
-    pub jump: [f64; QUANTITIES],
+    change: Change,
 }
 
 impl WheelOnMember {
-    /// What quantity `k` of a section gains from the wheel at a distance `lever` before it.
-    pub fn passed(&self, k: usize, lever: f64) -> f64 {
-        self.jump[k] + slope_index(k).map_or(0.0, |shear| self.jump[shear] * lever)
+    /// What quantity `k` changes by where the wheel has been passed.
+    pub fn jump(&self, k: usize) -> f64 {
+        self.change.jump[k]
+    }
+
+    /// The kernel of a deflection, 0 downwards and 1 along +z.
+    pub fn kernel(&self, direction: usize) -> &Kernel {
+        &self.change.kernels[direction]
+    }
+
+    /// What response k of a section at place s gains where the wheel has been passed, by the distance from the first
+    /// position of the piece.
+    fn passed(&self, k: usize, s: f64) -> [f64; 4] {
+        let lever = s - self.start;
+        if let Some(direction) = k.checked_sub(QUANTITIES) {
+            return self.kernel(direction).passing(lever, self.rate);
+        }
+        let slope = slope_index(k).map_or(0.0, |shear| self.jump(shear));
+        [self.jump(k) + slope * lever, -slope * self.rate, 0.0, 0.0]
     }
 }
 
@@ -61,22 +86,20 @@ pub(crate) fn slope_index(k: usize) -> Option<usize> {
 }
 
 impl TrainOnCarrier {
-    pub fn new(
-        structure: &Structure,
-        carrier: &Carrier,
-        train: &PlacedTrain,
-    ) -> Result<TrainOnCarrier, Error> {
+    fn new(structure: &Structure, carrier: &Carrier, train: &PlacedTrain) -> Result<TrainOnCarrier, Error> {
         let mut mappings = Vec::new();
+        let point = RailPoint::new(structure, carrier)?;
         for OnMember { other, stretch, start, rate } in structure.on_member(carrier) {
             let mut units = [[Vector3::zeros(); 2]; COMPONENTS];
             for (component, unit) in units.iter_mut().enumerate() {
                 *unit = structure.load(stretch, component)?;
             }
-            let jump = |wheel: &crate::train::PlacedWheel| {
+            let change = |wheel: &crate::train::PlacedWheel| {
                 let total = |part: usize| -> Vector3<f64> {
                     wheel.load.iter().zip(&units).map(|(load, unit)| unit[part] * *load).sum()
                 };
-                carrier.jump(&total(0), &total(1))
+                let (force, couple) = (total(0), total(1));
+                Change { jump: carrier.jump(&force, &couple), kernels: point.kernels(&force, &couple) }
             };
             mappings.push(Mapping {
                 rail: other.rail,
@@ -84,7 +107,7 @@ impl TrainOnCarrier {
                 x: other.x[0],
                 s: start,
                 rate,
-                jumps: train.wheels.iter().map(jump).collect(),
+                changes: train.wheels.iter().map(change).collect(),
             });
         }
         let offsets = train.wheels.iter().map(|wheel| wheel.offset).collect();
@@ -102,7 +125,7 @@ impl TrainOnCarrier {
 
     /// By how much quantity k changes where each wheel that can stand on the member has been passed.
     pub fn jumps(&self, k: usize) -> impl Iterator<Item = f64> {
-        self.reaching().map(move |(mapping, wheel)| mapping.jumps[wheel][k])
+        self.reaching().map(move |(mapping, wheel)| mapping.changes[wheel].jump[k])
     }
 
     /// The rails of the member on which wheels of the train can stand.
@@ -130,97 +153,195 @@ impl TrainOnCarrier {
         }
     }
 
+    /// Least distance along the member between two wheels that can stand on it; 0 where wheels move against each other.
+    pub fn least_distance(&self) -> f64 {
+        if self.has_opposed_wheels() {
+            return 0.0;
+        }
+        let place = |(mapping, wheel): (&Mapping, usize)| {
+            mapping.s + (self.offsets[wheel] - mapping.x) * mapping.rate
+        };
+        let mut places: Vec<f64> = self.reaching().map(place).collect();
+        places.sort_by(f64::total_cmp);
+        let distances = places.windows(2).map(|pair| pair[1] - pair[0]);
+        distances.filter(|distance| *distance > 1e-12 * self.length).fold(f64::INFINITY, f64::min)
+    }
+
     /// Length of the member.
     pub fn length(&self) -> f64 {
         self.length
     }
 
     /// The wheels on the member in a piece, by increasing place.
-    pub fn wheels(&self, pieces: &Pieces<QUANTITIES>, piece: usize, out: &mut Vec<WheelOnMember>) {
-        out.clear();
+    fn wheels(&self, pieces: &Pieces<QUANTITIES>, piece: usize) -> Vec<WheelOnMember> {
+        let mut out = Vec::new();
         let position = pieces.list[piece].position[0];
         for (wheel, element) in pieces.elements(piece).iter().enumerate() {
             let Some(mapping) = self.mappings.iter().find(|mapping| Some(mapping.element) == *element) else {
                 continue;
             };
             let start = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
-            out.push(WheelOnMember { wheel, start, rate: mapping.rate, jump: mapping.jumps[wheel] });
+            out.push(WheelOnMember { wheel, start, rate: mapping.rate, change: mapping.changes[wheel] });
         }
         out.sort_by(|a, b| a.start.total_cmp(&b.start));
+        out
+    }
+}
+
+/// A train in one stance over one carrier.
+#[derive(Clone, Debug)]
+pub(crate) struct Passage {
+    pub on: TrainOnCarrier,
+    /// The quantities just inside the first end of the carrier.
+    pub pieces: Pieces<QUANTITIES>,
+    /// Deflections downwards and along +z, where the structure resists them: coefficients of the powers of the place over
+    /// the length of the carrier.
+    pub deflections: [Option<Pieces<POWERS>>; 2],
+    /// The wheels on the member in each piece, by increasing place.
+    wheels: Vec<Vec<WheelOnMember>>,
+}
+
+impl Passage {
+    pub fn new(
+        structure: &Structure,
+        carrier: &Carrier,
+        train: &PlacedTrain,
+        lines: &CarrierLines,
+    ) -> Result<Passage, Error> {
+        let slack = structure.slack();
+        let pieces = Pieces::sum(&lines.forces, train, slack);
+        let of = |lines: &Option<Lines<POWERS>>| lines.as_ref().map(|lines| Pieces::sum(lines, train, slack));
+        let deflections = [of(&lines.deflections[0]), of(&lines.deflections[1])];
+        let on = TrainOnCarrier::new(structure, carrier, train)?;
+        let wheels = (0..pieces.list.len()).map(|piece| on.wheels(&pieces, piece)).collect();
+        Ok(Passage { on, pieces, deflections, wheels })
     }
 
-    /// The quantities of the section at place s as pieces, split where a wheel passes it. A wheel that stands at the
-    /// section at an end of the train's range is counted on either side of it, by a piece of no length.
-    pub fn section(&self, pieces: &Pieces<QUANTITIES>, s: f64) -> Vec<Piece<QUANTITIES>> {
-        let slack = 1e-12 * self.length;
-        let mut out = Vec::with_capacity(pieces.list.len() + 2 * self.offsets.len());
-        let mut wheels = Vec::new();
-        let mut passages = Vec::new();
-        for (index, piece) in pieces.list.iter().enumerate() {
-            let mut base = piece.cubics;
-            for (k, cubic) in base.iter_mut().enumerate() {
-                if let Some(shear) = slope_index(k) {
-                    cubic.iter_mut().zip(piece.cubics[shear]).for_each(|(c, slope)| *c += s * slope);
-                }
-            }
-            self.wheels(pieces, index, &mut wheels);
-            if wheels.is_empty() {
-                out.push(Piece { position: piece.position, cubics: base });
-                continue;
-            }
-            let h = piece.length();
-            passages.clear();
-            passages.extend(wheels.iter().map(|wheel| (s - wheel.start) / wheel.rate));
-            let mut cuts = vec![0.0, h];
-            cuts.extend(
-                passages.iter().copied().filter(|t| *t > -slack && *t < h + slack).map(|t| t.clamp(0.0, h)),
-            );
-            cuts.sort_by(f64::total_cmp);
-            // A passage in the middle cuts once; one at an end leaves a piece of no length beyond it.
-            let (mut kept, mut ends) = (Vec::with_capacity(cuts.len()), [0, 0]);
-            for t in cuts {
-                if t <= slack {
-                    ends[0] += 1
-                } else if t >= h - slack {
-                    ends[1] += 1
-                } else if kept.last().is_none_or(|last| t - last > slack) {
-                    kept.push(t)
-                }
-            }
-            // Within the range the neighbouring piece has the other limit.
-            let [at_first, at_last] =
-                [index == 0, index + 1 == pieces.list.len()].map(|at| if at { 2 } else { 1 });
-            let mut bounds = vec![0.0; ends[0].min(at_first)];
-            bounds.extend(kept);
-            bounds.extend(std::iter::repeat_n(h, ends[1].min(at_last)));
-            for ends in bounds.windows(2) {
-                let side = if ends[1] > ends[0] {
-                    Side::Middle(0.5 * (ends[0] + ends[1]))
-                } else if ends[0] == 0.0 {
-                    Side::Before
-                } else {
-                    Side::After
-                };
-                let mut cubics = base;
-                for (wheel, passage) in wheels.iter().zip(&passages) {
-                    // Counted as before the section: the wheel comes from below until it passes.
-                    let later = match side {
-                        Side::Before => *passage <= -slack,
-                        Side::Middle(t) => t > *passage,
-                        Side::After => *passage <= h + slack,
-                    };
-                    if later != (wheel.rate > 0.0) {
-                        for (k, cubic) in cubics.iter_mut().enumerate() {
-                            cubic[0] += wheel.passed(k, s - wheel.start);
-                            cubic[1] -= slope_index(k).map_or(0.0, |shear| wheel.jump[shear] * wheel.rate);
-                        }
-                    }
-                }
-                cubics.iter_mut().for_each(|cubic| *cubic = shifted(cubic, ends[0]));
-                out.push(Piece { position: ends_of(piece, ends), cubics });
-            }
+    /// The wheels on the member in a piece, by increasing place.
+    pub fn wheels(&self, piece: usize) -> &[WheelOnMember] {
+        &self.wheels[piece]
+    }
+
+    /// Response k at place s in a piece, with no wheel passed.
+    fn base(&self, piece: usize, k: usize, s: f64) -> [f64; 4] {
+        if let Some(direction) = k.checked_sub(QUANTITIES) {
+            let Some(pieces) = &self.deflections[direction] else { return [0.0; 4] };
+            let [a, b, c, d] = &pieces.list[piece].cubics;
+            let u = s / self.on.length;
+            return std::array::from_fn(|p| a[p] + u * (b[p] + u * (c[p] + u * d[p])));
         }
+        let cubics = &self.pieces.list[piece].cubics;
+        let Some(shear) = slope_index(k) else { return cubics[k] };
+        std::array::from_fn(|p| cubics[k][p] + s * cubics[shear][p])
+    }
+
+    /// Calls `each` with the parts of a piece for response k of the section at place s: it is divided where a wheel passes
+    /// the section. A wheel that stands at the section at an end of the train's range is counted on either side of it, by
+    /// a part of no length.
+    pub fn parts(&self, piece: usize, k: usize, s: f64, mut each: impl FnMut(ResponsePiece)) {
+        let base = self.base(piece, k, s);
+        let wheels = &self.wheels[piece];
+        let whole = &self.pieces.list[piece];
+        let part = |position, cubic, part| ResponsePiece { position, cubic, origin: [piece, part] };
+        let h = whole.length();
+        let slack = 1e-12 * self.on.length;
+        let passage = |wheel: &WheelOnMember| (s - wheel.start) / wheel.rate;
+        let is_near = |wheel: &WheelOnMember| {
+            let t = passage(wheel);
+            t > -slack && t < h + slack
+        };
+        if !wheels.iter().any(is_near) {
+            let mut cubic = base;
+            let passed = wheels.iter().filter(|wheel| (0.5 * h > passage(wheel)) != (wheel.rate > 0.0));
+            for wheel in passed {
+                cubic.iter_mut().zip(wheel.passed(k, s)).for_each(|(sum, c)| *sum += c);
+            }
+            each(part(whole.position, cubic, 0));
+            return;
+        }
+        let passages: Vec<f64> = wheels.iter().map(passage).collect();
+        let at_ends = [piece == 0, piece + 1 == self.pieces.list.len()];
+        for (index, ends) in cuts(&passages, h, slack, at_ends).windows(2).enumerate() {
+            let side = match index {
+                _ if ends[1] > ends[0] => Side::Middle(0.5 * (ends[0] + ends[1])),
+                0 => Side::Before,
+                _ => Side::After,
+            };
+            let mut cubic = base;
+            for (wheel, passage) in wheels.iter().zip(&passages) {
+                // Counted as before the section: the wheel comes from below until it passes.
+                let later = match side {
+                    Side::Before => *passage <= -slack,
+                    Side::Middle(t) => t > *passage,
+                    Side::After => *passage <= h + slack,
+                };
+                if later != (wheel.rate > 0.0) {
+                    cubic.iter_mut().zip(wheel.passed(k, s)).for_each(|(sum, c)| *sum += c);
+                }
+            }
+            let at = |t: f64| if t >= h { whole.position[1] } else { whole.position[0] + t };
+            each(part([at(ends[0]), at(ends[1])], shifted(&cubic, ends[0]), index));
+        }
+    }
+
+    /// Response k of the section at place s, in all positions.
+    pub fn response(&self, k: usize, s: f64) -> Vec<ResponsePiece> {
+        let mut out = Vec::with_capacity(self.pieces.list.len() + 2 * self.on.offsets.len());
+        (0..self.pieces.list.len()).for_each(|piece| self.parts(piece, k, s, |part| out.push(part)));
         out
+    }
+
+    /// Response k of the section at place s with the train at a position in a part of a piece.
+    pub fn value(&self, k: usize, s: f64, position: f64, [piece, index]: [usize; 2]) -> f64 {
+        let mut found = 0.0;
+        self.parts(piece, k, s, |part| {
+            if part.origin[1] == index {
+                found = part.at(position);
+            }
+        });
+        found
+    }
+
+    /// Whether response k is the same in another stance at every section, to a relative difference of its largest size.
+    pub fn is_same(&self, other: &Passage, k: usize, tolerance: f64) -> bool {
+        let size = self.size(k).max(other.size(k));
+        let near = |a: f64, b: f64| (a - b).abs() <= tolerance * size;
+        if self.pieces.list.len() != other.pieces.list.len() {
+            return false;
+        }
+        let length = self.on.length;
+        (0..self.pieces.list.len()).all(|piece| {
+            let (a, b) = (&self.pieces.list[piece], &other.pieces.list[piece]);
+            let h = a.length();
+            let powers = [1.0, h, h * h, h * h * h];
+            // Cubic in the place: equal where it is equal at four sections.
+            let same_base = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0].into_iter().all(|u| {
+                let (a, b) = (self.base(piece, k, u * length), other.base(piece, k, u * length));
+                (0..4).all(|p| near(a[p] * powers[p], b[p] * powers[p]))
+            });
+            let (wheels, others) = (&self.wheels[piece], &other.wheels[piece]);
+            let same_wheels = wheels.len() == others.len()
+                && wheels.iter().zip(others).all(|(a, b)| {
+                    (a.start - b.start).abs() <= 1e-14 * length
+                        && a.rate == b.rate
+                        && [0.5, 1.0].into_iter().all(|u| {
+                            let s = a.start + u * length;
+                            near(a.passed(k, s)[0], b.passed(k, s)[0])
+                        })
+                });
+            a.position == b.position && same_base && same_wheels
+        })
+    }
+
+    /// Bound of the size of response k without the wheels that have been passed.
+    fn size(&self, k: usize) -> f64 {
+        let of = |piece: usize, s: f64| {
+            let h = self.pieces.list[piece].length();
+            let [a, b, c, d] = self.base(piece, k, s).map(f64::abs);
+            a + h * (b + h * (c + h * d))
+        };
+        let ends = (0..self.pieces.list.len()).map(|piece| of(piece, 0.0).max(of(piece, self.on.length)));
+        ends.fold(0.0, f64::max)
     }
 }
 
@@ -234,7 +355,29 @@ enum Side {
     After,
 }
 
-fn ends_of(piece: &Piece<QUANTITIES>, ends: &[f64]) -> [f64; 2] {
-    let at = |t: f64| if t >= piece.length() { piece.position[1] } else { piece.position[0] + t };
-    [at(ends[0]), at(ends[1])]
+/// The ends of the parts of a piece of length h in which wheels pass a section at some distances. A passage in the middle
+/// cuts once; one at an end leaves a part of no length beyond it, where the piece is the first or the last.
+fn cuts(passages: &[f64], h: f64, slack: f64, at_ends: [bool; 2]) -> Vec<f64> {
+    if h <= slack {
+        return vec![0.0; 3];
+    }
+    let mut cuts = vec![0.0, h];
+    cuts.extend(passages.iter().copied().filter(|t| *t > -slack && *t < h + slack).map(|t| t.clamp(0.0, h)));
+    cuts.sort_by(f64::total_cmp);
+    let (mut kept, mut ends) = (Vec::with_capacity(cuts.len()), [0, 0]);
+    for t in cuts {
+        if t <= slack {
+            ends[0] += 1
+        } else if t >= h - slack {
+            ends[1] += 1
+        } else if kept.last().is_none_or(|last| t - last > slack) {
+            kept.push(t)
+        }
+    }
+    // Within the range the neighbouring piece has the other limit.
+    let [at_first, at_last] = at_ends.map(|at| if at { 2 } else { 1 });
+    let mut bounds = vec![0.0; ends[0].min(at_first)];
+    bounds.extend(kept);
+    bounds.extend(std::iter::repeat_n(h, ends[1].min(at_last)));
+    bounds
 }

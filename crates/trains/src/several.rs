@@ -13,12 +13,11 @@ use crate::error::Error;
 use crate::extremes::Governing;
 use crate::follow::{SectionSide, Target};
 use crate::overrun::Overrun;
-use crate::pieces::Piece;
 use crate::plan::{CasePlan, Way};
 use crate::running::PiecewiseFunction;
 use crate::search::Search;
-use crate::section::{TrainOnCarrier, slope_index};
-use crate::structure::{Carrier, GirderResponse, QUANTITIES};
+use crate::section::{Passage, slope_index};
+use crate::structure::{Carrier, GirderResponse};
 
 /// Size of a force, relative to all wheels together, or of a moment, relative to them and the length of the member, below
 /// which it counts as zero.
@@ -47,7 +46,7 @@ pub(crate) fn enclosed(
     let margin = Box::new(|x| bounds.margin(x));
     let mut search = Search::new(target.sign, margin, window, |x| {
         let s = carrier.place(x);
-        let found = plan.best(&over.section(s), target.k, target.sign, f64::NEG_INFINITY);
+        let found = plan.best(&over.responses(target.k, s), target.sign);
         Ok(found.map(|found| {
             let dead = target.dead.at(quantity, s);
             Governing {
@@ -74,9 +73,9 @@ pub(crate) fn enclosed(
 
 /// Whether all wheels that can stand on the member stand on one rail.
 fn has_one_rail(over: &Overrun) -> bool {
-    let mut rails = over.on.iter().flatten().flat_map(TrainOnCarrier::reached_rails);
+    let mut rails = over.all().flat_map(|passage| passage.on.reached_rails());
     let first = rails.next();
-    rails.all(|rail| Some(rail) == first) && !over.on.iter().flatten().any(TrainOnCarrier::has_opposed_wheels)
+    rails.all(|rail| Some(rail) == first) && !over.all().any(|passage| passage.on.has_opposed_wheels())
 }
 
 /// The largest value of a force beside any wheel within the window.
@@ -87,14 +86,13 @@ fn beside_wheels(
     target: &Target<'_>,
 ) -> Option<Governing> {
     let all = |s: f64| -> Vec<Vec<Way>> {
-        let sections = over.section(s);
-        let of = |(train, stances): (usize, &Vec<Vec<Piece<QUANTITIES>>>)| {
-            let own = stances.iter().enumerate().map(|(stance, pieces)| {
-                (stance, PiecewiseFunction::of(pieces, target.k, target.sign, stance))
+        let of = |(train, stances): (usize, &Vec<Passage>)| {
+            let own = stances.iter().enumerate().map(|(stance, passage)| {
+                (stance, PiecewiseFunction::of(&passage.response(target.k, s), target.sign, stance))
             });
             plan.ways(train, own)
         };
-        sections.iter().enumerate().map(of).collect()
+        over.passages.iter().enumerate().map(of).collect()
     };
     let (ahead, passed) = (all(0.0), all(carrier.length));
     let mut best: Option<Governing> = None;
@@ -102,15 +100,15 @@ fn beside_wheels(
         for wheel in 0..stances[0].wheels.len() {
             for side in [SectionSide::Before, SectionSide::Behind] {
                 let beside = |stance: usize| {
-                    let pieces = &over.pieces[train][stance];
-                    (stance, over.on[train][stance].beside(pieces, target, wheel, side, stance))
+                    (stance, over.passages[train][stance].beside(target, wheel, side, stance))
                 };
                 let within = (0..stances.len()).map(beside).filter(|(_, function)| !function.is_empty());
                 let following = plan.ways(train, within);
                 let Some(found) = plan.best_around(train, &following, &passed, &ahead) else { continue };
                 let standing = found.trains[train];
                 let mut at = Vec::new();
-                over.on[train][standing.stance].coordinate_of(carrier, standing.position, wheel, &mut at);
+                let on = &over.passages[train][standing.stance].on;
+                on.coordinate_of(carrier, standing.position, wheel, &mut at);
                 let Some(x) = at.first().copied() else { continue };
                 let dead = target.dead.at(GirderResponse::ALL[target.k], carrier.place(x));
                 let value = target.sign * found.signed;
@@ -131,8 +129,8 @@ fn forces(plan: &CasePlan) -> f64 {
 
 /// Whether sign times the quantity changes along the member in one direction only or, for a moment, is convex.
 fn is_extreme_at_ends(over: &Overrun, target: &Target<'_>) -> bool {
-    let all = || over.on.iter().flatten();
-    let steps = |k: usize| all().flat_map(move |on| on.jumps(k)).map(|jump| target.sign * jump);
+    let steps =
+        |k: usize| over.all().flat_map(move |passage| passage.on.jumps(k)).map(|jump| target.sign * jump);
     let [_, slope, bend] = target.dead.quadratic(target.k).map(|c| target.sign * c);
     match slope_index(target.k) {
         Some(shear) => {

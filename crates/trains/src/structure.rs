@@ -13,6 +13,10 @@ use crate::train::{COMPONENTS, axis};
 /// Number of quantities of a section: [`GirderResponse::ALL`].
 pub(crate) const QUANTITIES: usize = 6;
 
+/// The deflections, downwards and along +z.
+pub(crate) const DEFLECTIONS: [GirderResponse; 2] =
+    [GirderResponse::VerticalDeflection, GirderResponse::LateralDeflection];
+
 /// An internal force of a member that carries a rail, or the deflection of the rail.
 ///
 /// The vertical plane is that of the member's axis and up; in the lateral plane +z of the rail takes the place of down.
@@ -410,45 +414,40 @@ impl Structure {
         Ok(self.lines(used, 1, split, value)?.remove(0))
     }
 
-    /// Influence line of a weighted sum of deflections of a rail, downwards or along +z; `places` are coordinates with
-    /// their weights.
+    /// Influence line of the deflection of a rail at x, downwards or along +z.
     pub(crate) fn deflection_line(
         &self,
         rail: usize,
-        places: &[[f64; 2]],
+        x: f64,
         quantity: GirderResponse,
         used: [bool; COMPONENTS],
     ) -> Result<Lines<1>, Error> {
         let surface = self.surface()?;
         let (axis, sign) = deflection_axis(quantity);
         let mut influence = Influence::zeros(2);
-        let here: Vec<(&Carrier, f64)> = places
-            .iter()
-            .filter_map(|&[x, _]| {
-                let on = |c: &&Carrier| c.rail == rail && c.x[0] <= x && x <= c.x[1];
-                self.carriers.iter().find(on).map(|carrier| (carrier, x))
-            })
-            .collect();
-        let split = |stretch: &Stretch| -> Vec<f64> {
-            let Some(carrier) = self.carriers.iter().find(|c| c.element == stretch.element) else {
-                return Vec::new();
-            };
-            let on = here.iter().filter(|(here, _)| here.member == carrier.member);
-            on.map(|(here, x)| {
-                let s = here.place(*x);
-                carrier.coordinate(if here.reversed == carrier.reversed { s } else { carrier.length - s })
-            })
-            .collect()
-        };
         let value = |probe: Probe, out: &mut [f64]| {
-            out[0] = 0.0;
-            for &[x, weight] in places {
-                surface.fill(&[Probe { rail, x, axis }, probe], &mut influence)?;
-                out[0] += sign * weight * influence.value[(0, 1)];
-            }
+            surface.fill(&[Probe { rail, x, axis }, probe], &mut influence)?;
+            out[0] = sign * influence.value[(0, 1)];
             Ok(())
         };
-        Ok(self.lines(used, 1, split, value)?.remove(0))
+        Ok(self.lines(used, 1, |stretch| self.opposite(rail, &[x], stretch), value)?.remove(0))
+    }
+
+    /// The coordinates on a stretch that are opposite to places of a rail on the same member.
+    pub(crate) fn opposite(&self, rail: usize, places: &[f64], stretch: &Stretch) -> Vec<f64> {
+        let Some(carrier) = self.carriers.iter().find(|c| c.element == stretch.element) else {
+            return Vec::new();
+        };
+        let on = |x: f64| {
+            let here = |c: &&Carrier| c.rail == rail && c.x[0] <= x && x <= c.x[1];
+            self.carriers.iter().find(here).filter(|here| here.member == carrier.member)
+        };
+        let place = |&x: &f64| {
+            let here = on(x)?;
+            let s = here.place(x);
+            Some(carrier.coordinate(if here.reversed == carrier.reversed { s } else { carrier.length - s }))
+        };
+        places.iter().filter_map(place).collect()
     }
 }
 
