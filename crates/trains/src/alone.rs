@@ -17,7 +17,7 @@ use crate::dead::DeadLoad;
 use crate::extremes::{Governing, TrainPosition};
 use crate::follow::SectionSide;
 use crate::overrun::Overrun;
-use crate::plan::CasePlan;
+use crate::plan::{CasePlan, Standing};
 use crate::search::Bend;
 use crate::structure::{Carrier, GirderResponse};
 
@@ -65,16 +65,11 @@ impl Alone<'_> {
     /// The governing state, and what sign times the deflection nowhere exceeds. `under_wheels` is the largest value under
     /// the wheels, where the slope has kinks; `known` is sign times a value below which nothing is sought.
     pub fn enclosed(&self, under_wheels: Option<Governing>, known: f64) -> (Option<Governing>, f64) {
-        let k = self.quantity as usize;
-        let stances = self.over.distinct(k, 0);
-        let pieces = |stance: &usize| self.over.passages[0][*stance].pieces.list.len();
-        let all: Active = Rc::new(
-            stances.iter().flat_map(|stance| (0..pieces(stance)).map(|piece| [*stance, piece])).collect(),
-        );
         let follows = under_wheels.is_some();
         let mut found =
             Found { largest: under_wheels.as_ref().map_or(0.0, |g| g.value.abs()), best: under_wheels };
         let [from, to] = self.window;
+        let all: Active = Rc::new(self.active(&mut found, known));
         let place = |k: usize| if k == PARTS { to } else { from + (to - from) * k as f64 / PARTS as f64 };
         let ends: Vec<Vec<f64>> =
             (0..=PARTS).map(|k| self.evaluate(place(k), &all, f64::NEG_INFINITY, &mut found)).collect();
@@ -117,6 +112,20 @@ impl Alone<'_> {
         }
     }
 
+    /// The pieces that can exceed the value at the middle of the window, and what is known.
+    fn active(&self, found: &mut Found, known: f64) -> Vec<[usize; 2]> {
+        let k = self.quantity as usize;
+        let middle = 0.5 * (self.window[0] + self.window[1]);
+        let hint = self.over.best(self.plan, k, self.sign, self.carrier.place(middle), None);
+        if let Some(Standing { stance, origin: [piece, _], .. }) = hint.map(|hint| hint.trains[0]) {
+            self.evaluate(middle, &Rc::new(vec![[stance, piece]]), f64::NEG_INFINITY, found);
+        }
+        let best = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
+        let places = self.window.map(|x| self.carrier.place(x));
+        let dead = self.dead.map_or(0.0, |dead| dead.bound(self.quantity, self.sign, places));
+        self.over.pieces_above(k, self.sign, best - dead)
+    }
+
     /// Sign times the largest deflection at x in each of some pieces; for pieces that do not reach `floor` a bound below
     /// it. The best is offered.
     fn evaluate(&self, x: f64, active: &Active, floor: f64, found: &mut Found) -> Vec<f64> {
@@ -133,10 +142,7 @@ impl Alone<'_> {
                     most = most.max(bound);
                     return;
                 }
-                let Some((t, signed)) = part.times(self.sign).largest_above(part.length(), f64::NEG_INFINITY)
-                else {
-                    return;
-                };
+                let (position, signed) = part.largest(self.sign);
                 let signed = signed + below;
                 most = most.max(signed);
                 found.largest = found.largest.max(signed.abs());
@@ -147,10 +153,7 @@ impl Alone<'_> {
                 {
                     return;
                 }
-                let standing = TrainPosition {
-                    position: part.position[0] + t,
-                    stance: self.plan.trains[0][stance].stance,
-                };
+                let standing = TrainPosition { position, stance: self.plan.trains[0][stance].stance };
                 let governing = Governing {
                     value: self.sign * signed,
                     dead,

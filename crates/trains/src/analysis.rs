@@ -11,7 +11,7 @@ use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtr
 use crate::follow::{SectionSide, Target};
 use crate::line::Lines;
 use crate::overrun::Overrun;
-use crate::plan::{Arrangement, CasePlan, Standing, TIE};
+use crate::plan::{Arrangement, CasePlan, TIE};
 use crate::rail_deflection::CarrierLines;
 use crate::several;
 use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
@@ -318,7 +318,7 @@ impl Section<'_> {
         &self,
         quantity: GirderResponse,
         sign: f64,
-        hint: Option<&Standing>,
+        hint: Option<&Arrangement>,
     ) -> Option<(Governing, Arrangement)> {
         let found = self.over.best(self.plan, quantity as usize, sign, self.s, hint)?;
         let dead = self.dead.at(quantity, self.s);
@@ -339,10 +339,10 @@ impl Section<'_> {
         &self,
         quantity: GirderResponse,
         sign: f64,
-        hint: &mut Option<Standing>,
+        hint: &mut Option<Arrangement>,
     ) -> Option<Governing> {
         let (mut governing, arrangement) = self.best(quantity, sign, hint.as_ref())?;
-        *hint = arrangement.trains.first().copied();
+
         governing.coincident = quantity.coincident().map(|k| {
             if k == quantity {
                 governing.value
@@ -350,6 +350,7 @@ impl Section<'_> {
                 self.over.value(k as usize, self.s, &arrangement) + self.dead.at(k, self.s)
             }
         });
+        *hint = Some(arrangement);
         Some(governing)
     }
 }
@@ -366,7 +367,9 @@ fn follow_one(
     for (stance, placed) in plan.trains[0].iter().enumerate() {
         let so_far = best.as_ref().or(known).map_or(f64::NEG_INFINITY, |g| target.sign * g.value);
         let floor = so_far - TIE * so_far.abs();
-        let Some(peak) = over.passages[0][stance].follow(target, floor) else { continue };
+        let Some(peak) = over.passages[0][stance].follow(over.bounds(stance), target, floor) else {
+            continue;
+        };
         let dead = target.dead.at(GirderResponse::ALL[target.k], peak.place);
         let found = Governing {
             value: target.sign * peak.signed,

@@ -59,6 +59,16 @@ impl DeadLoad {
         self.deflections[direction].iter().rev().fold(Polynomial::default(), add)
     }
 
+    /// Bound of sign times a quantity over a stretch of the carrier.
+    pub fn bound(&self, quantity: GirderResponse, sign: f64, [from, to]: [f64; 2]) -> f64 {
+        let place = Polynomial::new(&[from, 1.0]);
+        let along = match (quantity as usize).checked_sub(QUANTITIES) {
+            None => self.along(quantity as usize, &place),
+            Some(direction) => self.deflection_along(direction, &place),
+        };
+        Polynomial::default().plus(&along, sign).bound(to - from)
+    }
+
     /// Coefficients of quantity k.
     pub fn quadratic(&self, k: usize) -> [f64; 3] {
         self.forces[k]

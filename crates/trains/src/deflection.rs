@@ -16,7 +16,7 @@ use crate::extremes::{Governing, Request, SpanDeflection};
 use crate::follow::SectionSide;
 use crate::kernel::RailPoint;
 use crate::overrun::Overrun;
-use crate::plan::CasePlan;
+use crate::plan::{Arrangement, CasePlan};
 use crate::rail_deflection::CarrierLines;
 use crate::search::{Bend, Margin, Search};
 use crate::structure::{Carrier, DEFLECTIONS, GirderResponse, OnMember, Structure};
@@ -67,7 +67,9 @@ impl Deflections<'_> {
                             Some(blocked) => Box::new(|x| blocked.margin(x)),
                             None => Box::new(move |x| bend.margin(x)),
                         };
-                        let value = |x| Ok(self.best(self.over, Some(self.dead), direction, sign, x));
+                        let mut hint = None;
+                        let value =
+                            |x| Ok(self.best(self.over, Some(self.dead), direction, sign, x, &mut hint));
                         let mut search = Search::new(sign, margin, window, value);
                         if several {
                             search.most = MOST_OF_SEVERAL;
@@ -117,7 +119,7 @@ impl Deflections<'_> {
         search.enclosed(under, known)
     }
 
-    /// The governing state for a deflection at x.
+    /// The governing state for a deflection at x. `hint` is that of a place nearby, and then that of this one.
     fn best(
         &self,
         over: &Overrun,
@@ -125,19 +127,22 @@ impl Deflections<'_> {
         direction: usize,
         sign: f64,
         x: f64,
+        hint: &mut Option<Arrangement>,
     ) -> Option<Governing> {
         let quantity = DEFLECTIONS[direction];
         let s = self.carrier.place(x);
-        let found = over.best(self.plan, quantity as usize, sign, s, None)?;
+        let found = over.best(self.plan, quantity as usize, sign, s, hint.as_ref())?;
         let dead = dead.map_or(0.0, |dead| dead.at(quantity, s));
-        Some(Governing {
+        let governing = Governing {
             value: sign * found.signed + dead,
             dead,
             x,
             side: SectionSide::At,
             trains: standings(self.plan, &found),
             coincident: [0.0; 3],
-        })
+        };
+        *hint = Some(found);
+        Some(governing)
     }
 
     /// What bounds a deflection under several trains between two places.
@@ -189,7 +194,8 @@ impl Deflections<'_> {
                         };
                         search.enclosed(None, f64::NEG_INFINITY).0
                     } else {
-                        let value = |x| Ok(self.best(&over, None, direction, sign, x));
+                        let mut hint = None;
+                        let value = |x| Ok(self.best(&over, None, direction, sign, x, &mut hint));
                         let mut search = Search::new(sign, Box::new(move |x| bend.margin(x)), window, value);
                         search.gap = GAP_OF_CHORDS;
                         search.most = MOST_OF_CHORDS;

@@ -86,7 +86,7 @@ pub(crate) fn extremes_of_effects(
             let responses: Responses =
                 plan.trains.iter().map(|stances| stances.iter().enumerate().map(of).collect()).collect();
             out.push([1.0, -1.0].map(|sign| {
-                let found = plan.best(&responses, sign).unwrap_or_default();
+                let found = plan.best(&responses, sign, f64::NEG_INFINITY).unwrap_or_default();
                 Governing {
                     value: sign * found.signed + own,
                     dead: own,

@@ -6,12 +6,13 @@
 //! value at a vertex, a - b^2/(4 c) with a and b cubic, is of degree six. Ends of the member are fixed sections
 //! (`section`); this file does the others.
 
+use crate::bounds::Bounds;
 use crate::dead::DeadLoad;
 use crate::line::shifted;
 use crate::polynomial::Polynomial;
 use crate::running::PiecewiseFunction;
 use crate::section::{Passage, WheelOnMember, slope_index};
-use crate::structure::QUANTITIES;
+use crate::structure::{GirderResponse, QUANTITIES};
 
 /// Which side of a wheel a section is on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -46,9 +47,14 @@ pub(crate) struct Target<'a> {
 impl Passage {
     /// The largest value of a target at sections beside wheels and at vertices; `None` where there is none above
     /// `floor`.
-    pub fn follow(&self, target: &Target<'_>, floor: f64) -> Option<Peak> {
+    pub fn follow(&self, bounds: &Bounds, target: &Target<'_>, floor: f64) -> Option<Peak> {
         let mut best: Option<Peak> = None;
+        let dead = target.dead.bound(GirderResponse::ALL[target.k], target.sign, target.window);
         for (index, piece) in self.pieces.list.iter().enumerate() {
+            let limit = best.map_or(floor, |best| best.signed);
+            if bounds.over_all(target.k, target.sign, index) + dead <= limit {
+                continue;
+            }
             let wheels = self.wheels(index);
             let state = State { base: &piece.cubics, wheels };
             let h = piece.length();

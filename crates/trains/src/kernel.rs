@@ -23,6 +23,17 @@ impl Kernel {
         d * (a + d * (b + d * c))
     }
 
+    /// The slope just behind the load.
+    pub fn slope(&self) -> f64 {
+        self.0[0]
+    }
+
+    /// Bound of the size of the second derivative up to a distance.
+    pub fn second(&self, d: f64) -> f64 {
+        let [_, b, c] = self.0;
+        2.0 * b.abs() + 6.0 * c.abs() * d
+    }
+
     /// The cubic in t of K(d - rate t).
     pub fn passing(&self, d: f64, rate: f64) -> [f64; 4] {
         let [a, b, c] = self.0;

@@ -9,7 +9,7 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, dead, section, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, dead, section, bounds, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
@@ -17,7 +17,7 @@
 //!    deflection of a rail over a member as polynomials of the place and of the load's position;
 //! 4. `pieces`, `running`, `plan`: responses to a train as functions of its position, and the best arrangement of trains;
 //! 5. `dead`: dead load;
-//! 6. `section`, `instant`, `overrun`, `follow`: internal forces at a fixed section, along members at one instant, and at
+//! 6. `section`, `bounds`, `instant`, `overrun`, `follow`: responses of a fixed section, along members at one instant, and at
 //!    sections beside wheels and at vertices;
 //! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
 //! 8. `search`, `blocked`, `bicubic`, `several`, `under_wheels`, `alone`, `deflection`: extremes that are enclosed by
@@ -28,6 +28,7 @@ mod alone;
 mod analysis;
 mod bicubic;
 mod blocked;
+mod bounds;
 mod collect;
 mod dead;
 mod deflection;

@@ -80,6 +80,13 @@ pub(crate) fn cubics<E>(
         .collect())
 }
 
+/// A bound of a cubic on 0..=h: the largest of its Bernstein coefficients.
+pub(crate) fn bound_of_cubic([a, b, c, d]: &[f64; 4], h: f64) -> f64 {
+    let (b, c, d) = (b * h, c * h * h, d * h * h * h);
+    let inner = (a + b / 3.0).max(a + (2.0 * b + c) / 3.0);
+    inner.max(*a).max(a + b + c + d)
+}
+
 /// The cubic c(x + t).
 pub(crate) fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
     [a + t * (b + t * (c + t * d)), b + t * (2.0 * c + t * (3.0 * d)), c + 3.0 * t * d, *d]

@@ -1,11 +1,13 @@
 //! All trains of a case over one carrier, and the best arrangement for a response of one of its sections.
 
+use crate::bounds::Bounds;
 use crate::error::Error;
 use crate::line::Lines;
-use crate::plan::{Arrangement, CasePlan, Responses, Standing, TIE, offer_part};
+use crate::pieces::ResponsePiece;
+use crate::plan::{Arrangement, CasePlan, Responses, Standing, TIE, can_exceed, offer_part};
 use crate::rail_deflection::{CarrierLines, POWERS};
 use crate::section::Passage;
-use crate::structure::{Carrier, GirderResponse, Structure};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES, Structure};
 
 /// Responses that differ by no more than this, relative to the largest, are those of one stance.
 const EQUAL: f64 = 1e-14;
@@ -16,6 +18,8 @@ pub(crate) struct Overrun {
     /// By response and train: the stances that differ. A lateral force, for instance, does not change a vertical moment,
     /// whatever its sign.
     distinct: Vec<Vec<Vec<usize>>>,
+    /// Bounds of the responses to a single train, by stance; empty for several.
+    bounds: Vec<Bounds>,
 }
 
 impl Overrun {
@@ -25,12 +29,30 @@ impl Overrun {
         carrier: &Carrier,
         lines: &CarrierLines,
     ) -> Result<Overrun, Error> {
+        Overrun::from_response(structure, plan, carrier, lines, 0)
+    }
+
+    /// Only the responses from `first` on are prepared.
+    fn from_response(
+        structure: &Structure,
+        plan: &CasePlan,
+        carrier: &Carrier,
+        lines: &CarrierLines,
+        first: usize,
+    ) -> Result<Overrun, Error> {
         let of = |train| Passage::new(structure, carrier, train, lines);
         let passages = plan.trains.iter().map(|stances| stances.iter().map(of).collect());
         let passages: Vec<Vec<Passage>> = passages.collect::<Result<_, _>>()?;
-        let distinct = |k: usize| passages.iter().map(|stances| distinct_stances(stances, k)).collect();
+        let distinct = |k: usize| match k >= first {
+            true => passages.iter().map(|stances| distinct_stances(stances, k)).collect(),
+            false => vec![Vec::new(); passages.len()],
+        };
         let distinct = (0..GirderResponse::ALL.len()).map(distinct).collect();
-        Ok(Overrun { passages, distinct })
+        let bounds = match &passages[..] {
+            [stances] => stances.iter().map(|passage| Bounds::new(passage, first)).collect(),
+            _ => Vec::new(),
+        };
+        Ok(Overrun { passages, distinct, bounds })
     }
 
     /// Deflections alone, with other influence lines of them.
@@ -43,12 +65,18 @@ impl Overrun {
         let Some(forces) = deflections.iter().flatten().next().map(Lines::zeros_like) else {
             return Ok(None);
         };
-        Overrun::new(structure, plan, carrier, &CarrierLines { forces, deflections }).map(Some)
+        let lines = CarrierLines { forces, deflections };
+        Overrun::from_response(structure, plan, carrier, &lines, QUANTITIES).map(Some)
     }
 
     /// The passages of all trains in all stances.
     pub fn all(&self) -> impl Iterator<Item = &Passage> {
         self.passages.iter().flatten()
+    }
+
+    /// Bounds of the responses to a single train in a stance.
+    pub fn bounds(&self, stance: usize) -> &Bounds {
+        &self.bounds[stance]
     }
 
     /// The stances of a train that differ in response k.
@@ -73,25 +101,59 @@ impl Overrun {
         k: usize,
         sign: f64,
         s: f64,
-        hint: Option<&Standing>,
+        hint: Option<&Arrangement>,
     ) -> Option<Arrangement> {
-        let [stances] = &self.passages[..] else { return plan.best(&self.responses(k, s), sign) };
+        let lower = |value: f64| value - 2.0 * TIE * value.abs();
+        let [stances] = &self.passages[..] else {
+            let responses = self.responses(k, s);
+            let floor = hint.map_or(f64::NEG_INFINITY, |hint| lower(value_in(&responses, hint, sign)));
+            return plan.best(&responses, sign, floor);
+        };
+        // The piece of the hint, or the one with the largest bound, shows what is reached at least.
+        let known = hint.map(|hint| (hint.trains[0].stance, hint.trains[0].origin[0]));
         let mut floor = f64::NEG_INFINITY;
-        if let Some(hint) = hint {
-            stances[hint.stance].parts(hint.origin[0], k, s, |part| {
-                let found = part.times(sign).largest_above(part.length(), floor);
-                floor = found.map_or(floor, |(_, value)| floor.max(value - 2.0 * TIE * value.abs()));
-            });
+        if let Some((stance, piece)) = known.or_else(|| self.most_promising(k, sign, s)) {
+            stances[stance].parts(piece, k, s, |part| floor = floor.max(lower(part.largest(sign).1)));
         }
-        let mut best: Option<(f64, Standing)> = None;
-        for &stance in &self.distinct[k][0] {
-            for piece in 0..stances[stance].pieces.list.len() {
-                stances[stance].parts(piece, k, s, |part| {
-                    offer_part(&mut best, &part, stance, sign, floor);
-                });
+        let search = |floor: f64| {
+            let mut best: Option<(f64, Standing)> = None;
+            for &stance in &self.distinct[k][0] {
+                for (piece, &bound) in self.bounds[stance].near(k, sign, s).iter().enumerate() {
+                    if !can_exceed(&best, bound, floor) {
+                        continue;
+                    }
+                    stances[stance].parts(piece, k, s, |part| {
+                        offer_part(&mut best, &part, stance, sign, floor);
+                    });
+                }
             }
-        }
+            best
+        };
+        // Rounding of a bound can leave out even what has the floor.
+        let best = search(floor).or_else(|| search(f64::NEG_INFINITY));
         best.map(|(signed, standing)| Arrangement { signed, trains: vec![standing] })
+    }
+
+    /// The stance and the piece with the largest bound of sign times response k around place s under a single train.
+    fn most_promising(&self, k: usize, sign: f64, s: f64) -> Option<(usize, usize)> {
+        let of = |&stance: &usize| {
+            let bounds = self.bounds[stance].near(k, sign, s).iter().enumerate();
+            bounds
+                .map(|(piece, bound)| ([stance, piece], *bound))
+                .reduce(|a, b| if b.1 > a.1 { b } else { a })
+        };
+        let all = self.distinct[k][0].iter().filter_map(of);
+        let found = all.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+        Some((found.0[0], found.0[1]))
+    }
+
+    /// The pieces in which sign times response k of a single train can exceed a value anywhere on the carrier: stance and
+    /// piece.
+    pub fn pieces_above(&self, k: usize, sign: f64, floor: f64) -> Vec<[usize; 2]> {
+        let stances = self.distinct[k][0].iter();
+        let all = stances
+            .flat_map(|&stance| (0..self.passages[0][stance].pieces.list.len()).map(move |p| [stance, p]));
+        all.filter(|[stance, piece]| self.bounds[*stance].over_all(k, sign, *piece) > floor).collect()
     }
 
     /// Response k at place s in an arrangement, without dead load.
@@ -102,6 +164,18 @@ impl Overrun {
         })
         .sum()
     }
+}
+
+/// A value that sign times a response has with the trains of an arrangement at their positions; minus infinity where one
+/// of them stands in a stance that is not given.
+fn value_in(responses: &Responses, at: &Arrangement, sign: f64) -> f64 {
+    let of = |(standing, own): (&Standing, &Vec<(usize, Vec<ResponsePiece>)>)| {
+        let pieces = own.iter().find(|(stance, _)| *stance == standing.stance).map(|(_, pieces)| pieces)?;
+        let first = pieces.partition_point(|piece| piece.position[1] < standing.position);
+        let here = pieces[first..].iter().take_while(|piece| piece.position[0] <= standing.position);
+        here.map(|piece| sign * piece.at(standing.position)).reduce(f64::min)
+    };
+    at.trains.iter().zip(responses).map(|pair| of(pair).unwrap_or(f64::NEG_INFINITY)).sum()
 }
 
 /// Of the stances with equal response k the first.

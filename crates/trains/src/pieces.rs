@@ -1,7 +1,7 @@
 //! Responses to a train as piecewise cubics in its position.
 
-use crate::line::{LineCell, Lines, cell_at, shifted};
-use crate::polynomial::Polynomial;
+use crate::line::{LineCell, Lines, bound_of_cubic, cell_at, shifted};
+use crate::polynomial::{Polynomial, largest_of_cubic};
 use crate::train::{COMPONENTS, PlacedTrain};
 
 /// N responses to a train between two of its positions.
@@ -46,13 +46,15 @@ impl ResponsePiece {
         Polynomial::new(&self.cubic.map(|c| factor * c))
     }
 
+    /// Largest value of sign times the response, with its position.
+    pub fn largest(&self, sign: f64) -> (f64, f64) {
+        let (t, value) = largest_of_cubic(&self.cubic.map(|c| sign * c), self.length());
+        (self.position[0] + t, value)
+    }
+
     /// A bound of sign times the response: the largest of its Bernstein coefficients.
     pub fn bound(&self, sign: f64) -> f64 {
-        let h = self.length();
-        let [a, b, c, d] = self.cubic.map(|c| sign * c);
-        let (b, c, d) = (b * h, c * h * h, d * h * h * h);
-        let inner = (a + b / 3.0).max(a + (2.0 * b + c) / 3.0);
-        inner.max(a).max(a + b + c + d)
+        bound_of_cubic(&self.cubic.map(|c| sign * c), self.length())
     }
 }
 

@@ -216,14 +216,21 @@ impl CasePlan {
         if order.mirrored { self.distance(second, first) } else { self.distance(first, second) }
     }
 
-    /// The arrangement with the largest value of sign times a response.
-    pub fn best(&self, responses: &Responses, sign: f64) -> Option<Arrangement> {
+    /// The arrangement with the largest value of sign times a response. It is known to reach `floor`: what cannot is left
+    /// out.
+    pub fn best(&self, responses: &Responses, sign: f64, floor: f64) -> Option<Arrangement> {
         if let [own] = &responses[..] {
             let (signed, standing) = best_of_one(own, sign)?;
             return Some(Arrangement { signed, trains: vec![standing] });
         }
         let mut out = Arrangement { signed: 0.0, trains: vec![Standing::default(); responses.len()] };
         let mut ways: Vec<Vec<Way>> = responses.iter().map(|_| Vec::new()).collect();
+        let bound = |own: &Vec<(usize, Vec<ResponsePiece>)>| {
+            own.iter().flat_map(|(_, pieces)| pieces).map(|p| p.bound(sign)).fold(f64::NEG_INFINITY, f64::max)
+        };
+        let bounds: Vec<f64> = responses.iter().map(bound).collect();
+        let all: f64 = bounds.iter().sum();
+        let floor = floor - TIE * bounds.iter().map(|bound| bound.abs()).sum::<f64>();
         for group in &self.groups {
             if let [train] = group.orders[0].trains[..] {
                 let (signed, standing) = best_of_one(&responses[train], sign)?;
@@ -235,7 +242,7 @@ impl CasePlan {
                 let own = responses[train]
                     .iter()
                     .map(|(stance, pieces)| (*stance, PiecewiseFunction::of(pieces, sign, *stance)));
-                ways[train] = self.ways(train, own);
+                ways[train] = self.ways(train, own, floor - (all - bounds[train]));
             }
             let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
             let mut best: Option<Chain> = None;
@@ -321,11 +328,12 @@ impl CasePlan {
         }
     }
 
-    /// A response to a train each way round, from that in each of some stances.
+    /// A response to a train each way round, from that in each of some stances; what does not reach `floor` is left out.
     pub fn ways(
         &self,
         train: usize,
         stances: impl IntoIterator<Item = (usize, PiecewiseFunction)>,
+        floor: f64,
     ) -> Vec<Way> {
         let mut out: Vec<(bool, usize, PiecewiseFunction)> = Vec::new();
         for (stance, own) in stances {
@@ -337,10 +345,11 @@ impl CasePlan {
         }
         let backwards = self.groups.iter().flat_map(|group| &group.orders).any(|order| order.mirrored);
         let way = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
+            let function = function.above(floor);
             let mirrored = backwards.then(|| function.mirrored());
             Way { stance, function, mirrored }
         };
-        out.into_iter().map(way).collect()
+        out.into_iter().map(way).filter(|way| !way.function.is_empty()).collect()
     }
 
     /// The best positions of trains in one order and one way round each, if the value is above `limit`: train, stance and
@@ -438,16 +447,19 @@ pub(crate) fn offer_part(
     sign: f64,
     floor: f64,
 ) {
-    let limit = best.map_or(floor, |(value, _)| value + TIE * value.abs());
-    if part.bound(sign) < limit {
+    if !can_exceed(best, part.bound(sign), floor) {
         return;
     }
-    if let Some((t, value)) = part.times(sign).largest_above(part.length(), limit)
-        && (value > limit || best.is_none() && value >= floor)
-    {
-        let position = part.position[0] + t;
+    let (position, value) = part.largest(sign);
+    let limit = best.map_or(floor, |(value, _)| value + TIE * value.abs());
+    if value > limit || best.is_none() && value >= floor {
         *best = Some((value, Standing { stance, position, origin: part.origin }));
     }
+}
+
+/// Whether something with a bound can be better than the best, or the first to reach the floor.
+pub(crate) fn can_exceed(best: &Option<(f64, Standing)>, bound: f64, floor: f64) -> bool {
+    best.map_or(bound >= floor, |(value, _)| bound > value + TIE * value.abs())
 }
 
 /// Groups of trains that share rails, directly or through others, with their orders.

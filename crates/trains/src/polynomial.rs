@@ -96,7 +96,7 @@ impl Polynomial {
         match self.degree {
             0 => Roots::default(),
             1 => Roots::of([-self.coefficients[0] / self.coefficients[1]], h),
-            2 => Roots::of(quadratic(self.coefficients), h),
+            2 => Roots::of(quadratic(&self.coefficients), h),
             _ => {
                 let turns = self.derivative().roots(h);
                 let mut out = Roots::default();
@@ -189,8 +189,23 @@ impl Roots {
     }
 }
 
+/// Largest value of a cubic on 0..=h, with the first place that has it.
+pub(crate) fn largest_of_cubic(c: &[f64; 4], h: f64) -> (f64, f64) {
+    let at = |t: f64| c[0] + t * (c[1] + t * (c[2] + t * c[3]));
+    let mut best = (0.0, c[0]);
+    let slope = [c[1], 2.0 * c[2], 3.0 * c[3]];
+    let turns = if slope[2] != 0.0 { quadratic(&slope) } else { [-slope[0] / slope[1], f64::NAN] };
+    for t in turns.into_iter().filter(|t| (0.0..=h).contains(t)).chain([h]) {
+        let value = at(t);
+        if value > best.1 {
+            best = (t, value);
+        }
+    }
+    best
+}
+
 /// Both roots of a quadratic, increasing, without cancellation; NaN where there are none.
-fn quadratic(c: [f64; MOST + 1]) -> [f64; 2] {
+fn quadratic(c: &[f64]) -> [f64; 2] {
     let half = -0.5 * c[1];
     let root = (half * half - c[0] * c[2]).sqrt();
     let larger = if half >= 0.0 { half + root } else { half - root };

@@ -68,10 +68,9 @@ impl Structure {
         let split = |stretch: &Stretch| self.opposite(carrier.rail, ends, stretch);
         let mut lines: Lines<POWERS> = self.lines(used, 1, split, value)?.remove(0);
         for cubics in lines.rails.iter_mut().flatten().flat_map(|cell| &mut cell.cubics) {
-            for p in 0..4 {
-                let in_u = in_powers([0, 1, 2, 3].map(|node| cubics[node][p]));
-                (0..POWERS).for_each(|j| cubics[j][p] = in_u[j]);
-            }
+            let in_place: [[f64; POWERS]; 4] =
+                std::array::from_fn(|p| in_powers(cubics.map(|cubic| cubic[p])));
+            *cubics = std::array::from_fn(|j| std::array::from_fn(|p| in_place[p][j]));
         }
         Ok(Some(lines))
     }

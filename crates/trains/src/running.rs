@@ -86,6 +86,14 @@ impl PiecewiseFunction {
         PiecewiseFunction { pieces: pieces.iter().map(part).collect() }
     }
 
+    /// The parts that can reach a value.
+    pub fn above(mut self, floor: f64) -> PiecewiseFunction {
+        if floor > f64::NEG_INFINITY {
+            self.pieces.retain(|part| part.cubic.bound(part.length()) >= floor);
+        }
+        self
+    }
+
     /// The largest value, at the first position that has it.
     pub fn largest(&self) -> Option<Largest> {
         let mut best: Option<Largest> = None;

@@ -13,6 +13,10 @@ use crate::rail_deflection::{CarrierLines, POWERS};
 use crate::structure::{Carrier, GirderResponse, OnMember, QUANTITIES, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 use nalgebra::Vector3;
+use smallvec::SmallVec;
+
+/// Wheels for which no memory is allocated.
+const FEW: usize = 16;
 
 /// A rail element on the member of a carrier: how its coordinate counts along the carrier.
 #[derive(Clone, Debug)]
@@ -259,7 +263,7 @@ impl Passage {
             each(part(whole.position, cubic, 0));
             return;
         }
-        let passages: Vec<f64> = wheels.iter().map(passage).collect();
+        let passages: SmallVec<[f64; FEW]> = wheels.iter().map(passage).collect();
         let at_ends = [piece == 0, piece + 1 == self.pieces.list.len()];
         for (index, ends) in cuts(&passages, h, slack, at_ends).windows(2).enumerate() {
             let side = match index {
@@ -357,27 +361,28 @@ enum Side {
 
 /// The ends of the parts of a piece of length h in which wheels pass a section at some distances. A passage in the middle
 /// cuts once; one at an end leaves a part of no length beyond it, where the piece is the first or the last.
-fn cuts(passages: &[f64], h: f64, slack: f64, at_ends: [bool; 2]) -> Vec<f64> {
+fn cuts(passages: &[f64], h: f64, slack: f64, at_ends: [bool; 2]) -> SmallVec<[f64; FEW]> {
     if h <= slack {
-        return vec![0.0; 3];
+        return SmallVec::from_slice(&[0.0; 3]);
     }
-    let mut cuts = vec![0.0, h];
-    cuts.extend(passages.iter().copied().filter(|t| *t > -slack && *t < h + slack).map(|t| t.clamp(0.0, h)));
-    cuts.sort_by(f64::total_cmp);
-    let (mut kept, mut ends) = (Vec::with_capacity(cuts.len()), [0, 0]);
-    for t in cuts {
+    let mut within: SmallVec<[f64; FEW]> = SmallVec::new();
+    let mut ends = [1, 1];
+    for &t in passages.iter().filter(|t| **t > -slack && **t < h + slack) {
         if t <= slack {
             ends[0] += 1
         } else if t >= h - slack {
             ends[1] += 1
-        } else if kept.last().is_none_or(|last| t - last > slack) {
-            kept.push(t)
+        } else {
+            within.push(t)
         }
     }
+    within.sort_by(f64::total_cmp);
+    within.dedup_by(|b, a| *b - *a <= slack);
     // Within the range the neighbouring piece has the other limit.
     let [at_first, at_last] = at_ends.map(|at| if at { 2 } else { 1 });
-    let mut bounds = vec![0.0; ends[0].min(at_first)];
-    bounds.extend(kept);
-    bounds.extend(std::iter::repeat_n(h, ends[1].min(at_last)));
-    bounds
+    let mut out: SmallVec<[f64; FEW]> = SmallVec::new();
+    out.extend(std::iter::repeat_n(0.0, ends[0].min(at_first)));
+    out.extend(within);
+    out.extend(std::iter::repeat_n(h, ends[1].min(at_last)));
+    out
 }

@@ -44,9 +44,11 @@ pub(crate) fn enclosed(
     let window = target.window.map(|s| carrier.coordinate(s));
     let bounds = Blocked::new(plan, over, carrier, target);
     let margin = Box::new(|x| bounds.margin(x));
+    let mut hint = None;
     let mut search = Search::new(target.sign, margin, window, |x| {
         let s = carrier.place(x);
-        let found = plan.best(&over.responses(target.k, s), target.sign);
+        let found = over.best(plan, target.k, target.sign, s, hint.as_ref());
+        hint.clone_from(&found);
         Ok(found.map(|found| {
             let dead = target.dead.at(quantity, s);
             Governing {
@@ -90,7 +92,7 @@ fn beside_wheels(
             let own = stances.iter().enumerate().map(|(stance, passage)| {
                 (stance, PiecewiseFunction::of(&passage.response(target.k, s), target.sign, stance))
             });
-            plan.ways(train, own)
+            plan.ways(train, own, f64::NEG_INFINITY)
         };
         over.passages.iter().enumerate().map(of).collect()
     };
@@ -103,7 +105,7 @@ fn beside_wheels(
                     (stance, over.passages[train][stance].beside(target, wheel, side, stance))
                 };
                 let within = (0..stances.len()).map(beside).filter(|(_, function)| !function.is_empty());
-                let following = plan.ways(train, within);
+                let following = plan.ways(train, within, f64::NEG_INFINITY);
                 let Some(found) = plan.best_around(train, &following, &passed, &ahead) else { continue };
                 let standing = found.trains[train];
                 let mut at = Vec::new();

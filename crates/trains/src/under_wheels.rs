@@ -29,7 +29,13 @@ impl UnderWheels<'_> {
         let k = DEFLECTIONS[self.direction] as usize;
         for &stance in over.distinct(k, 0) {
             let passage = &over.passages[0][stance];
+            let more =
+                self.dead.map_or(0.0, |dead| dead.bound(DEFLECTIONS[self.direction], self.sign, self.window));
             for (index, piece) in passage.pieces.list.iter().enumerate() {
+                let floor = best.as_ref().map_or(f64::NEG_INFINITY, |g| self.sign * g.value);
+                if over.bounds(stance).over_all(k, self.sign, index) + more <= floor {
+                    continue;
+                }
                 let wheels = passage.wheels(index);
                 for (own, wheel) in wheels.iter().enumerate() {
                     let limits = self.window.map(|s| (s - wheel.start) / wheel.rate);

@@ -1,0 +1,102 @@
+//! Bounds of the responses of a passage over thirds of its carrier, by which most pieces are left out of a search.
+//!
+//! At the ends of a third a response is bounded by its Bernstein coefficients. Between them a force of one state is
+//! constant and a moment linear, except for the steps J and the jumps of the shear V at wheels that can stand there; a
+//! deflection bends by its second derivative k, with jumps of the slope g at wheels:
+//!
+//! force <= its ends + sum J,    moment <= its ends + sum J + h/4 sum V,    deflection <= its ends + k h^2/8 + h/4 sum g.
+
+use crate::line::bound_of_cubic;
+use crate::section::{Passage, slope_index};
+use crate::structure::{GirderResponse, QUANTITIES};
+
+/// Parts of a carrier.
+const PARTS: usize = 3;
+/// By how much bounds are enlarged for rounding, relative to their size.
+const ROUNDING: f64 = 1e-12;
+
+/// Bounds of sign times each response, by part of the carrier, response, sign and piece.
+#[derive(Clone, Debug)]
+pub(crate) struct Bounds {
+    values: Vec<f64>,
+    pieces: usize,
+    length: f64,
+}
+
+impl Bounds {
+    /// The bounds of the responses from `first` on; the others are not bounded.
+    pub fn new(passage: &Passage, first: usize) -> Bounds {
+        let pieces = passage.pieces.list.len();
+        let length = passage.on.length();
+        let responses = GirderResponse::ALL.len();
+        let mut values = vec![f64::INFINITY; PARTS * responses * 2 * pieces];
+        for k in first..responses {
+            for piece in 0..pieces {
+                let mut ends = [[f64::NEG_INFINITY; 2]; PARTS + 1];
+                for (station, ends) in ends.iter_mut().enumerate() {
+                    let s = length * station as f64 / PARTS as f64;
+                    passage.parts(piece, k, s, |part| {
+                        ends[0] = ends[0].max(part.bound(1.0));
+                        ends[1] = ends[1].max(part.bound(-1.0));
+                    });
+                }
+                for part in 0..PARTS {
+                    let more = margin(passage, piece, k, part);
+                    for sign in 0..2 {
+                        let [a, b] = [ends[part][sign], ends[part + 1][sign]];
+                        let size = a.abs().max(b.abs()) + more;
+                        values[((part * responses + k) * 2 + sign) * pieces + piece] =
+                            a.max(b) + more + ROUNDING * size;
+                    }
+                }
+            }
+        }
+        Bounds { values, pieces, length }
+    }
+
+    /// Bounds of sign times response k around place s, by piece.
+    pub fn near(&self, k: usize, sign: f64, s: f64) -> &[f64] {
+        let part = (s / self.length * PARTS as f64) as usize;
+        self.of_part(part.min(PARTS - 1), k, sign)
+    }
+
+    /// The bound of sign times response k over the carrier in a piece.
+    pub fn over_all(&self, k: usize, sign: f64, piece: usize) -> f64 {
+        (0..PARTS).map(|part| self.of_part(part, k, sign)[piece]).fold(f64::NEG_INFINITY, f64::max)
+    }
+
+    fn of_part(&self, part: usize, k: usize, sign: f64) -> &[f64] {
+        let first = ((part * GirderResponse::ALL.len() + k) * 2 + usize::from(sign < 0.0)) * self.pieces;
+        &self.values[first..first + self.pieces]
+    }
+}
+
+/// By how much sign times response k can exceed its values at the ends of a part of the carrier.
+fn margin(passage: &Passage, piece: usize, k: usize, part: usize) -> f64 {
+    let length = passage.on.length();
+    let h = length / PARTS as f64;
+    let time = passage.pieces.list[piece].length();
+    let [from, to] = [part as f64 * h, (part + 1) as f64 * h];
+    let within = passage.wheels(piece).iter().filter(|wheel| {
+        let ends = [wheel.start, wheel.start + wheel.rate * time];
+        ends[0].min(ends[1]) <= to + ROUNDING * length && ends[0].max(ends[1]) >= from - ROUNDING * length
+    });
+    if let Some(direction) = k.checked_sub(QUANTITIES) {
+        let Some(pieces) = &passage.deflections[direction] else { return 0.0 };
+        let [_, _, c, d] = &pieces.list[piece].cubics;
+        let size =
+            |cubic: &[f64; 4]| bound_of_cubic(cubic, time).max(bound_of_cubic(&cubic.map(|c| -c), time));
+        let ends = [2.0 * part as f64 / PARTS as f64, 2.0 * (part + 1) as f64 / PARTS as f64];
+        let bend = ends.map(|u| size(&std::array::from_fn(|p| 2.0 * c[p] + 3.0 * u * d[p])));
+        let own = bend[0].max(bend[1]) / (8.0 * (PARTS * PARTS) as f64);
+        // Wheels passed anywhere bend the rail; only those within the part kink it.
+        let bends: f64 = passage.wheels(piece).iter().map(|w| w.kernel(direction).second(length)).sum();
+        let kinks: f64 = within.map(|w| w.kernel(direction).slope().abs()).sum();
+        return own + bends * h * h / 8.0 + kinks * h / 4.0;
+    }
+    within
+        .map(|wheel| {
+            wheel.jump(k).abs() + slope_index(k).map_or(0.0, |shear| wheel.jump(shear).abs() * h / 4.0)
+        })
+        .sum()
+}
