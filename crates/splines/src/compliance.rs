@@ -43,6 +43,9 @@ impl Influence {
     }
 }
 
+/// Probes whose displacements are evaluated together.
+const GROUP: usize = 12;
+
 /// Compliance of a structure at its rails: displacements per unit force between any set of probes.
 ///
 /// Implementations are [`crate::ExactSurface`] (exact), [`crate::TableReading`] and [`crate::FactoredTable`] (tables of
@@ -92,6 +95,24 @@ pub trait Compliance: Send + Sync {
     /// A probe beyond its rail, on a rail that does not exist, or in a direction in which the structure has
     /// no stiffness; matrices of another size.
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error>;
+
+    /// Writes the displacements at the probes `at` under forces: `out[i]` = sum over j of G(at i, load j) F_j. Each load is
+    /// a place and direction with its force.
+    ///
+    /// # Errors
+    /// Those of [`Compliance::fill`].
+    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        for (at, out) in at.chunks(GROUP).zip(out.chunks_mut(GROUP)) {
+            let all: Vec<Probe> = at.iter().copied().chain(loads.iter().map(|load| load.0)).collect();
+            let mut influence = Influence::zeros(all.len());
+            self.fill(&all, &mut influence)?;
+            for (i, out) in out.iter_mut().enumerate() {
+                let of = |(j, load): (usize, &(Probe, f64))| influence.value[(i, at.len() + j)] * load.1;
+                *out = loads.iter().enumerate().map(of).sum();
+            }
+        }
+        Ok(())
+    }
 
     /// Coordinates along `rail` where derivatives of the surface may jump (supports, hinges, stations),
     /// increasing.

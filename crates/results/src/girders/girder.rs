@@ -39,9 +39,6 @@ pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> 
 /// Number of rows at which deflections are looked for.
 const FEW: usize = 24;
 
-/// Size of a group of points whose deflections are evaluated together.
-const GROUP: usize = 12;
-
 impl LoadedGirders<'_> {
     /// The quantities of a section at a distance from the first end of a member.
     pub fn forces_in(&self, member: usize, place: f64, state: &LoadState, own: OwnLoad) -> Quantities {
@@ -92,12 +89,9 @@ impl LoadedGirders<'_> {
         }
         let (axis, sign) = if plane == 0 { (Axis::Vertical, -1.0) } else { (Axis::Lateral, 1.0) };
         let rail = self.sections.rails[rail].rail;
-        let mut out = Vec::with_capacity(x.len());
-        for group in x.chunks(GROUP) {
-            let probes: Vec<Probe> = group.iter().map(|&x| Probe { rail, x, axis }).collect();
-            let moved = displacements(self.foundation, &probes, &state.wheels, &state.dofs).ok()?;
-            out.extend(moved.into_iter().map(|value| sign * value));
-        }
+        let probes: Vec<Probe> = x.iter().map(|&x| Probe { rail, x, axis }).collect();
+        let mut out = displacements(self.foundation, &probes, &state.wheels, &state.dofs).ok()?;
+        out.iter_mut().for_each(|value| *value *= sign);
         Some(out)
     }
 

@@ -1,7 +1,7 @@
 //! Loads on rails by wheels and end stops at one output time, and the displacements of the rails under these loads.
 
 use sim::{Channel, Foundation, History};
-use splines::{Axis, Error, Influence, Probe};
+use splines::{Axis, Error, Probe};
 
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
@@ -168,27 +168,17 @@ pub(crate) fn displacements(
 ) -> Result<Vec<f64>, Error> {
     let mut out = vec![0.0; probes.len()];
     if let Some(compliance) = &foundation.compliance {
-        let mut at = probes.to_vec();
         let mut forces = Vec::new();
         for load in loads {
             for (axis, force) in
                 [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
             {
                 if force != 0.0 && (axis != Axis::Longitudinal || foundation.is_loaded_along) {
-                    at.push(Probe { rail: load.rail, x: load.x, axis });
-                    forces.push(force);
+                    forces.push((Probe { rail: load.rail, x: load.x, axis }, force));
                 }
             }
         }
-        let mut influence = Influence::zeros(at.len());
-        compliance.fill(&at, &mut influence)?;
-        for (i, out) in out.iter_mut().enumerate() {
-            *out += forces
-                .iter()
-                .enumerate()
-                .map(|(j, force)| influence.value[(i, probes.len() + j)] * force)
-                .sum::<f64>();
-        }
+        compliance.displacements(probes, &forces, &mut out)?;
     }
     if let (Some(structure), false) = (&foundation.structure, q.is_empty()) {
         let (mut value, mut slope) = (vec![0.0; q.len()], vec![0.0; q.len()]);

@@ -59,6 +59,26 @@ impl Compliance for ElementResidual {
         Ok(())
     }
 
+    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        self.whole.displacements(at, loads, out)?;
+        if !self.is_less {
+            return Ok(());
+        }
+        let rails = self.whole.rails();
+        let loaded = loads.iter().map(|(probe, force)| Ok((rails.uniform_load(*probe)?, *force)));
+        let loaded = loaded.collect::<Result<Vec<_>, Error>>()?;
+        for (&p, out) in at.iter().zip(out) {
+            let (element, one) = rails.uniform_load(p)?;
+            for ((own, other), force) in &loaded {
+                if rails.clamped_on_one_member(element, *own).is_some() {
+                    let squares = self.squares.get(*own).copied().unwrap_or_default();
+                    *out -= force * (0..2).map(|k| squares[k] * one[k][0] * other[k][0]).sum::<f64>();
+                }
+            }
+        }
+        Ok(())
+    }
+
     fn breaks(&self, rail: usize) -> Vec<f64> {
         self.whole.breaks(rail)
     }

@@ -157,6 +157,50 @@ impl ExactSurface {
         Ok(())
     }
 
+    /// C times the nodal forces of loads, at the degrees of freedom that are `wanted`; the rows of the loads are returned as
+    /// well.
+    fn nodal_displacements(
+        &self,
+        loads: &[(Probe, f64)],
+        wanted: &[ShapeRow],
+    ) -> Result<(Vec<f64>, Vec<ShapeRow>), Error> {
+        let size = self.nodal.nrows();
+        let mut forces = vec![0.0; size];
+        let mut loaded = Vec::new();
+        let mut rows = Vec::with_capacity(loads.len());
+        for (probe, force) in loads {
+            let row = self.restrained_row(*probe)?;
+            for (&dof, value) in row.indices().iter().zip(row.values()) {
+                if forces[dof] == 0.0 {
+                    loaded.push(dof);
+                }
+                forces[dof] += value * force;
+            }
+            rows.push(row);
+        }
+        loaded.sort_unstable();
+        loaded.dedup();
+        let mut moved = vec![f64::NAN; size];
+        for &dof in wanted.iter().flat_map(ShapeRow::indices) {
+            if moved[dof].is_nan() {
+                let column = self.nodal.column(dof);
+                moved[dof] = loaded.iter().map(|&k| column[k] * forces[k]).sum();
+            }
+        }
+        Ok((moved, rows))
+    }
+
+    /// The shape row of a probe in whose direction the structure has stiffness.
+    fn restrained_row(&self, at: Probe) -> Result<ShapeRow, Error> {
+        let mut row = ShapeRow::EMPTY;
+        self.rails.row_into(at, &mut row)?;
+        let is_free = |(&dof, value): (&usize, &f64)| *value != 0.0 && self.nodal[(dof, dof)] == f64::INFINITY;
+        if row.indices().iter().zip(row.values()).any(is_free) {
+            return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
+        }
+        Ok(row)
+    }
+
     /// Adds Green's function between probes in one element and mirrors the values.
     fn add_elements(&self, at: &[Probe], rows: &[ShapeRow], out: &mut Influence) -> Result<(), Error> {
         let n = at.len();
@@ -255,6 +299,22 @@ impl Compliance for ExactSurface {
             9..=16 => self.assemble(at, &mut [ShapeRow::EMPTY; 16][..n], &mut [0; 16][..n], out),
             _ => self.assemble(at, &mut vec![ShapeRow::EMPTY; n], &mut vec![0; n], out),
         }
+    }
+
+    /// The nodal displacements under all loads are computed once.
+    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        let rows = at.iter().map(|probe| self.restrained_row(*probe)).collect::<Result<Vec<_>, _>>()?;
+        let (moved, loaded) = self.nodal_displacements(loads, &rows)?;
+        for (row, out) in rows.iter().zip(out) {
+            let nodal: f64 =
+                row.indices().iter().zip(row.values()).map(|(&dof, value)| value * moved[dof]).sum();
+            let own = loaded.iter().zip(loads).filter_map(|(other, (_, force))| {
+                let [own, other_element] = self.rails.clamped_on_one_member(row.element, other.element)?;
+                Some(force * own.value(row.axis, row.place, other_element, other.axis, other.place))
+            });
+            *out = nodal + own.sum::<f64>();
+        }
+        Ok(())
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {

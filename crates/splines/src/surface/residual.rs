@@ -85,6 +85,22 @@ impl Compliance for ResidualFlexibility {
         Ok(())
     }
 
+    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        self.whole.displacements(at, loads, out)?;
+        let count = self.taken.count();
+        let (mut value, mut slope) = (vec![0.0; count], vec![0.0; count]);
+        let mut taken = vec![0.0; count];
+        for (probe, force) in loads {
+            self.taken.row(*probe, &mut value, &mut slope)?;
+            taken.iter_mut().zip(&value).for_each(|(sum, shape)| *sum += shape * force);
+        }
+        for (probe, out) in at.iter().zip(out) {
+            self.taken.row(*probe, &mut value, &mut slope)?;
+            *out -= dot(&value, &taken);
+        }
+        Ok(())
+    }
+
     fn breaks(&self, rail: usize) -> Vec<f64> {
         self.whole.breaks(rail)
     }
