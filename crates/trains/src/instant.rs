@@ -5,15 +5,15 @@
 //! moments by (s - s_k) times the jump of the shear. Loads may stand anywhere; nothing is sampled along the member.
 
 use fea::{Effect, Model, Rail};
-use splines::{InfluenceLines, Probe};
-
 use crate::error::Error;
+use crate::line::LineCell;
 use crate::section::slope_index;
-use crate::structure::{Carrier, OnMember, QUANTITIES, Structure, end_effects};
-use crate::train::axis;
+use crate::structure::{Carrier, OnMember, QUANTITIES, Structure};
 
 /// Distance from the end of a member, relative to its length along the rail, within which a load counts as just inside.
 const INSIDE: f64 = 1e-9;
+/// Members whose influence lines are solved at once.
+const BATCH: usize = 32;
 
 /// A concentrated load on a rail.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -46,8 +46,8 @@ pub struct RailLoad {
 #[derive(Debug)]
 pub struct MemberForces {
     structure: Structure,
-    /// Influence lines of the six components of the force inside the first end of each carrier.
-    lines: Vec<InfluenceLines>,
+    /// Influence lines of the six quantities just inside the first end of each carrier, by rail.
+    lines: Vec<Vec<Vec<ForceCell>>>,
     /// Rail elements on the member of each carrier.
     elements: Vec<Vec<LoadedElement>>,
 }
@@ -62,6 +62,13 @@ struct LoadedElement {
     rate: f64,
     /// Jump of the quantities by a unit load in each direction.
     jumps: [[f64; QUANTITIES]; 3],
+}
+
+/// A stretch of rail with the cubics of six quantities for forces in each direction, by the distance from its first end.
+#[derive(Debug)]
+struct ForceCell {
+    x: [f64; 2],
+    cubics: [[[f64; 4]; QUANTITIES]; 3],
 }
 
 /// A member that carries a rail.
@@ -99,9 +106,17 @@ impl MemberForces {
         let structure = Structure::new(model, rails, false)?;
         let mut lines = Vec::with_capacity(structure.carriers.len());
         let mut elements = Vec::with_capacity(structure.carriers.len());
-        for carrier in &structure.carriers {
-            lines.push(structure.frame.influence_lines(&structure.model, &end_effects(carrier))?);
-            elements.push(loaded_elements(&structure, carrier)?);
+        for carriers in structure.carriers.chunks(BATCH) {
+            let cell = |cell: LineCell<QUANTITIES>| {
+                let [along, up, across, ..] = cell.cubics;
+                ForceCell { x: cell.x, cubics: [along, up, across] }
+            };
+            let of_rail = |cells: Vec<LineCell<QUANTITIES>>| cells.into_iter().map(cell).collect();
+            let solved = structure.end_lines(carriers, [true, true, true, false, false])?;
+            lines.extend(solved.into_iter().map(|lines| lines.rails.into_iter().map(of_rail).collect()));
+            for carrier in carriers {
+                elements.push(loaded_elements(&structure, carrier)?);
+            }
         }
         Ok(MemberForces { structure, lines, elements })
     }
@@ -155,18 +170,20 @@ impl MemberForces {
     pub fn load(&self, member: usize, loads: &[RailLoad], out: &mut PassedLoads) {
         out.passed.clear();
         let mut own = [0.0; QUANTITIES];
-        let mut unit = [0.0; QUANTITIES];
         for (index, load) in loads.iter().enumerate() {
+            let felt = |k: &usize| load.force[*k] != 0.0 && self.structure.resists(load.rail, *k);
             let (x, element) = self.inside(member, load);
+            let cells = &self.lines[member][load.rail];
+            let at = cells.partition_point(|cell| cell.x[0] <= x).saturating_sub(1);
+            let Some(cell) = cells.get(at).filter(|cell| cell.x[0] <= x && x <= cell.x[1]) else { continue };
+            let t = x - cell.x[0];
             let mut jump = [0.0; QUANTITIES];
             let mut is_felt = false;
-            for k in (0..3).filter(|k| load.force[*k] != 0.0) {
-                let probe = Probe { rail: load.rail, x, axis: axis(k) };
-                if self.lines[member].fill(probe, &mut unit).is_err() {
-                    continue;
-                }
+            for k in (0..3).filter(felt) {
                 is_felt = true;
-                own.iter_mut().zip(unit).for_each(|(sum, value)| *sum += load.force[k] * value);
+                for (sum, [a, b, c, d]) in own.iter_mut().zip(&cell.cubics[k]) {
+                    *sum += load.force[k] * (a + t * (b + t * (c + t * d)));
+                }
                 if let Some(element) = element {
                     jump.iter_mut().zip(element.jumps[k]).for_each(|(sum, a)| *sum += load.force[k] * a);
                 }
@@ -176,7 +193,7 @@ impl MemberForces {
                 out.passed.push(PassedLoad { index, place, jump });
             }
         }
-        out.base = self.structure.carriers[member].quantities(own);
+        out.base = own;
     }
 
     /// The coordinate at which a load counts, and the rail element of the member on which it stands.
