@@ -1,6 +1,7 @@
 //! `girderway design` from its files to its tables.
 
 mod moving;
+mod published;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
