@@ -181,7 +181,7 @@ fn line_beam_of_two_spans() {
 #[test]
 fn twelve_axles_on_37_m() {
     let found = Replay::named("m1600_37m").moment(1, 1, "max");
-    assert!(found >= 7809.3 && found < 7809.3 * 1.0002, "{found}");
+    assert!((7809.3..7809.3 * 1.0002).contains(&found), "{found}");
 }
 
 /// Published in the documentation of PyCBA, rounded to 5 as in AS 5100.2: moments and reactions of a railway train.
@@ -199,6 +199,7 @@ fn railway_train_on_spans_of_5_to_100_m() {
         (40.0, 21555.0, Some(2515.0)),
         (45.0, 26525.0, Some(2785.0)),
         (50.0, 32560.0, Some(3025.0)),
+        (100.0, 126_300.0, None),
     ];
     for (span, moment, reaction) in published {
         let folder = tempfile::tempdir().expect("a temporary folder");
