@@ -4,7 +4,7 @@
     venv/bin/python tests/design/mill.py target/release/girderway [--step FT] [--keep FOLDER]
 
 `girderway design` runs a ladle crane with eight wheels and a charging crane with four on the rail of
-examples/mill_girderway, each alone and both together, in either order and 1 ft or more apart. OpenSees solves the same building (by
+examples/mill_girderway, each alone, two of the latter, and one of each in either order, 1 ft or more apart. OpenSees solves the same building (by
 fea/opensees_frame.py, which reads the spec on its own) under single loads along the rail. Its influence line of a
 reaction is a cubic over the girder of a bay, and straight on each half of the gap over a column; both follow from a few
 loads, and the misfit of the surplus loads is printed. The trains stand at every --step, 0.05 ft by default; two trains
@@ -36,7 +36,12 @@ TRAINS = {
     "ladle": ([0, 5, 11, 16, 29, 34, 40, 45], 110e3, 4.0),
     "charging": ([0, 5, 13, 18], 120e3, 3.0),
 }
-CASES = {"ladle": ["ladle"], "charging": ["charging"], "both": ["ladle", "charging"]}
+CASES = {
+    "ladle": ["ladle"],
+    "charging": ["charging"],
+    "two charging": ["charging", "charging"],
+    "both": ["ladle", "charging"],
+}
 APART = 1.0
 WITHIN = 1e-6
 
@@ -57,20 +62,21 @@ def design(case):
 def exact(program, case, folder):
     """Largest and smallest vertical reaction of each column; seconds of the processor."""
     (folder / "spec.json").write_text((ROOT / "examples/mill_girderway/spec.json").read_text())
-    (folder / f"{case}.json").write_text(json.dumps(design(case), indent=1))
+    name = case.replace(" ", "-")
+    (folder / f"{name}.json").write_text(json.dumps(design(case), indent=1))
     before = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
     begin = time.perf_counter()
-    subprocess.run([program, "design", f"{case}.json", "-o", f"out-{case}", "--force", "--quiet"], cwd=folder, check=True)
+    subprocess.run([program, "design", f"{name}.json", "-o", f"out-{name}", "--force", "--quiet"], cwd=folder, check=True)
     wall = time.perf_counter() - begin
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     print(f"{case}: {wall:.2f} s, {used.ru_utime - before:.2f} s of the processor, "
           f"at most {used.ru_maxrss / 1024:.0f} MB so far")
-    summary = json.loads((folder / f"out-{case}/summary.json").read_text())
+    summary = json.loads((folder / f"out-{name}/summary.json").read_text())
     found = {}
     for extreme in summary["extremes"]:
-        name = extreme.get("support", "")
-        if name.startswith("column") and extreme.get("direction") == "uy":
-            found[int(name[6:]) - 1, extreme["kind"]] = extreme["value"]
+        support = extreme.get("support", "")
+        if support.startswith("column") and extreme.get("direction") == "uy":
+            found[int(support[6:]) - 1, extreme["kind"]] = extreme["value"]
     return found
 
 
@@ -166,7 +172,7 @@ def sampled(lines, case, step):
                 shift = int(np.ceil(clear / step - 1e-9))
                 running = np.maximum.accumulate(best[behind], axis=1)
                 count = best[ahead].shape[1] - shift
-                both = best[ahead][:, shift:] + running[:, : best[ahead].shape[1]][:, :count]
+                both = best[ahead][:, shift:] + running[:, :count]
                 top = np.maximum(top, both.max(axis=1))
         for column, value in enumerate(top):
             found[column, kind] = sign * value
