@@ -51,7 +51,8 @@ fn reactions_of_the_example_are_those_of_another_code() {
     }
 }
 
-/// External to the design: a crane whose four wheels carry equal forces at every place, run from end to end.
+/// External to the design: a crane whose four wheels carry equal forces at every place, run from end to end. A row of
+/// the run has a wheel on the end of the first girder, and other wheels pass ends of members within four rows of it.
 #[test]
 fn a_quasi_static_run_over_the_mill_has_the_extremes_of_the_design() {
     let folder = tempfile::tempdir().expect("a temporary folder");
@@ -71,7 +72,7 @@ fn a_quasi_static_run_over_the_mill_has_the_extremes_of_the_design() {
         "wheels": {"runway": {"radius": 1.25, "vertical": {"law": "linear", "k": 1e8, "c": 1e5}}},
         "trucks": [{"body": "truck", "rail": "aisle.north", "tree": [[-9, -4], [4, 9]], "wheel": "runway"}],
         "motions": [{"body": "truck", "dof": "x", "kind": "prescribed", "speed": [[0, 10]]}],
-        "end": {"time": 30.55}, "output": {"dt": 0.0123, "sections": true}, "accuracy": 1e-6
+        "end": {"time": 30.55}, "output": {"dt": 0.05, "sections": true}, "accuracy": 1e-6
     });
     for (name, value) in [("design.json", &design), ("scene.json", &scene)] {
         std::fs::write(path(name), value.to_string()).expect("a writable folder");
@@ -96,7 +97,11 @@ fn a_quasi_static_run_over_the_mill_has_the_extremes_of_the_design() {
         let mut count = 0;
         for (key, value) in known.iter().filter(|(key, _)| of(key)) {
             let error = (found[key] - value).abs() / largest;
-            assert!(error < 1e-6, "{key}: {value} in the design, {} in the run, {error:e}", found[key]);
+            assert!(
+                error < if quantity == "deflection" { 1e-6 } else { 1e-8 },
+                "{key}: {value} in the design, {} in the run, {error:e}",
+                found[key]
+            );
             count += 1;
         }
         assert!(count >= 12, "{count} extremes of {quantity}");
