@@ -136,6 +136,22 @@ fn runway_beam_of_25_ft() {
     }
 }
 
+/// Published: formulas for one and two equal cranes of two wheels on a simple girder, all four wheels on it.
+#[test]
+fn two_cranes_on_12_m() {
+    let replay = Replay::named("two_cranes_12m");
+    let (l, c, g, w) = (12.0, 3.5, 1.2, 180.0);
+    let x: f64 = l / 2.0 - c / 4.0;
+    for (found, published) in [
+        (replay.moment(1, 1, "max"), 2.0 * w * x * x / l),
+        (replay.shear(1, 1, "max"), w / l * (2.0 * l - c)),
+        (replay.moment(2, 1, "max"), 4.0 * w * (l / 2.0 - g / 4.0_f64).powi(2) / l - w * c),
+        (replay.shear(2, 1, "max"), w / l * (4.0 * l - 4.0 * c - 2.0 * g)),
+    ] {
+        assert!((found - published).abs() < 1e-9 * published, "{found} instead of {published}");
+    }
+}
+
 /// Published: an eighteen-wheel train on a simple span, the moment at midspan for each wheel that may govern there.
 #[test]
 fn railway_girder_of_60_ft() {
