@@ -1,6 +1,8 @@
 //! `girderway design` from its files to its tables.
 
+mod mill;
 mod moving;
+mod published;
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

@@ -147,7 +147,8 @@ impl<'a> LoadStates<'a> {
         start + 3 < self.len() && !self.corners.iter().any(|corner| range.contains(corner))
     }
 
-    /// The state just before or just after a corner; the state at the time itself if it is none.
+    /// The state just before or just after a corner; the state at the time itself if it is none. Where another corner is too
+    /// near for a polynomial, forces are those of the next row on this side, and loads stand where they are at the corner.
     pub fn limit(&self, position: f64, is_after: bool) -> LoadState {
         let corner = self.corners.iter().find(|corner| (**corner - position).abs() < 1e-6);
         let Some(&corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
@@ -159,8 +160,9 @@ impl<'a> LoadStates<'a> {
             (row.unwrap_or_default(), row.and_then(|row| row.checked_sub(3)))
         };
         let row = row.min(self.len() - 1);
-        let Some(start) = start.filter(|start| self.is_clear(*start)) else { return self.at_row(row) };
-        let between = self.at(corner).time;
+        let here = self.at(corner);
+        let Some(start) = start.filter(|start| self.is_clear(*start)) else { return self.moved(row, here) };
+        let between = here.time;
         let cubic = Cubic::new(self.four(start), between);
         let mut out = self.sample(row).to_vec();
         out[0] = between;
@@ -168,6 +170,15 @@ impl<'a> LoadStates<'a> {
             out[c] = cubic.value(c).unwrap_or(out[c]);
         }
         self.state(&out)
+    }
+
+    /// The forces and motions of a row with the places of all loads at another time.
+    fn moved(&self, row: usize, at: LoadState) -> LoadState {
+        let mut out = self.at_row(row);
+        out.time = at.time;
+        out.loads.iter_mut().zip(at.loads).for_each(|(load, own)| load.x = own.x);
+        out.wheels.iter_mut().zip(at.wheels).for_each(|(load, own)| load.x = own.x);
+        out
     }
 
     /// Fraction of the interval behind `row` at which a load passes `x`, by regula falsi (Illinois). `ends` are its
