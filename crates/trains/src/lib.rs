@@ -9,7 +9,7 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, pieces, running, plan, dead, section, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
@@ -18,7 +18,8 @@
 //! 5. `dead`: dead load;
 //! 6. `section`, `instant`, `overrun`, `follow`: internal forces at a fixed section, along members at one instant, and at
 //!    sections beside wheels and at vertices;
-//! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
+//! 7. `extremes`, `ordinates`, `collect`, `effect`: the results, influence lines for reading, which of two states
+//!    governs, effects elsewhere;
 //! 8. `search`, `blocked`, `bicubic`, `several`, `deflection`: extremes that are enclosed by bisection;
 //! 9. `analysis`: the calculation.
 
@@ -34,6 +35,7 @@ mod extremes;
 mod follow;
 mod instant;
 mod line;
+mod ordinates;
 mod overrun;
 mod pieces;
 mod plan;
@@ -54,5 +56,6 @@ pub use extremes::{
 };
 pub use follow::SectionSide;
 pub use instant::{MemberForces, PassedLoads, RailLoad, RailMember};
+pub use ordinates::InfluenceLine;
 pub use structure::{GirderResponse, Structure};
 pub use train::{Stance, Train, TrainCase, TrainWheel};
