@@ -1,0 +1,361 @@
+//! The first page of a run: whether it can be used, what governs, and where the wheels stand then.
+
+use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, with_unit};
+use crate::figures::rail_sketch::RailSketch;
+use crate::text::girders::{GOVERNING, largest};
+use crate::{ReportSection, ReportTable, TableCell, TableColumn};
+use formats::scene::columns::{Direction, Kind};
+use formats::scene::{Analysis, Document, Origin, Scene};
+use formats::units::Dimension;
+use results::case_result::CaseResult;
+use results::girders::GirderExtreme;
+use results::run_error;
+use results::warning;
+use trains::GirderResponse;
+
+/// Significant digits of values.
+const DIGITS: usize = 4;
+/// Largest number of warnings on the first page.
+const WARNINGS: usize = 4;
+
+/// Status, governing values, and the wheels at the instant of the largest sagging moment.
+pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
+    let mut section = ReportSection::new("Verdict");
+    section.paragraphs.extend(statuses(document, outcomes));
+    section.paragraphs.extend(checks(document.scene(), &outcomes[0]));
+    let mut all: Vec<String> = Vec::new();
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        let own = warning::case_warnings(&case.scene, outcome).into_iter();
+        all.extend(own.map(|text| format!("Warning, {}: {text}.", outcome.label)));
+    }
+    let more = all.len().saturating_sub(WARNINGS);
+    section.paragraphs.extend(all.into_iter().take(WARNINGS));
+    if more > 0 {
+        section =
+            section.paragraph(format!("{more} more warnings are in the section on warnings and notes."));
+    }
+    let table = governing(document, outcomes);
+    if !table.rows.is_empty() {
+        section = section.table(table);
+    }
+    let sagging = largest(&outcomes[0], GirderResponse::VerticalMoment, true);
+    match sagging.and_then(|found| sketch(document.scene(), &outcomes[0], found)) {
+        Some((svg, caption)) => section.figure(svg, caption),
+        None => section,
+    }
+}
+
+/// Whether the runs reached their ends, and how well their energy balances.
+fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
+    let mut out = Vec::new();
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        if let Some(why) = run_error::reason_incomplete(&outcome.run.status, &case.scene) {
+            out.push(format!("The run \"{}\" is incomplete: {why}.", outcome.label));
+        }
+    }
+    if out.is_empty() {
+        out.push(match outcomes.len() {
+            1 => "The run reached its end.".to_owned(),
+            count => format!("All {count} runs reached their ends."),
+        });
+    }
+    let dynamic = document.cases.iter().zip(outcomes).filter(|(case, outcome)| {
+        case.scene.analysis == Analysis::Dynamic && outcome.run.status.is_complete()
+    });
+    let residual = dynamic.map(|(_, outcome)| outcome.run.audit.residual().abs()).reduce(f64::max);
+    if let Some((residual, first)) = residual.zip(out.first_mut()) {
+        first.push_str(&format!(
+            " The energy balance closes to {} of the largest stored energy.",
+            digits(residual, 2)
+        ));
+    }
+    out
+}
+
+/// Uplift, limits of static deflections and fatigue in the first run.
+fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
+    let mut out = Vec::new();
+    let uplifts = &outcome.response.uplifts;
+    if let Some(first) = uplifts.first() {
+        out.push(format!(
+            "Wheels leave their rails {} times, first {} at {} s.",
+            uplifts.len(),
+            first.wheel,
+            digits(first.time, DIGITS)
+        ));
+    }
+    let limits = outcome.codes.iter().flat_map(|codes| &codes.limits);
+    let all: Vec<(f64, String)> = limits
+        .flat_map(|found| {
+            let name = format!("{} of {}", found.displacement.word().replace('_', " "), found.rail);
+            found.limits.iter().map(move |limit| (found.value / limit.value, name.clone()))
+        })
+        .collect();
+    if let Some((most, name)) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+        let failed = all.iter().filter(|(used, _)| *used > 1.0).count();
+        let verdict =
+            if failed == 0 { "are kept".to_owned() } else { format!("are exceeded {failed} times") };
+        out.push(format!(
+            "{} limits of codes on deflections under static wheel loads {verdict}; the highest utilisation is {:.0} % \
+             ({name}).",
+            all.len(),
+            100.0 * most
+        ));
+    }
+    if let Some(worst) = outcome.fatigue.iter().max_by(|a, b| a.damage.sum.total_cmp(&b.damage.sum)) {
+        let life = worst.life.map_or_else(String::new, |life| format!(", {} of a life", digits(life, 3)));
+        out.push(format!(
+            "Fatigue: the largest damage of the run is {}{life} at {} (detail {}), gamma_Mf = {}.",
+            digits(worst.damage.sum, 3),
+            worst.column,
+            worst.detail.word(),
+            scene.output.fatigue.material
+        ));
+    }
+    out
+}
+
+/// A row of the governing values: words, unit and factor, value of the first run with its place, values of the others.
+struct GoverningRow {
+    words: String,
+    unit: String,
+    factor: f64,
+    value: f64,
+    /// Text behind the value, such as the ratio of span to deflection.
+    more: String,
+    name: String,
+    span: TableCell,
+    x: TableCell,
+    time: f64,
+    others: Vec<f64>,
+}
+
+impl GoverningRow {
+    fn cells(self) -> Vec<TableCell> {
+        let text = |value: f64| digits(self.factor * value, DIGITS);
+        let low = self.others.iter().copied().reduce(f64::min);
+        let high = self.others.iter().copied().reduce(f64::max);
+        let others = match low.zip(high) {
+            Some((low, high)) if text(low) == text(high) => text(low),
+            Some((low, high)) => format!("{} to {}", text(low), text(high)),
+            None => String::new(),
+        };
+        vec![
+            TableCell::from(self.words),
+            TableCell::from(format!("{}{}", with_unit(&text(self.value), &self.unit), self.more)),
+            TableCell::from(self.name),
+            self.span,
+            self.x,
+            TableCell::from(digits(self.time, DIGITS)),
+            TableCell::from(others),
+        ]
+    }
+}
+
+/// The values that govern in the first run, and the range of the same values in the others.
+fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportTable {
+    let scene = document.scene();
+    let (first, others) = (&outcomes[0], &outcomes[1..]);
+    let mut rows = girder_rows(scene, first, others);
+    rows.extend(deflection_rows(scene, first, others));
+    rows.extend(wheel_rows(scene, first, others));
+    rows.extend(reaction_rows(scene, first, others));
+    let mut columns = vec![
+        TableColumn::new("", ""),
+        TableColumn::new("value", ""),
+        TableColumn::new("rail, wheel or support", ""),
+        TableColumn::new("span", ""),
+        TableColumn::new("x", scene.units.label(Dimension::LENGTH)),
+        TableColumn::new("time", "s"),
+        TableColumn::new("other runs", ""),
+    ];
+    let mut rows: Vec<Vec<TableCell>> = rows.into_iter().map(GoverningRow::cells).collect();
+    if others.is_empty() {
+        columns.pop();
+        rows.iter_mut().for_each(|row| row.truncate(columns.len()));
+    }
+    let dead = if scene.output.dead_load { "with" } else { "without" };
+    let caption = format!(
+        "Governing values of the run \"{}\", moments, shear forces and reactions {dead} the dead load of the structure",
+        first.label
+    );
+    ReportTable { caption, columns, rows }
+}
+
+fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let row = |(quantity, is_max, words): &(GirderResponse, bool, &str)| {
+        let found = largest(first, *quantity, *is_max)?;
+        let (unit, factor) = unit_of(scene.units, *quantity);
+        let same = others.iter().filter_map(|other| largest(other, *quantity, *is_max));
+        Some(GoverningRow {
+            words: (*words).to_owned(),
+            unit,
+            factor,
+            value: found.value,
+            more: String::new(),
+            name: scene.rails[found.rail].name.clone(),
+            span: TableCell::from(found.span),
+            x: TableCell::from(digits(found.x, DIGITS)),
+            time: found.time,
+            others: same.map(|found| found.value).collect(),
+        })
+    };
+    GOVERNING.iter().filter_map(row).collect()
+}
+
+/// The deflection from the chord that is the largest part of its span, in each direction.
+fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let worst = |outcome: &CaseResult, direction: &str| {
+        let own = outcome.response.deflections.iter().filter(|found| found.direction == direction);
+        let known = own.filter_map(|found| Some((found.ratio()?, found.clone())));
+        known.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let (unit, factor) = deflection_unit(scene.units);
+    let row = |direction: &str| {
+        let (ratio, found) = worst(first, direction)?;
+        let same = others.iter().filter_map(|other| worst(other, direction));
+        Some(GoverningRow {
+            words: format!("{direction} deflection from the chord"),
+            unit: unit.to_owned(),
+            factor,
+            value: found.value,
+            more: format!(" = L/{ratio:.0}"),
+            name: found.rail.clone(),
+            span: TableCell::Empty,
+            x: TableCell::from(digits(found.x, DIGITS)),
+            time: found.time,
+            others: same.map(|(_, found)| found.value).collect(),
+        })
+    };
+    ["vertical", "lateral"].into_iter().filter_map(row).collect()
+}
+
+/// Largest and smallest vertical wheel force, and the largest lateral one of either sign.
+fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
+    // sign times value is sought; 0 stands for the magnitude
+    let worst = |outcome: &CaseResult, part: &str, sign: f64| {
+        let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
+        let mut best: Option<(f64, usize, usize)> = None;
+        for (wheel, own) in outcome.input.wheels.iter().enumerate() {
+            for (row, value) in outcome.columns.part(&own.name, part).iter().enumerate() {
+                if best.is_none_or(|(known, ..)| size(*value) > size(known)) {
+                    best = Some((*value, wheel, row));
+                }
+            }
+        }
+        best
+    };
+    let kinds = [
+        ("largest vertical wheel force", "vertical", 1.0),
+        ("smallest vertical wheel force", "vertical", -1.0),
+        ("largest lateral wheel force", "lateral", 0.0),
+    ];
+    let row = |(words, part, sign): (&str, &str, f64)| {
+        let (value, wheel, row) =
+            worst(first, part, sign).filter(|(value, ..)| part == "vertical" || *value != 0.0)?;
+        let name = &first.input.wheels[wheel].name;
+        let x = first.columns.part(name, "x").get(row).copied();
+        Some(GoverningRow {
+            words: words.to_owned(),
+            unit: unit.clone(),
+            factor,
+            value,
+            more: String::new(),
+            name: name.clone(),
+            span: TableCell::Empty,
+            x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
+            time: first.columns.values("time").get(row).copied().unwrap_or_default(),
+            others: others.iter().filter_map(|other| worst(other, part, sign)).map(|found| found.0).collect(),
+        })
+    };
+    kinds.into_iter().filter_map(row).collect()
+}
+
+/// Largest and smallest vertical reaction, and the largest lateral one of either sign, of structures on the ground.
+fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
+    let carried: Vec<String> = scene
+        .structures
+        .iter()
+        .filter(|structure| structure.carrier.is_some())
+        .map(|structure| format!("{}.", structure.name))
+        .collect();
+    let worst = |outcome: &CaseResult, direction: Direction, sign: f64| {
+        let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
+        let mut best: Option<(f64, f64, String)> = None;
+        for (column, envelope) in outcome.response.columns.iter().zip(&outcome.response.envelopes) {
+            let is_ground = !carried.iter().any(|structure| column.name.starts_with(structure));
+            if column.kind != Kind::Reaction || column.direction != Some(direction) || !is_ground {
+                continue;
+            }
+            for extreme in [&envelope.max, &envelope.min] {
+                if best.as_ref().is_none_or(|(known, ..)| size(extreme.value) > size(*known)) {
+                    best = Some((extreme.value, extreme.time, column.name.clone()));
+                }
+            }
+        }
+        best
+    };
+    let kinds = [
+        ("largest vertical reaction", Direction::Vertical, 1.0),
+        ("smallest vertical reaction", Direction::Vertical, -1.0),
+        ("largest lateral reaction", Direction::Lateral, 0.0),
+    ];
+    let row = |(words, direction, sign): (&str, Direction, f64)| {
+        let (value, time, name) = worst(first, direction, sign).filter(|(value, ..)| *value != 0.0)?;
+        Some(GoverningRow {
+            words: words.to_owned(),
+            unit: unit.clone(),
+            factor,
+            value,
+            more: String::new(),
+            name,
+            span: TableCell::Empty,
+            x: TableCell::Empty,
+            time,
+            others: others
+                .iter()
+                .filter_map(|other| worst(other, direction, sign))
+                .map(|found| found.0)
+                .collect(),
+        })
+    };
+    kinds.into_iter().filter_map(row).collect()
+}
+
+/// The rail of an extreme with the wheels at its instant, and the caption.
+fn sketch(scene: &Scene, outcome: &CaseResult, found: &GirderExtreme) -> Option<(crate::chart::Svg, String)> {
+    let rail = scene.rails.get(found.rail)?;
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
+    let (model, rails) = spec.model().ok()?;
+    let supports = results::response::spans(spec, &model, &rails, rail.rail);
+    let times = outcome.columns.values("time");
+    let distance = |row: &usize| (times[*row] - found.time).abs();
+    let row = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let (force, factor) = reading_unit(scene.units, Dimension::FORCE);
+    let on_rail = outcome.input.wheels.iter().filter(|wheel| wheel.rail == found.rail);
+    let at = |name: &str, part: &str| outcome.columns.part(name, part).get(row).copied();
+    let wheels =
+        on_rail.filter_map(|wheel| Some((at(&wheel.name, "x")?, factor * at(&wheel.name, "vertical")?)));
+    let [from, to] = rail.range;
+    let length = scene.units.label(Dimension::LENGTH);
+    let sketch = RailSketch {
+        range: rail.range,
+        supports: &supports,
+        length_unit: &length,
+        wheels: wheels.filter(|(x, _)| (from..=to).contains(x)).collect(),
+        section: Some(found.x),
+    };
+    let (unit, by) = unit_of(scene.units, found.quantity);
+    let caption = format!(
+        "The wheels on {} at t = {} s, when its largest sagging moment is {} at x = {}, drawn to scale along the rail; at \
+         each wheel its vertical force in {force} and its place in {length} ({}).",
+        rail.name,
+        digits(found.time, DIGITS),
+        with_unit(&digits(by * found.value, DIGITS), &unit),
+        digits(found.x, DIGITS),
+        outcome.label,
+    );
+    Some((sketch.svg("Wheels at the largest sagging moment"), caption))
+}
