@@ -16,9 +16,10 @@ const ANIMATION_SCRIPT: &str = include_str!("animation.js");
 const DIGITS: usize = 7;
 /// Largest number of rows of a table that is never divided between pages.
 const SHORT: usize = 24;
-/// Number of columns above which letters are smaller in print, and the number up to which a table stays a table on a
+/// Numbers of columns above which letters are smaller and much smaller in print, and the number up to which a table stays a table on a
 /// narrow screen.
 const WIDE: usize = 9;
+const WIDER: usize = 11;
 const NARROW: usize = 3;
 
 /// A report: title and sections.
@@ -156,7 +157,7 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
     };
     let is_short = table.rows.len() <= SHORT;
     Ok(html! {
-        div.scroll .short[is_short] .wide[table.columns.len() > WIDE] {
+        div.scroll .short[is_short] .wide[table.columns.len() > WIDE] .wider[table.columns.len() > WIDER] {
             table .stacked[table.columns.len() > NARROW] {
                 caption { b { "Table " (running) ". " } (table.caption) }
                 thead {

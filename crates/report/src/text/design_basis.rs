@@ -2,6 +2,7 @@
 
 use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit};
+use crate::text::codes::code_with_edition;
 use crate::text::structure_words::structure_facts;
 use ::design::DesignResult;
 use formats::design::{Design, DesignCase, DesignTrain};
@@ -105,11 +106,7 @@ fn codes(design: &Design, result: &DesignResult) -> String {
     let mut all: Vec<String> = design.practice.code.iter().cloned().collect();
     for check in &result.limits {
         let clause = &check.clause;
-        let name = if clause.standard.contains(clause.edition) {
-            format!("{}, {}", clause.standard, clause.clause)
-        } else {
-            format!("{} {}, {}", clause.standard, clause.edition, clause.clause)
-        };
+        let name = format!("{}, {}", code_with_edition(clause), clause.clause);
         if !all.contains(&name) {
             all.push(name);
         }

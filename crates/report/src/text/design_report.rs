@@ -207,19 +207,26 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
         let size = case.reactions.iter().flat_map(|r| &r.extremes).map(|g| g.value.abs()).fold(0.0, f64::max);
         let shown =
             |value: f64| if value.abs() <= ROUNDING * size { "0".to_owned() } else { digits(value, DIGITS) };
-        let mut rows = Vec::new();
+        let (mut rows, mut zero) = (Vec::new(), Vec::new());
         for (k, reaction) in case.reactions.iter().enumerate() {
             let mut row = vec![
                 TableCell::from(reaction.name.support.clone()),
                 TableCell::from(reaction.name.direction.clone()),
                 TableCell::from(shown(reaction.extremes[0].dead)),
             ];
+            let values =
+                || case.by_load.iter().flat_map(|(_, all)| &all[k].extremes).chain(&reaction.extremes);
+            if values().all(|g| g.value.abs() <= ROUNDING * size && g.dead.abs() <= ROUNDING * size) {
+                zero.push(format!("{} {}", reaction.name.support, reaction.name.direction));
+                continue;
+            }
             let alone = case.by_load.iter().flat_map(|(_, all)| &all[k].extremes);
             row.extend(alone.chain(&reaction.extremes).map(|g| TableCell::from(shown(g.value))));
             rows.push(row);
         }
+        let without = if zero.is_empty() { String::new() } else { format!("; zero: {}", zero.join(", ")) };
         let caption = format!(
-            "Reactions in case {} ({}), with its factors; moments (rx, ry, rz) in {}",
+            "Reactions in case {} ({}), with its factors; moments (rx, ry, rz) in {}{without}",
             index + 1,
             case.name,
             design.units.label(Dimension::MOMENT)

@@ -2,6 +2,7 @@
 
 use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit};
+use crate::text::codes::code_with_edition;
 use crate::text::structure_words::structure_facts;
 use formats::scene::{Analysis, Document, Origin, Scene};
 use formats::units::Dimension;
@@ -84,11 +85,7 @@ fn codes(outcome: &CaseResult) -> String {
     let limits = codes.limits.iter().flat_map(|found| found.limits.iter().map(|limit| &limit.limit.clause));
     let mut all: Vec<String> = Vec::new();
     for clause in values.chain(limits) {
-        let name = if clause.standard.contains(clause.edition) {
-            clause.standard.to_owned()
-        } else {
-            format!("{} {}", clause.standard, clause.edition)
-        };
+        let name = code_with_edition(clause);
         if !all.contains(&name) {
             all.push(name);
         }

@@ -15,6 +15,8 @@ use trains::GirderResponse;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
+/// Values below this fraction of the largest of their kind are rounding.
+const ROUNDING: f64 = 1e-9;
 /// Largest number of warnings on the first page.
 const WARNINGS: usize = 4;
 
@@ -56,6 +58,7 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     if out.is_empty() {
         out.push(match outcomes.len() {
             1 => "The run reached its end.".to_owned(),
+            2 => "Both runs reached their ends.".to_owned(),
             count => format!("All {count} runs reached their ends."),
         });
     }
@@ -94,10 +97,10 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     if let Some((most, name)) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
         let failed = all.iter().filter(|(used, _)| *used > 1.0).count();
         let verdict =
-            if failed == 0 { "are kept".to_owned() } else { format!("are exceeded {failed} times") };
+            if failed == 0 { "are kept".to_owned() } else { format!("are exceeded in {failed} cases") };
         out.push(format!(
-            "{} limits of codes on deflections under static wheel loads {verdict}; the highest utilisation is {:.0} % \
-             ({name}).",
+            "The limits of codes on deflections under static wheel loads, {} in all, {verdict}; the highest utilisation \
+             is {:.0} % ({name}).",
             all.len(),
             100.0 * most
         ));
@@ -128,11 +131,15 @@ struct GoverningRow {
     x: TableCell,
     time: f64,
     others: Vec<f64>,
+    /// Largest value of its kind; fractions of it that are only rounding are shown as zero.
+    size: f64,
 }
 
 impl GoverningRow {
     fn cells(self) -> Vec<TableCell> {
-        let text = |value: f64| digits(self.factor * value, DIGITS);
+        let rounding = ROUNDING * self.size;
+        let text =
+            |value: f64| digits(if value.abs() < rounding { 0.0 } else { self.factor * value }, DIGITS);
         let low = self.others.iter().copied().reduce(f64::min);
         let high = self.others.iter().copied().reduce(f64::max);
         let others = match low.zip(high) {
@@ -198,6 +205,7 @@ fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<
             x: TableCell::from(digits(found.x, DIGITS)),
             time: found.time,
             others: same.map(|found| found.value).collect(),
+            size: 0.0,
         })
     };
     GOVERNING.iter().filter_map(row).collect()
@@ -225,6 +233,7 @@ fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> 
             x: TableCell::from(digits(found.x, DIGITS)),
             time: found.time,
             others: same.map(|(_, found)| found.value).collect(),
+            size: 0.0,
         })
     };
     ["vertical", "lateral"].into_iter().filter_map(row).collect()
@@ -246,14 +255,15 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
         }
         best
     };
+    let size = worst(first, "vertical", 0.0).map_or(0.0, |(value, ..)| value.abs());
     let kinds = [
         ("largest vertical wheel force", "vertical", 1.0),
         ("smallest vertical wheel force", "vertical", -1.0),
         ("largest lateral wheel force", "lateral", 0.0),
     ];
     let row = |(words, part, sign): (&str, &str, f64)| {
-        let (value, wheel, row) =
-            worst(first, part, sign).filter(|(value, ..)| part == "vertical" || *value != 0.0)?;
+        let (value, wheel, row) = worst(first, part, sign)
+            .filter(|(value, ..)| part == "vertical" || value.abs() > ROUNDING * size)?;
         let name = &first.input.wheels[wheel].name;
         let x = first.columns.part(name, "x").get(row).copied();
         Some(GoverningRow {
@@ -267,6 +277,7 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
             x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
             time: first.columns.values("time").get(row).copied().unwrap_or_default(),
             others: others.iter().filter_map(|other| worst(other, part, sign)).map(|found| found.0).collect(),
+            size,
         })
     };
     kinds.into_iter().filter_map(row).collect()
@@ -297,13 +308,15 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
         }
         best
     };
+    let size = worst(first, Direction::Vertical, 0.0).map_or(0.0, |(value, ..)| value.abs());
     let kinds = [
         ("largest vertical reaction", Direction::Vertical, 1.0),
         ("smallest vertical reaction", Direction::Vertical, -1.0),
         ("largest lateral reaction", Direction::Lateral, 0.0),
     ];
     let row = |(words, direction, sign): (&str, Direction, f64)| {
-        let (value, time, name) = worst(first, direction, sign).filter(|(value, ..)| *value != 0.0)?;
+        let (value, time, name) =
+            worst(first, direction, sign).filter(|(value, ..)| value.abs() > ROUNDING * size)?;
         Some(GoverningRow {
             words: words.to_owned(),
             unit: unit.clone(),
@@ -319,6 +332,7 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
                 .filter_map(|other| worst(other, direction, sign))
                 .map(|found| found.0)
                 .collect(),
+            size,
         })
     };
     kinds.into_iter().filter_map(row).collect()

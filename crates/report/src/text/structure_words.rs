@@ -36,10 +36,12 @@ pub(super) fn structure_facts(
         format!("{}: {}", rail.name, lengths.join(" + "))
     });
     let named: Vec<String> = named.collect();
-    if !named.is_empty() {
-        out.push(("spans", format!("{} {length}", named.join("; "))));
-    }
-    out.push(("material", materials(spec, units)));
+    let material = materials(spec, units);
+    out.push(if named.is_empty() {
+        ("material", material)
+    } else {
+        ("spans, material", format!("{} {length}; {material}", named.join("; ")))
+    });
     if let Form::Girder(girder) = &spec.form {
         let (area, by_area) = reading_unit(units, Dimension::AREA);
         let (inertia, by_inertia) = reading_unit(units, Dimension::of(4, 0, 0));
