@@ -127,6 +127,9 @@ pub fn governing_lines(
     for is_max in [true, false] {
         let Some((case, found, governing)) = governing_reaction(design, result, is_max) else { continue };
         let Some(index) = names.iter().position(|name| *name == found.name) else { continue };
+        if governing.value == 0.0 {
+            continue;
+        }
         let lines = structure.effect_lines(&sums[index]).map_err(located)?;
         let ReactionExtremes { name, .. } = found;
         let subject =
@@ -145,16 +148,16 @@ fn line(
     governing: &Governing,
     lines: Vec<InfluenceLine>,
 ) -> GoverningLine {
-    // The section just before a wheel has that wheel behind it.
-    let beside = match governing.side {
-        SectionSide::Behind => SectionSide::Before,
-        SectionSide::At | SectionSide::Before => SectionSide::Behind,
-    };
+    let sign = if is_max { 1.0 } else { -1.0 };
     let TrainCase { trains, .. } = train_case(design, &design.cases[case], LoadKind::All);
     let mut wheels = Vec::new();
     for (train, at) in trains.iter().zip(&governing.trains) {
         for (given, (rail, x)) in train.wheels.iter().zip(structure.wheel_coordinates(train, at)) {
-            let ordinate = lines[rail].value(x, beside);
+            // a wheel at a jump counts on the side that makes the value more extreme
+            let [before, behind] =
+                [SectionSide::Before, SectionSide::Behind].map(|side| lines[rail].value(x, side));
+            let ordinate =
+                if sign * given.vertical * before > sign * given.vertical * behind { before } else { behind };
             wheels.push(WheelOrdinate { rail, x, force: given.vertical, ordinate });
         }
     }
