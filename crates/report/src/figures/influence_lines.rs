@@ -13,9 +13,11 @@ use trains::GirderResponse;
 /// Height of the influence line, in pixels.
 const HEIGHT: f64 = 110.0;
 /// Space above and below it for ordinates, in pixels.
-const SPACE: f64 = 20.0;
+const SPACE: f64 = 32.0;
 /// Distance in pixels within which wheels share the height of the label.
-const NEAR: f64 = 60.0;
+const NEAR: f64 = 30.0;
+/// Distance of two lines of ordinates, in pixels.
+const LINE: f64 = 13.0;
 /// Fraction of the largest ordinate below which one is not written.
 const SMALL: f64 = 0.02;
 
@@ -136,34 +138,13 @@ fn picture(line: &GoverningLine, rail: usize, sketch: &RailSketch<'_>, (largest,
          stroke-width=\"8\"/>",
         FINE * zero
     );
-    let mut texts = Vec::new();
-    for wheel in line.wheels.iter().filter(|wheel| wheel.rail == rail) {
-        let _ = writeln!(
-            out,
-            "<line x1=\"{0:.0}\" y1=\"{1:.0}\" x2=\"{0:.0}\" y2=\"{2:.0}\" stroke=\"{WHEEL}\" stroke-width=\"12\"/>\n\
-             <circle cx=\"{0:.0}\" cy=\"{2:.0}\" r=\"32\" fill=\"{WHEEL}\"/>",
-            x(wheel.x),
-            FINE * zero,
-            y(wheel.ordinate)
-        );
-        if wheel.ordinate.abs() > SMALL * largest {
-            texts.push((wheel.x, wheel.ordinate));
-        }
-    }
-    texts.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // ordinates are written beyond the line, each on its side of the axis
-    for is_below in [false, true] {
-        let own = || texts.iter().filter(|(_, value)| (sign * value > 0.0) == is_below);
-        let labels = own().map(|(place, value)| (sketch.at(*place), digits(factor * value, 4)));
-        for label in placed_texts(labels.collect(), 1) {
-            let beside = |value: f64| if is_below { value + 14.0 } else { value - 5.0 };
-            // where neighbours are close, the level of the farthest one keeps labels off the line
-            let near = own().filter(|(place, _)| (sketch.at(*place) - label.x).abs() < 0.5 * NEAR);
-            let edge = near.map(|(_, value)| y(*value) / FINE);
-            let edge = edge.reduce(if is_below { f64::max } else { f64::min }).unwrap_or(zero);
-            write_text(&mut out, &label.text, [label.x, beside(edge)], WHEEL);
-        }
-    }
+    let wheels: Vec<[f64; 4]> = line
+        .wheels
+        .iter()
+        .filter(|wheel| wheel.rail == rail)
+        .map(|wheel| [sketch.at(wheel.x), y(wheel.ordinate) / FINE, wheel.ordinate, factor * wheel.ordinate])
+        .collect();
+    write_ordinates(&mut out, &wheels, zero, SMALL * largest);
     if let Some(place) = sketch.section {
         let _ = writeln!(
             out,
@@ -175,4 +156,33 @@ fn picture(line: &GoverningLine, rail: usize, sketch: &RailSketch<'_>, (largest,
         );
     }
     Svg::new(WIDTH, zero + high * scale + SPACE, out)
+}
+
+/// Draws ordinates under wheels, and writes them beyond the line, each on its side of the axis at `zero`; those up to
+/// `small` are not written. By wheel: abscissa and ordinate in the picture, value, value in the unit of reading.
+fn write_ordinates(out: &mut String, wheels: &[[f64; 4]], zero: f64, small: f64) {
+    for [x, y, ..] in wheels {
+        let _ = writeln!(
+            out,
+            "<line x1=\"{0:.0}\" y1=\"{1:.0}\" x2=\"{0:.0}\" y2=\"{2:.0}\" stroke=\"{WHEEL}\" stroke-width=\"12\"/>\n\
+             <circle cx=\"{0:.0}\" cy=\"{2:.0}\" r=\"32\" fill=\"{WHEEL}\"/>",
+            FINE * x,
+            FINE * zero,
+            FINE * y
+        );
+    }
+    let mut shown: Vec<[f64; 4]> = wheels.iter().filter(|wheel| wheel[2].abs() > small).copied().collect();
+    shown.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    for is_below in [false, true] {
+        let own = || shown.iter().filter(|[_, y, ..]| (*y > zero) == is_below);
+        let labels = own().map(|[x, _, _, value]| (*x, digits(*value, 4)));
+        for label in placed_texts(labels.collect(), 2) {
+            // neighbours share the height of the farthest one, which keeps the labels off the line
+            let near = own().filter(|[x, ..]| (x - label.x).abs() < NEAR).map(|[_, y, ..]| *y);
+            let edge = near.reduce(if is_below { f64::max } else { f64::min }).unwrap_or(zero);
+            let level = LINE * label.level as f64;
+            let y = if is_below { edge + 14.0 + level } else { edge - 5.0 - level };
+            write_text(out, &label.text, [label.x, y], WHEEL);
+        }
+    }
 }

@@ -62,7 +62,8 @@ pub(super) fn placed_texts(texts: Vec<(f64, String)>, levels: usize) -> Vec<Plac
 pub(super) fn write_text(out: &mut String, text: &str, [x, y]: [f64; 2], colour: &str) {
     let _ = writeln!(
         out,
-        "<text x=\"{:.0}\" y=\"{:.0}\" font-size=\"{:.0}\" fill=\"{colour}\" text-anchor=\"middle\">{text}</text>",
+        "<text x=\"{:.0}\" y=\"{:.0}\" font-size=\"{:.0}\" fill=\"{colour}\" text-anchor=\"middle\" stroke=\"#FFFFFF\" \
+         stroke-width=\"30\" paint-order=\"stroke\">{text}</text>",
         FINE * x,
         FINE * y,
         FINE * LETTERS

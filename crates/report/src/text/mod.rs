@@ -10,6 +10,7 @@ pub(crate) mod fatigue;
 pub(crate) mod girders;
 pub(crate) mod responses;
 mod run_basis;
+mod run_governing;
 pub mod run_report;
 mod run_verdict;
 mod structure_words;
