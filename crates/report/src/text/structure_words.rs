@@ -28,13 +28,16 @@ pub(super) fn structure_facts(
             format!("frame of {} members and {} supports", model.members.len(), model.supports.len())
         }
     };
-    let mut out = vec![("structure", format!("{file}: {form}, {theory}"))];
+    let source = if file.is_empty() { String::new() } else { format!("{file}: ") };
+    let mut out = vec![("structure", format!("{source}{form}, {theory}"))];
     let length = units.label(Dimension::LENGTH);
     let rails = spec.rails();
-    let named = rails.iter().zip(spans).filter(|(_, ends)| ends.len() > 1).take(MOST).map(|(rail, ends)| {
-        let lengths: Vec<String> = ends.windows(2).map(|pair| digits(pair[1] - pair[0], DIGITS)).collect();
-        format!("{}: {}", rail.name, lengths.join(" + "))
-    });
+    let named = rails
+        .iter()
+        .zip(spans)
+        .filter(|(_, ends)| ends.len() > 1)
+        .take(MOST)
+        .map(|(rail, ends)| format!("{}: {}", rail.name, span_words(ends)));
     let named: Vec<String> = named.collect();
     let material = materials(spec, units);
     out.push(if named.is_empty() {
@@ -70,4 +73,32 @@ fn materials(spec: &Spec, units: Units) -> String {
     let texts: Vec<String> = all.iter().take(MOST).map(|e| digits(factor * e, DIGITS)).collect();
     let more = if all.len() > MOST { " and others" } else { "" };
     format!("E = {}{more} {unit}, linear elastic", texts.join("; "))
+}
+
+/// Lengths of spans in their order, equal neighbours counted: `6 + 2 x 7.5 + 6`.
+fn span_words(ends: &[f64]) -> String {
+    let mut runs: Vec<(usize, String)> = Vec::new();
+    for pair in ends.windows(2) {
+        let length = digits(pair[1] - pair[0], DIGITS);
+        match runs.last_mut() {
+            Some((count, known)) if *known == length => *count += 1,
+            _ => runs.push((1, length)),
+        }
+    }
+    let words = runs.into_iter().map(|(count, length)| match count {
+        1 => length,
+        count => format!("{count} \u{d7} {length}"),
+    });
+    words.collect::<Vec<_>>().join(" + ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::span_words;
+
+    #[test]
+    fn equal_spans_are_counted() {
+        assert_eq!(span_words(&[0.0, 6.0, 13.5, 21.0, 27.0]), "6 + 2 \u{d7} 7.5 + 6");
+        assert_eq!(span_words(&[0.0, 24.0, 48.0, 72.0]), "3 \u{d7} 24");
+    }
 }
