@@ -1,5 +1,6 @@
 //! `girderway design` from its files to its tables.
 
+mod lines;
 mod mill;
 mod moving;
 mod published;

@@ -224,7 +224,15 @@ fn design(bytes: &[u8]) -> u64 {
     }
     match design::solve(&all, &inputs) {
         Ok(result) => {
-            let tables = [design::envelope_csv(&all, &result), design::reactions_csv(&result)];
+            let lines =
+                design::governing_lines(&all, &inputs, &result).expect("the structure was solved before");
+            let page = report::text::design_report::design_report(&all, &result, &lines).html(Some(1));
+            assert!(page.is_ok(), "{page:?}");
+            let tables = [
+                design::envelope_csv(&all, &result),
+                design::reactions_csv(&result),
+                design::influence_csv(&all, &lines),
+            ];
             for table in tables {
                 let text = table.expect("the table is finite");
                 assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");

@@ -7,6 +7,7 @@ use foundations::{BuiltFoundation, ModeCache, MotionBasis, solve};
 use foundations::{SolvedStructure, distinct_specs, solution_of};
 use results::case_result::CaseResult;
 use results::cases::simulate;
+use results::response::RunComparison;
 use serde_json::{Value, json};
 use sim::Channel;
 use splines::{Axis, Probe};

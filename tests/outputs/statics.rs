@@ -60,6 +60,27 @@ fn envelopes_name_the_instant_and_the_place_that_govern() {
     assert!((first.min.value / (8000.0 * 9.81) + 1.0 / (6.0 * 3.0_f64.sqrt())).abs() < 1e-4);
 }
 
+/// Analytic: the envelope of moments of a simple beam under one wheel is P x (L - x)/L, also at places that the wheel
+/// passes between two outputs.
+#[test]
+fn the_figure_of_moments_has_the_exact_envelope() {
+    let mut given = scene(&json!([0.0]), 1.0, 7.0, 0.7);
+    given["analysis"] = json!("quasi-static");
+    given["bodies"]["car"]["x0"] = json!(0.3);
+    let ran = run(&given, &girder(&[8.0]));
+    let figures =
+        report::figures::run::figures(&ran.document, &ran.outcomes, &ran.known, &RunComparison::default());
+    let figure = figures.figures.iter().find(|figure| figure.name.starts_with("moments-")).expect("a figure");
+    let report::Picture::Chart(chart) = &figure.picture else { panic!("it is a chart") };
+    let largest = chart.series.iter().find(|series| series.label == "largest").expect("a curve");
+    let inside: Vec<&[f64; 2]> = largest.points.iter().filter(|p| p[0] >= 0.3 && p[0] <= 7.3).collect();
+    assert!(inside.len() > 15, "{} places", inside.len());
+    for [x, moment] in inside {
+        let exact = 8000.0 * 9.81 * x * (8.0 - x) / 8.0;
+        assert!((moment / exact - 1.0).abs() < 1e-6, "{moment} at {x}, not {exact}");
+    }
+}
+
 #[test]
 fn weight_of_the_structure_is_told_and_added_where_it_is_asked_for() {
     let mut given = scene(&json!([0.0]), 1.0, 1.0, 0.5);

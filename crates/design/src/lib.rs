@@ -6,10 +6,11 @@
 //!
 //! Files, lowest first: `words` (names of quantities, members for clauses), `error`, `loads` (trains of a case with its
 //! factors), `outcome` (what a calculation gives), `combinations` (cases of codes), `limits` (limits of codes), `rounding`
-//! (what is only rounding), `solve`, `tables`, `summary`.
+//! (what is only rounding), `solve`, `tables`, `governing_lines` (influence lines of the values that govern), `summary`.
 
 mod combinations;
 mod error;
+mod governing_lines;
 mod limits;
 mod loads;
 mod outcome;
@@ -21,6 +22,9 @@ mod words;
 
 pub use combinations::with_combinations;
 pub use error::DesignError;
+pub use governing_lines::{
+    GoverningLine, LineSubject, WheelOrdinate, governing_lines, governing_reaction, influence_csv,
+};
 pub use loads::LoadKind;
 pub use outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
 pub use solve::solve;

@@ -88,7 +88,11 @@ fn named(names: &[ReactionName], found: Vec<[Governing; 2]>) -> Vec<ReactionExtr
 }
 
 /// Names of all reactions, and the sums of restraints that each consists of.
-fn reactions(design: &Design, model: &Model, structure: &Structure) -> (Vec<ReactionName>, Vec<Vec<Effect>>) {
+pub(crate) fn reactions(
+    design: &Design,
+    model: &Model,
+    structure: &Structure,
+) -> (Vec<ReactionName>, Vec<Vec<Effect>>) {
     let restraints = structure.frame().restraints(model);
     let mut names = Vec::new();
     let mut sums = Vec::new();

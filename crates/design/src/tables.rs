@@ -111,7 +111,8 @@ pub const fn load_word(kind: LoadKind) -> &'static str {
     }
 }
 
-fn finish(out: csv::Writer<Vec<u8>>) -> Result<String, csv::Error> {
+/// The text of a table.
+pub(crate) fn finish(out: csv::Writer<Vec<u8>>) -> Result<String, csv::Error> {
     let bytes = out.into_inner().map_err(|error| error.into_error())?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }

@@ -264,3 +264,68 @@ fn pictures_move_only_where_there_are_some_and_stand_still_without_scripts() {
     assert!(!tags.iter().any(|(name, _)| name == "button" || name == "input"), "the script makes them");
     assert_eq!(with(animation(f64::NAN)), Err(Error::Animation { section: 2, figure: 0 }));
 }
+
+/// Rules of the style sheet inside the first block that begins with `start`.
+fn block<'p>(page: &'p str, start: &str) -> &'p str {
+    let (_, rest) = page.split_once(start).unwrap_or_else(|| panic!("{start} is in the style"));
+    let mut depth = 1;
+    let end = rest.char_indices().find(|(_, c)| {
+        depth += i32::from(*c == '{') - i32::from(*c == '}');
+        depth == 0
+    });
+    &rest[..end.expect("the block ends").0]
+}
+
+#[test]
+fn print_has_pages_of_its_own() {
+    let mut report = report();
+    report.sections[0] = std::mem::take(&mut report.sections[0]).ending_page();
+    let page = report.html(None).expect("the report is complete");
+    let print = block(&page, "@media print {");
+    for rule in ["color-scheme: light", ".ends-page { break-after: page; }", "h2 {", "break-after: avoid"] {
+        assert!(print.contains(rule), "{rule}");
+    }
+    let whole = print.lines().find(|line| line.contains("break-inside: avoid")).expect("whole parts");
+    assert!(["figure", "tr", ".short"].iter().all(|part| whole.contains(part)), "{whole}");
+    // the colours of a dark screen never reach paper
+    assert!(page.matches("prefers-color-scheme: dark").count() == 1);
+    assert!(page.contains("@media screen and (prefers-color-scheme: dark)"));
+    // both A4 and Letter: the printer chooses the size
+    assert!(page.contains("@page {") && !page.contains("size: A4"));
+    let sections: Vec<_> = parse(&page).0.into_iter().filter(|(name, _)| name == "section").collect();
+    let ends = |k: usize| sections[k].1.get("class").is_some_and(|class| class == "ends-page");
+    assert!(ends(0) && !ends(1), "the first section ends its page");
+}
+
+#[test]
+fn the_lower_margin_has_title_and_page_and_no_markup() {
+    let mut report = report();
+    report.title = "A \"50 t\" crane \\ </style>}".into();
+    let page = report.html(None).expect("the report is complete");
+    assert!(page.contains("counter(page) \" of \" counter(pages)"));
+    assert!(
+        page.contains(r#"content: "A \22 50 t\22  crane \5c  \3c \2f style\3e \7d  \2013  report.html""#)
+    );
+    parse(&page);
+}
+
+#[test]
+fn cells_of_wide_tables_name_their_columns() {
+    let table = |columns: usize, rows: usize| ReportTable {
+        caption: String::new(),
+        columns: (0..columns).map(|k| TableColumn::new(format!("c{k}"), "kN")).collect(),
+        rows: vec![vec![1.0.into(); columns]; rows],
+    };
+    let section = ReportSection::new("x").table(table(3, 2)).table(table(4, 24)).table(table(12, 25));
+    let report = Report { title: "t".into(), subtitle: String::new(), sections: vec![section] };
+    let (tags, _) = parse(&report.html(None).expect("numbers"));
+    let labels: Vec<_> = tags.iter().filter_map(|(_, attributes)| attributes.get("data-label")).collect();
+    assert_eq!(labels.len(), 4 * 24 + 12 * 25, "three columns fit on any screen");
+    assert_eq!(labels[0], "c0 (kN)");
+    let classes: Vec<&str> = tags
+        .iter()
+        .filter(|(name, _)| name == "div")
+        .filter_map(|(_, attributes)| attributes.get("class").map(String::as_str))
+        .collect();
+    assert_eq!(classes, ["scroll short", "scroll short", "scroll wide wider"]);
+}

@@ -117,10 +117,6 @@ fn run_case(
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
     let mut response = Response::new(&scene, &input, &run.history, &built, &solved, &lines, &mut record)?;
-    // bending moments are drawn for the scene itself only, not for its comparisons
-    if case.label.is_none() {
-        response.add_bending(&scene, &input, &run.history, &built, &solved)?;
-    }
     let prepared = girders::Prepared::new(&scene, &built, &solved);
     let mut foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
     for (s, foundation) in foundations.iter_mut().enumerate() {

@@ -9,7 +9,7 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, dead, section, bounds, instant, overrun, follow, extremes, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
@@ -19,7 +19,8 @@
 //! 5. `dead`: dead load;
 //! 6. `section`, `bounds`, `instant`, `overrun`, `follow`: responses of a fixed section, along members at one instant, and at
 //!    sections beside wheels and at vertices;
-//! 7. `extremes`, `collect`, `effect`: the results, which of two states governs, effects elsewhere;
+//! 7. `extremes`, `ordinates`, `collect`, `effect`: the results, influence lines for reading, which of two states
+//!    governs, effects elsewhere;
 //! 8. `search`, `blocked`, `bicubic`, `several`, `under_wheels`, `alone`, `deflection`: extremes that are enclosed by
 //!    bisection;
 //! 9. `analysis`: the calculation.
@@ -39,6 +40,7 @@ mod follow;
 mod instant;
 mod kernel;
 mod line;
+mod ordinates;
 mod overrun;
 mod pieces;
 mod plan;
@@ -61,5 +63,6 @@ pub use extremes::{
 };
 pub use follow::SectionSide;
 pub use instant::{MemberForces, PassedLoads, RailLoad, RailMember};
+pub use ordinates::InfluenceLine;
 pub use structure::{GirderResponse, Structure};
 pub use train::{Stance, Train, TrainCase, TrainWheel};

@@ -15,7 +15,7 @@ use formats::design::Design;
 use report::text::design_report::design_report;
 
 /// Files that the command writes.
-const FILES: [&str; 4] = ["envelope.csv", "reactions.csv", "summary.json", "report.html"];
+const FILES: [&str; 5] = ["envelope.csv", "reactions.csv", "influence.csv", "summary.json", "report.html"];
 
 /// Reads and solves the design, and writes its tables, summary and report.
 ///
@@ -31,15 +31,18 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
         PlannedFiles { names: FILES.iter().map(|name| (*name).to_owned()).collect(), plots: Vec::new() };
     let mut folder = OutputFolder::open(&path, "design", args.force, &planned)?;
     let read = design::with_combinations(&read);
-    let result = design::solve(&read, &inputs).map_err(|error| match error {
+    let failed = |error| match error {
         DesignError::Input(diagnostics) => Failure::Input(diagnostics),
         DesignError::NoSolution(why) => Failure::Untrusted(why),
-    })?;
+    };
+    let result = design::solve(&read, &inputs).map_err(failed)?;
+    let lines = design::governing_lines(&read, &inputs, &result).map_err(failed)?;
     let summary = design::summary(&read, &result);
     folder.add("envelope.csv", design::envelope_csv(&read, &result).map_err(Failure::untrusted)?);
     folder.add("reactions.csv", design::reactions_csv(&result).map_err(Failure::untrusted)?);
+    folder.add("influence.csv", design::influence_csv(&read, &lines).map_err(Failure::untrusted)?);
     folder.add("summary.json", output::json(&summary));
-    let report = design_report(&read, &result);
+    let report = design_report(&read, &result, &lines);
     folder.add("report.html", report.html(global.threads).map_err(Failure::untrusted)?);
     let written = folder.commit(Manifest::new("design", &inputs, json!({})))?;
     for warning in &result.warnings {

@@ -49,6 +49,7 @@ pub use line_chart::{Chart, Drawing};
 pub use series::{Series, SeriesMarker, Style};
 pub use surface_plot::SurfacePlot;
 pub use svg::{Svg, stack};
+pub(crate) use text::text_width;
 
 #[cfg(test)]
 mod tests;

@@ -1,7 +1,7 @@
 //! Width of text.
 
 /// Upper estimate of the width of a text in pixels, because no font is available to measure it.
-pub(super) fn text_width(text: &str, size: f64) -> f64 {
+pub(crate) fn text_width(text: &str, size: f64) -> f64 {
     let em: f64 = text
         .chars()
         .map(|c| match c {

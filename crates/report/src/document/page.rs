@@ -3,7 +3,7 @@
 use crate::chart::{Chart, Drawing};
 use crate::document::code::{coded, exponent, plain};
 use crate::document::number::number;
-use crate::document::section::{Figure, Picture, ReportSection, ReportTable, TableCell};
+use crate::document::section::{Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
 use crate::error::Error;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 use results::threads::parallel_map;
@@ -14,6 +14,13 @@ const SCRIPT: &str = include_str!("script.js");
 const ANIMATION_SCRIPT: &str = include_str!("animation.js");
 /// Significant digits of shown numbers.
 const DIGITS: usize = 7;
+/// Largest number of rows of a table that is never divided between pages.
+const SHORT: usize = 24;
+/// Numbers of columns above which letters are smaller and much smaller in print, and the number up to which a table stays a table on a
+/// narrow screen.
+const WIDE: usize = 9;
+const WIDER: usize = 11;
+const NARROW: usize = 3;
 
 /// A report: title and sections.
 ///
@@ -61,7 +68,7 @@ impl Report {
                     meta charset="utf-8";
                     meta name="viewport" content="width=device-width, initial-scale=1";
                     title { (self.title) }
-                    style { (PreEscaped(STYLE)) }
+                    style { (PreEscaped(STYLE)) (PreEscaped(page_footer(&self.title))) }
                 }
                 body {
                     header {
@@ -105,7 +112,7 @@ fn section(
     }
     let figures = drawn.take(section.figures.len()).collect::<Result<Vec<Markup>, Error>>()?;
     Ok(html! {
-        section id=(format!("section-{}", index + 1)) {
+        section id=(format!("section-{}", index + 1)) .ends-page[section.ends_page] {
             h2 { (section.heading) }
             @for text in &section.paragraphs { p { (text) } }
             @if !facts.is_empty() {
@@ -143,9 +150,15 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
     }
     // headers of numeric columns are aligned with their numbers
     let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
+    let label = |i: usize| {
+        let TableColumn { name, unit } = &table.columns[i];
+        let text = if unit.is_empty() { name.clone() } else { format!("{name} ({unit})") };
+        (table.columns.len() > NARROW).then_some(text)
+    };
+    let is_short = table.rows.len() <= SHORT;
     Ok(html! {
-        div.scroll {
-            table {
+        div.scroll .short[is_short] .wide[table.columns.len() > WIDE] .wider[table.columns.len() > WIDER] {
+            table .stacked[table.columns.len() > NARROW] {
                 caption { b { "Table " (running) ". " } (table.caption) }
                 thead {
                     tr {
@@ -159,7 +172,11 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
                 }
                 tbody {
                     @for row in &rows {
-                        tr { @for (number, text) in row { td.number[*number] { (text) } } }
+                        tr {
+                            @for (i, (number, text)) in row.iter().enumerate() {
+                                td.number[*number] data-label=[label(i)] { (text) }
+                            }
+                        }
                     }
                 }
             }
@@ -193,6 +210,22 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
             figcaption { b { "Figure " (running) ". " } (figure.caption) }
         }
     })
+}
+
+/// Style of the lower margin of printed pages: the title of the report and its file, and the number of the page.
+fn page_footer(title: &str) -> String {
+    let mut text = String::new();
+    for c in title.chars() {
+        // every character that could end the string or the element is written by its code
+        match c {
+            c if c.is_ascii_alphanumeric() || c == ' ' || !c.is_ascii() => text.push(c),
+            c => text.push_str(&format!("\\{:x} ", u32::from(c))),
+        }
+    }
+    format!(
+        "@page {{ @bottom-left {{ content: \"{text} \\2013  report.html\"; }} \
+         @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }}\n"
+    )
 }
 
 /// Text of a cell; `None` for a number that is not finite.

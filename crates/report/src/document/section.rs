@@ -24,12 +24,20 @@ pub struct ReportSection {
     pub tables: Vec<ReportTable>,
     /// Charts and pictures.
     pub figures: Vec<Figure>,
+    /// Whether a new page follows it in print.
+    pub ends_page: bool,
 }
 
 impl ReportSection {
     /// An empty section.
     pub fn new(heading: impl Into<String>) -> Self {
         ReportSection { heading: heading.into(), ..ReportSection::default() }
+    }
+
+    /// The same section, after which a new page begins in print.
+    pub fn ending_page(mut self) -> Self {
+        self.ends_page = true;
+        self
     }
 
     /// The same section with one more paragraph.

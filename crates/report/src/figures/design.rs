@@ -1,23 +1,10 @@
-//! Figures of a design: the rail with a governing position of the trains, and envelopes along it.
+//! Figures of a design: envelopes along its rails; units and digits in which engineers read values.
 
-use std::fmt::Write;
-
-use crate::chart::{Chart, ChartAxis, Series, Style, Svg};
+use crate::chart::{Chart, ChartAxis, Series, Style};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
-use formats::units::{Dimension, Length, Units};
-use trains::{GirderResponse, Governing};
-
-/// Width of a sketch in pixels.
-const WIDTH: f64 = 860.0;
-/// Height of a sketch in pixels.
-const HEIGHT: f64 = 150.0;
-/// Space beside the girder, in pixels.
-const MARGIN: f64 = 50.0;
-/// Units of a picture in a pixel.
-const FINE: f64 = 10.0;
-/// Height of the axis of the girder in the sketch, in pixels from above.
-const AXIS: f64 = 92.0;
+use formats::units::{Dimension, Force, Length, Scale, Units};
+use trains::GirderResponse;
 
 /// Unit in which engineers read deflections, and its factor from `units`.
 pub(crate) fn deflection_unit(units: Units) -> (&'static str, f64) {
@@ -27,86 +14,38 @@ pub(crate) fn deflection_unit(units: Units) -> (&'static str, f64) {
     }
 }
 
+/// Unit in which engineers read forces, moments, stresses and properties of sections, and its factor from `units`: kN and
+/// m, N and mm; kip and ft, kip and in.
+pub(crate) fn reading_unit(units: Units, dimension: Dimension) -> (String, f64) {
+    let is_small = !(dimension == Dimension::FORCE || dimension == Dimension::MOMENT);
+    let is_metric = matches!(units.length, Length::Metre | Length::Millimetre);
+    let to = match (is_metric, is_small) {
+        (true, true) => Units { length: Length::Millimetre, force: Force::Newton },
+        (true, false) => Units { length: Length::Metre, force: Force::Kilonewton },
+        (false, true) => Units { length: Length::Inch, force: Force::Kip },
+        (false, false) => Units { length: Length::Foot, force: Force::Kip },
+    };
+    let unit = to.label(dimension).replace("^2", "\u{b2}").replace("^4", "\u{2074}");
+    (unit, Scale { from: units, to }.factor(dimension))
+}
+
 /// Unit of a quantity for reading, and the factor from `units`.
 pub(crate) fn unit_of(units: Units, quantity: GirderResponse) -> (String, f64) {
-    let plain = |dimension| (units.label(dimension), 1.0);
     match quantity {
         GirderResponse::VerticalDeflection | GirderResponse::LateralDeflection => {
             let (unit, factor) = deflection_unit(units);
             (unit.to_owned(), factor)
         }
         GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear => {
-            plain(Dimension::FORCE)
+            reading_unit(units, Dimension::FORCE)
         }
-        _ => plain(Dimension::MOMENT),
+        _ => reading_unit(units, Dimension::MOMENT),
     }
 }
 
-/// A rail with the ends of its spans, the section that governs and the wheels in the governing position.
-pub(crate) fn position_sketch(design: &Design, case: usize, rail: usize, governing: &Governing) -> Svg {
-    let [low, high] = design.spec.rails()[rail].range;
-    let scale = (WIDTH - 2.0 * MARGIN) / (high - low);
-    let at = |x: f64| FINE * (MARGIN + (x - low) * scale);
-    let y = FINE * AXIS;
-    let mut out = String::new();
-    let _ = writeln!(
-        out,
-        "<title>Governing position of the trains</title>\n<line x1=\"{:.0}\" y1=\"{y:.0}\" x2=\"{:.0}\" y2=\"{y:.0}\" \
-         stroke=\"#202020\" stroke-width=\"45\"/>",
-        at(low),
-        at(high)
-    );
-    for x in &design.spans[rail] {
-        let _ = writeln!(
-            out,
-            "<path d=\"M {0:.0} {1:.0} l -80 140 h 160 z\" fill=\"#FFFFFF\" stroke=\"#202020\" stroke-width=\"12\"/>\n\
-             <text x=\"{0:.0}\" y=\"{2:.0}\" font-size=\"120\" text-anchor=\"middle\">{3}</text>",
-            at(*x),
-            y + 22.0,
-            y + 290.0,
-            digits(*x, 4)
-        );
-    }
-    let _ = writeln!(
-        out,
-        "<line x1=\"{0:.0}\" y1=\"{1:.0}\" x2=\"{0:.0}\" y2=\"{2:.0}\" stroke=\"#B00020\" stroke-width=\"15\" \
-         stroke-dasharray=\"50 30\"/>\n<text x=\"{0:.0}\" y=\"{3:.0}\" font-size=\"120\" fill=\"#B00020\" \
-         text-anchor=\"middle\">x = {4}</text>",
-        at(governing.x),
-        y - 110.0,
-        y + 110.0,
-        y + 440.0,
-        digits(governing.x, 4)
-    );
-    for (x, force) in wheels(design, case, rail, governing) {
-        let _ = writeln!(
-            out,
-            "<circle cx=\"{0:.0}\" cy=\"{1:.0}\" r=\"60\" fill=\"#FFFFFF\" stroke=\"#00539C\" stroke-width=\"15\"/>\n\
-             <path d=\"M {0:.0} {2:.0} v 330 m -40 -90 l 40 90 l 40 -90\" fill=\"none\" stroke=\"#00539C\" \
-             stroke-width=\"15\"/>\n<text x=\"{0:.0}\" y=\"{3:.0}\" font-size=\"120\" fill=\"#00539C\" \
-             text-anchor=\"middle\">{4}</text>",
-            at(x),
-            y - 85.0,
-            y - 490.0,
-            y - 530.0,
-            digits(force, 3)
-        );
-    }
-    Svg::new(WIDTH, HEIGHT, out)
-}
-
-/// Coordinates and vertical forces of the wheels on a rail in a governing position.
-fn wheels(design: &Design, case: usize, rail: usize, governing: &Governing) -> Vec<(f64, f64)> {
-    let mut out = Vec::new();
-    for (&train, standing) in design.cases[case].trains.iter().zip(&governing.trains) {
-        let train = &design.trains[train];
-        let first = train.wheels[0].rail;
-        for wheel in train.wheels.iter().filter(|wheel| wheel.rail == rail && first == rail) {
-            let ahead = if standing.stance.turned { -wheel.x } else { wheel.x };
-            out.push((standing.position + ahead, wheel.vertical.iter().map(|(_, force)| force).sum()));
-        }
-    }
-    out
+/// A value and its unit, which stay on one line.
+pub(crate) fn with_unit(value: &str, unit: &str) -> String {
+    format!("{value}\u{a0}{}", unit.replace(' ', "\u{a0}"))
 }
 
 /// A number in a few significant digits.

@@ -1,13 +1,16 @@
 //! Figures of a run: charts, girder plots, the animation of the crane.
 //!
-//! `design` draws the girders of a design with their governing positions and envelopes.
+//! `rail_sketch` draws a rail with supports and wheels, `design` the envelopes of a design, `influence_lines` the
+//! influence lines of its governing values with the wheels above them.
 //! `run_figure` is a figure with its name; `motion`, `rails`, `responses`, `structures` and `animation` make figures,
 //! and `run` collects those of a run in the order of the report.
 
 pub mod animation;
 pub(crate) mod design;
 pub mod error;
+pub(crate) mod influence_lines;
 pub(crate) mod motion;
+pub(crate) mod rail_sketch;
 pub(crate) mod rails;
 pub(crate) mod responses;
 pub mod run;

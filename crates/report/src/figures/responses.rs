@@ -7,7 +7,9 @@ use crate::figures::run_figure::{LabelledRun, RunFigure};
 use formats::scene::columns::{Column, Direction as Toward, Kind};
 use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
+use results::girders::GirderExtremes;
 use results::response::{ColumnInfluence, Response};
+use trains::GirderResponse;
 
 /// Largest number of curves in a chart.
 const CURVES: usize = 8;
@@ -27,20 +29,11 @@ pub fn response_charts(
     runs: &[LabelledRun],
     responses: &[&Response],
     lines: &[Option<ColumnInfluence>],
+    girders: &GirderExtremes,
 ) -> Vec<RunFigure> {
     let Some((run, response)) = runs.first().zip(responses.first()) else { return Vec::new() };
     let mut figures = reactions(runs, run, response);
-    for bending in &response.bending {
-        let rail = &run.scene.rails[bending.rail];
-        let supports = match &run.scene.structures[rail.structure].origin {
-            Origin::Spec { spec, .. } => spec.model().map_or_else(
-                |_| Vec::new(),
-                |(m, rails)| results::response::spans(spec, &m, &rails, rail.rail),
-            ),
-            Origin::Tables { .. } => Vec::new(),
-        };
-        figures.push(moments(run, &rail.name, &bending.rows, &supports));
-    }
+    figures.extend(moments(run, girders));
     figures.extend(influences(run.scene, response, lines));
     figures
 }
@@ -149,21 +142,54 @@ fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluenc
     figures
 }
 
-/// Extremes of the bending moment over the girder.
-fn moments(run: &LabelledRun, rail: &str, rows: &[[f64; 3]], supports: &[f64]) -> RunFigure {
+/// Envelopes of the vertical moments of the girders, one figure for each rail whose moments are not zero throughout.
+fn moments(run: &LabelledRun, girders: &GirderExtremes) -> Vec<RunFigure> {
+    let mut figures = Vec::new();
+    for (index, rail) in run.scene.rails.iter().enumerate() {
+        let points = |is_max: bool| -> Vec<[f64; 2]> {
+            let own = girders.envelope.iter().filter(|e| {
+                (e.rail, e.quantity, e.is_max) == (index, GirderResponse::VerticalMoment, is_max)
+            });
+            own.map(|e| [e.x, e.value]).collect()
+        };
+        let (largest, smallest) = (points(true), points(false));
+        if largest.iter().chain(&smallest).all(|point| point[1] == 0.0) {
+            continue;
+        }
+        let supports = match &run.scene.structures[rail.structure].origin {
+            Origin::Spec { spec, .. } => spec.model().map_or_else(
+                |_| Vec::new(),
+                |(model, rails)| results::response::spans(spec, &model, &rails, rail.rail),
+            ),
+            Origin::Tables { .. } => Vec::new(),
+        };
+        figures.push(moment_envelope(run, &rail.name, largest, smallest, &supports));
+    }
+    figures
+}
+
+/// The largest and smallest moments along one rail.
+fn moment_envelope(
+    run: &LabelledRun,
+    rail: &str,
+    largest: Vec<[f64; 2]>,
+    smallest: Vec<[f64; 2]>,
+    supports: &[f64],
+) -> RunFigure {
     let units = run.scene.units;
-    let ends = [rows.first(), rows.last()].map(|row| row.map_or([0.0; 2], |row| [row[0], 0.0]));
+    let ends = [largest.first(), largest.last()].map(|point| point.map_or([0.0; 2], |point| [point[0], 0.0]));
     let chart = Chart::new(
         format!("Bending moments under {rail}"),
         ChartAxis::new("position along the rail", units.label(Dimension::LENGTH)),
         ChartAxis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
     )
     .with(Series::new("girder", Style::Dashed, ends.to_vec()))
-    .with(Series::new("largest", Style::Line, rows.iter().map(|row| [row[0], row[1]]).collect()))
-    .with(Series::new("smallest", Style::Line, rows.iter().map(|row| [row[0], row[2]]).collect()))
+    .with(Series::new("largest", Style::Line, largest))
+    .with(Series::new("smallest", Style::Line, smallest))
     .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
+    let dead = if run.scene.output.dead_load { "with" } else { "without" };
     let caption = format!(
-        "Envelope of the bending moments of the members under {rail} over the run, without dead load ({}).",
+        "Envelope of the bending moments of the members under {rail} over the run, {dead} dead load ({}).",
         run.label
     );
     RunFigure::chart(format!("moments-{rail}"), caption, chart)

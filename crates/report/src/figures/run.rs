@@ -97,7 +97,12 @@ pub fn figures(
     all.figures.extend(motion::paths(&labelled));
     all.figures.extend(motion::wheels(run, input));
     let responses: Vec<&Response> = outcomes.iter().map(|outcome| &outcome.response).collect();
-    all.figures.extend(responses::response_charts(&labelled, &responses, &outcomes[0].lines));
+    all.figures.extend(responses::response_charts(
+        &labelled,
+        &responses,
+        &outcomes[0].lines,
+        &outcomes[0].girders,
+    ));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solution_of(known, &structure.origin) else { continue };
         let name = &structure.name;

@@ -51,11 +51,22 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
 }
 
 /// Heads of the columns of [`clause_cells`].
-const CLAUSE_HEADS: [&str; 4] = ["code", "edition", "clause", "source"];
+const CLAUSE_HEADS: [&str; 3] = ["code", "clause", "source"];
 
-/// Code, edition, clause and check of a value.
-fn clause_cells(clause: &CodeClause) -> [TableCell; 4] {
-    [clause.standard, clause.edition, clause.clause, clause.evidence.words()].map(TableCell::from)
+/// Code with its edition, clause and check of a value.
+fn clause_cells(clause: &CodeClause) -> [TableCell; 3] {
+    let code = code_with_edition(clause);
+    [code.as_str(), clause.clause, clause.evidence.words()].map(TableCell::from)
+}
+
+/// Name of a code, with its edition where the name does not have it.
+pub(super) fn code_with_edition(clause: &CodeClause) -> String {
+    let CodeClause { standard, edition, .. } = clause;
+    if standard.contains(edition) || edition.is_empty() {
+        (*standard).to_owned()
+    } else {
+        format!("{standard} {edition}")
+    }
 }
 
 /// Quantities of the runs, each with the values of codes: one line for each value.

@@ -10,8 +10,8 @@ use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 /// Significant digits of values.
 const DIGITS: usize = 4;
 
-/// The limits of deflections.
-pub(super) fn limits(design: &Design, result: &DesignResult) -> ReportTable {
+/// Limits of deflections.
+pub(super) fn limits(design: &Design, checks: &[LimitCheck]) -> ReportTable {
     let (unit, factor) = deflection_unit(design.units);
     let columns = [
         ("case", ""),
@@ -29,7 +29,7 @@ pub(super) fn limits(design: &Design, result: &DesignResult) -> ReportTable {
         columns: columns.iter().map(|(name, unit)| TableColumn::new(*name, *unit)).collect(),
         rows: Vec::new(),
     };
-    for check in &result.limits {
+    for check in checks {
         table.rows.push(vec![
             TableCell::from(check.case),
             TableCell::from(check.rail.clone()),

@@ -1,6 +1,6 @@
 //! Report content on the extremes of girders in the runs.
 
-use crate::figures::design::{digits, unit_of};
+use crate::figures::design::{digits, unit_of, with_unit};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{plane_word, quantity_word};
 use formats::scene::{Document, Scene};
@@ -15,7 +15,7 @@ const DIGITS: usize = 4;
 const ROWS: usize = 80;
 
 /// Which values stand in the first table, with their words.
-const GOVERNING: [(GirderResponse, bool, &str); 9] = [
+pub(super) const GOVERNING: [(GirderResponse, bool, &str); 9] = [
     (GirderResponse::VerticalMoment, true, "largest sagging moment"),
     (GirderResponse::VerticalMoment, false, "largest hogging moment"),
     (GirderResponse::VerticalShear, true, "largest shear force"),
@@ -70,18 +70,25 @@ fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportTable {
     };
     for (quantity, is_max, words) in GOVERNING {
         for (case, outcome) in document.cases.iter().zip(outcomes) {
-            let sign = if is_max { 1.0 } else { -1.0 };
-            let own = outcome.girders.extremes.iter();
-            let own = own.filter(|e| e.quantity == quantity && e.is_max == is_max && sign * e.value > 0.0);
-            let best =
-                own.reduce(|best, next| if sign * next.value > sign * best.value { next } else { best });
-            let Some(found) = best else { continue };
+            let Some(found) = largest(outcome, quantity, is_max) else { continue };
             let mut row = vec![TableCell::from(words), TableCell::from(outcome.label.clone())];
             row.extend(cells(&case.scene, found));
             table.rows.push(row);
         }
     }
     table
+}
+
+/// The largest or smallest value of a quantity over all rails and spans of a run; `None` where it never has that sign.
+pub(super) fn largest(
+    outcome: &CaseResult,
+    quantity: GirderResponse,
+    is_max: bool,
+) -> Option<&GirderExtreme> {
+    let sign = if is_max { 1.0 } else { -1.0 };
+    let own = outcome.girders.extremes.iter();
+    let own = own.filter(|e| e.quantity == quantity && e.is_max == is_max && sign * e.value > 0.0);
+    own.reduce(|best, next| if sign * next.value > sign * best.value { next } else { best })
 }
 
 /// All extremes of one run.
@@ -117,7 +124,7 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
 /// Value, rail, span, place, side and time.
 fn cells(scene: &Scene, found: &GirderExtreme) -> [TableCell; 6] {
     let (unit, factor) = unit_of(scene.units, found.quantity);
-    let value = format!("{}\u{a0}{}", digits(factor * found.value, DIGITS), unit.replace(' ', "\u{a0}"));
+    let value = with_unit(&digits(factor * found.value, DIGITS), &unit);
     let side = match found.side {
         SectionSide::Before => "just before",
         SectionSide::At => "",

@@ -2,13 +2,16 @@
 
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;
+use formats::scene::columns::Column;
 use formats::text::number::rounded;
 use formats::units::Dimension;
 use results::columns::NamedColumns;
-use results::response::{Response, RunComparison};
+use results::response::{ColumnEnvelope, Response, RunComparison};
 
 /// Largest number of rows of a table; summary.json has all.
 const ROWS: usize = 60;
+/// Fraction of the largest value of its dimension below which a column counts as zero throughout.
+const ZERO: f64 = 1e-12;
 /// Fraction of the range of a column below which a value is considered as rounding error.
 const ROUNDING: f64 = 1e-12;
 
@@ -118,7 +121,7 @@ pub fn comparison(
 
 /// Extremes of reactions and internal forces.
 fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
-    let more = response.envelopes.len().saturating_sub(ROWS);
+    let more = (response.envelopes.len() - zero_columns(response).len()).saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
     let length = scene.units.label(Dimension::LENGTH);
     let mut columns = [("quantity", ""), ("unit", ""), ("", ""), ("value", ""), ("at time", "s")]
@@ -128,7 +131,10 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     columns.push(TableColumn::new("dead load", ""));
     let mut rows = Vec::new();
     let own = response.columns.iter().zip(&response.dead_load);
-    for (envelope, (column, dead)) in response.envelopes.iter().zip(own).take(ROWS) {
+    let zero = zero_columns(response);
+    let shown =
+        response.envelopes.iter().zip(own).filter(|(envelope, _)| !zero.contains(&envelope.column.as_str()));
+    for (envelope, (column, dead)) in shown.take(ROWS) {
         let unit = TableCell::from(scene.units.label(column.dimension));
         let range = envelope.max.value - envelope.min.value;
         let mut head = vec![TableCell::from(envelope.column.clone()), unit];
@@ -142,10 +148,27 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             rows.push(row);
         }
     }
+    let without =
+        if zero.is_empty() { String::new() } else { format!(" Zero throughout: {}.", zero.join(", ")) };
     let caption = format!(
-        "Envelopes of the run \"{label}\", with the governing times and positions of the bodies.{rest}"
+        "Envelopes of the run \"{label}\", with the governing times and positions of the bodies.{rest}{without}"
     );
     ReportTable { caption, columns, rows }
+}
+
+/// Names of the columns that are zero throughout, dead load included, up to rounding of the largest value of their
+/// dimension.
+fn zero_columns(response: &Response) -> Vec<&str> {
+    let all = || response.envelopes.iter().zip(response.columns.iter().zip(&response.dead_load));
+    let size = |max: f64, min: f64, dead: f64| max.abs().max(min.abs()).max(dead.abs());
+    let largest = |dimension: Dimension| {
+        let same = all().filter(|(_, (column, _))| column.dimension == dimension);
+        same.map(|(e, (_, dead))| size(e.max.value, e.min.value, *dead)).fold(0.0, f64::max)
+    };
+    let is_zero = |(e, (column, dead)): &(&ColumnEnvelope, (&Column, &f64))| {
+        size(e.max.value, e.min.value, **dead) <= ZERO * largest(column.dimension)
+    };
+    all().filter(is_zero).map(|(envelope, _)| envelope.column.as_str()).collect()
 }
 
 /// Returns the value, or zero if it is a rounding error relative to the range.

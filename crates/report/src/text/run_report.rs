@@ -1,6 +1,8 @@
 //! The report of a run: input, results and warnings, figures, structures, energy audit.
 
 use crate::figures::run_figure::RunFigure;
+use crate::text::run_basis::basis;
+use crate::text::run_verdict::verdict;
 use crate::text::{codes, fatigue, girders, responses};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use formats::grid::coupling::Coupling;
@@ -48,9 +50,11 @@ pub fn report(
     let damages: Vec<_> =
         outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
     sections.extend(fatigue::section(scene, &damages));
+    sections.extend(warnings(document, outcomes));
     sections.push(audit(document, outcomes));
     let extremes = girders::section(document, outcomes);
-    sections.splice(0..0, extremes);
+    sections
+        .splice(0..0, [verdict(document, outcomes), basis(document, outcomes)].into_iter().chain(extremes));
     Report {
         title: scene.name.clone(),
         subtitle: format!("girderway {}: wheels on flexible rails", env!("CARGO_PKG_VERSION")),
@@ -224,6 +228,20 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
     ReportSection::new("Wheel forces").table(table)
 }
 
+/// All warnings and notes of the runs; `None` where there are none.
+fn warnings(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
+    let mut section = ReportSection::new("Warnings and notes");
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        for warning in warning::case_warnings(&case.scene, outcome) {
+            section = section.paragraph(format!("Warning, {}: {warning}.", outcome.label));
+        }
+        for note in warning::case_notes(&case.scene, outcome) {
+            section = section.paragraph(format!("Note, {}: {note}.", outcome.label));
+        }
+    }
+    (!section.paragraphs.is_empty()).then_some(section)
+}
+
 /// The energy audit of the dynamic runs.
 fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let energy = document.scene().units.label(Dimension::MOMENT);
@@ -256,15 +274,7 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
             ]);
         }
     }
-    let mut section = ReportSection::new("Energy");
-    for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in warning::case_warnings(&case.scene, outcome) {
-            section = section.paragraph(format!("Warning, {}: {warning}.", outcome.label));
-        }
-        for note in warning::case_notes(&case.scene, outcome) {
-            section = section.paragraph(format!("Note, {}: {note}.", outcome.label));
-        }
-    }
+    let section = ReportSection::new("Energy");
     if table.rows.is_empty() {
         section.paragraph("No dynamic run reached its end, so there is no energy audit.")
     } else {

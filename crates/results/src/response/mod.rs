@@ -4,10 +4,8 @@
 //! All values are computed from the history after the run. Reactions and internal forces are the products of
 //! influence lines and wheel forces, minus the effects of the inertia of the structure ([`ColumnInfluence`]).
 //!
-//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, bending, this one,
-//! comparison.
+//! Files, lowest first: loaded, part_inertia, influence, envelope, serviceability, modes, this one, comparison.
 
-mod bending;
 mod comparison;
 mod envelope;
 mod influence;
@@ -16,7 +14,6 @@ mod modes;
 mod part_inertia;
 mod serviceability;
 
-pub use bending::Bending;
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
@@ -47,8 +44,6 @@ pub struct Response {
     pub dead_load: Vec<f64>,
     /// Extremes of the columns.
     pub envelopes: Vec<ColumnEnvelope>,
-    /// Extremes of the bending moments along the rails, if requested.
-    pub bending: Vec<Bending>,
     /// Largest deflection of each span.
     pub deflections: Vec<Deflection>,
     /// Largest lateral displacement of each rail on a frame.
@@ -108,8 +103,7 @@ pub fn influence_lines(
 }
 
 impl Response {
-    /// The response of a run without bending moments ([`Response::add_bending`]) and natural modes
-    /// ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built`, `solved` and `lines` have one
+    /// The response of a run without natural modes ([`SceneMode::all`]). The columns of `lines` are added to `record`. `built`, `solved` and `lines` have one
     /// entry per structure of `scene`.
     ///
     /// # Errors
@@ -178,30 +172,6 @@ impl Response {
             record.push(column.name.clone(), column.dimension, values);
             self.columns.push(column.clone());
         }
-    }
-
-    /// Adds the envelopes of the bending moments along the rails for those structures that have a beam spec and whose
-    /// degrees of freedom, if any, were recorded.
-    ///
-    /// # Errors
-    /// [`Error::Lines`] for a structure that is a mechanism.
-    pub fn add_bending(
-        &mut self,
-        scene: &Scene,
-        input: &SimulationInput,
-        history: &History,
-        built: &[BuiltFoundation],
-        solved: &[Option<&SolvedModel>],
-    ) -> Result<(), Error> {
-        let loads = WheelLoadReader::new(scene, input, history);
-        for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
-            let is_known = built.foundation.dofs() == 0 || built.foundation.recorded;
-            let Some(solved) = solved.filter(|_| is_known) else { continue };
-            let failed = |source| Error::Lines { structure: scene.structures[s].name.clone(), source };
-            let loaded = LoadedStructure { scene, s, history, loads: &loads, built };
-            self.bending.extend(bending::moment_envelopes(&loaded, solved).map_err(failed)?);
-        }
-        Ok(())
     }
 
     /// The members of a run's summary that the response has.

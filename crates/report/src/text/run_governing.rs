@@ -1,0 +1,235 @@
+//! The table of governing values of a run, with the range of the other runs.
+
+use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, with_unit};
+use crate::text::girders::{GOVERNING, largest};
+use crate::{ReportTable, TableCell, TableColumn};
+use formats::scene::columns::{Direction, Kind};
+use formats::scene::{Document, Scene};
+use formats::units::Dimension;
+use results::case_result::CaseResult;
+use trains::GirderResponse;
+
+/// Significant digits of values.
+const DIGITS: usize = 4;
+/// Values below this fraction of the largest of their kind are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// A row of the governing values: words, unit and factor, value of the first run with its place, values of the others.
+struct GoverningRow {
+    words: String,
+    unit: String,
+    factor: f64,
+    value: f64,
+    /// Text behind the value, such as the ratio of span to deflection.
+    more: String,
+    name: String,
+    span: TableCell,
+    x: TableCell,
+    time: f64,
+    others: Vec<f64>,
+    /// Largest value of its kind; fractions of it that are only rounding are shown as zero.
+    size: f64,
+}
+
+impl GoverningRow {
+    fn cells(self) -> Vec<TableCell> {
+        let rounding = ROUNDING * self.size;
+        let text =
+            |value: f64| digits(if value.abs() < rounding { 0.0 } else { self.factor * value }, DIGITS);
+        let low = self.others.iter().copied().reduce(f64::min);
+        let high = self.others.iter().copied().reduce(f64::max);
+        let others = match low.zip(high) {
+            Some((low, high)) if text(low) == text(high) => text(low),
+            Some((low, high)) => format!("{} to {}", text(low), text(high)),
+            None => String::new(),
+        };
+        vec![
+            TableCell::from(self.words),
+            TableCell::from(format!("{}{}", with_unit(&text(self.value), &self.unit), self.more)),
+            TableCell::from(self.name),
+            self.span,
+            self.x,
+            TableCell::from(digits(self.time, DIGITS)),
+            TableCell::from(others),
+        ]
+    }
+}
+
+/// The values that govern in the first run, and the range of the same values in the others.
+pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportTable {
+    let scene = document.scene();
+    let (first, others) = (&outcomes[0], &outcomes[1..]);
+    let mut rows = girder_rows(scene, first, others);
+    rows.extend(deflection_rows(scene, first, others));
+    rows.extend(wheel_rows(scene, first, others));
+    rows.extend(reaction_rows(scene, first, others));
+    let mut columns = vec![
+        TableColumn::new("", ""),
+        TableColumn::new("value", ""),
+        TableColumn::new("rail, wheel or support", ""),
+        TableColumn::new("span", ""),
+        TableColumn::new("x", scene.units.label(Dimension::LENGTH)),
+        TableColumn::new("time", "s"),
+        TableColumn::new("other runs", ""),
+    ];
+    let mut rows: Vec<Vec<TableCell>> = rows.into_iter().map(GoverningRow::cells).collect();
+    if others.is_empty() {
+        columns.pop();
+        rows.iter_mut().for_each(|row| row.truncate(columns.len()));
+    }
+    let dead = if scene.output.dead_load { "with" } else { "without" };
+    let caption = format!(
+        "Governing values of the run \"{}\", moments, shear forces and reactions {dead} the dead load of the structure",
+        first.label
+    );
+    ReportTable { caption, columns, rows }
+}
+
+fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let row = |(quantity, is_max, words): &(GirderResponse, bool, &str)| {
+        let found = largest(first, *quantity, *is_max)?;
+        let (unit, factor) = unit_of(scene.units, *quantity);
+        let same = others.iter().filter_map(|other| largest(other, *quantity, *is_max));
+        Some(GoverningRow {
+            words: (*words).to_owned(),
+            unit,
+            factor,
+            value: found.value,
+            more: String::new(),
+            name: scene.rails[found.rail].name.clone(),
+            span: TableCell::from(found.span),
+            x: TableCell::from(digits(found.x, DIGITS)),
+            time: found.time,
+            others: same.map(|found| found.value).collect(),
+            size: 0.0,
+        })
+    };
+    GOVERNING.iter().filter_map(row).collect()
+}
+
+/// The deflection from the chord that is the largest part of its span, in each direction.
+fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let worst = |outcome: &CaseResult, direction: &str| {
+        let own = outcome.response.deflections.iter().filter(|found| found.direction == direction);
+        let known = own.filter_map(|found| Some((found.ratio()?, found.clone())));
+        known.min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let (unit, factor) = deflection_unit(scene.units);
+    let row = |direction: &str| {
+        let (ratio, found) = worst(first, direction)?;
+        let same = others.iter().filter_map(|other| worst(other, direction));
+        Some(GoverningRow {
+            words: format!("{direction} deflection from the chord"),
+            unit: unit.to_owned(),
+            factor,
+            value: found.value,
+            more: format!(" = L/{ratio:.0}"),
+            name: found.rail.clone(),
+            span: TableCell::Empty,
+            x: TableCell::from(digits(found.x, DIGITS)),
+            time: found.time,
+            others: same.map(|(_, found)| found.value).collect(),
+            size: 0.0,
+        })
+    };
+    ["vertical", "lateral"].into_iter().filter_map(row).collect()
+}
+
+/// Largest and smallest vertical wheel force, and the largest lateral one of either sign.
+fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
+    // sign times value is sought; 0 stands for the magnitude
+    let worst = |outcome: &CaseResult, part: &str, sign: f64| {
+        let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
+        let mut best: Option<(f64, usize, usize)> = None;
+        for (wheel, own) in outcome.input.wheels.iter().enumerate() {
+            for (row, value) in outcome.columns.part(&own.name, part).iter().enumerate() {
+                if best.is_none_or(|(known, ..)| size(*value) > size(known)) {
+                    best = Some((*value, wheel, row));
+                }
+            }
+        }
+        best
+    };
+    let size = worst(first, "vertical", 0.0).map_or(0.0, |(value, ..)| value.abs());
+    let kinds = [
+        ("largest vertical wheel force", "vertical", 1.0),
+        ("smallest vertical wheel force", "vertical", -1.0),
+        ("largest lateral wheel force", "lateral", 0.0),
+    ];
+    let row = |(words, part, sign): (&str, &str, f64)| {
+        let (value, wheel, row) = worst(first, part, sign)
+            .filter(|(value, ..)| part == "vertical" || value.abs() > ROUNDING * size)?;
+        let name = &first.input.wheels[wheel].name;
+        let x = first.columns.part(name, "x").get(row).copied();
+        Some(GoverningRow {
+            words: words.to_owned(),
+            unit: unit.clone(),
+            factor,
+            value,
+            more: String::new(),
+            name: name.clone(),
+            span: TableCell::Empty,
+            x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
+            time: first.columns.values("time").get(row).copied().unwrap_or_default(),
+            others: others.iter().filter_map(|other| worst(other, part, sign)).map(|found| found.0).collect(),
+            size,
+        })
+    };
+    kinds.into_iter().filter_map(row).collect()
+}
+
+/// Largest and smallest vertical reaction, and the largest lateral one of either sign, of structures on the ground.
+fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
+    let carried: Vec<String> = scene
+        .structures
+        .iter()
+        .filter(|structure| structure.carrier.is_some())
+        .map(|structure| format!("{}.", structure.name))
+        .collect();
+    let worst = |outcome: &CaseResult, direction: Direction, sign: f64| {
+        let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
+        let mut best: Option<(f64, f64, String)> = None;
+        for (column, envelope) in outcome.response.columns.iter().zip(&outcome.response.envelopes) {
+            let is_ground = !carried.iter().any(|structure| column.name.starts_with(structure));
+            if column.kind != Kind::Reaction || column.direction != Some(direction) || !is_ground {
+                continue;
+            }
+            for extreme in [&envelope.max, &envelope.min] {
+                if best.as_ref().is_none_or(|(known, ..)| size(extreme.value) > size(*known)) {
+                    best = Some((extreme.value, extreme.time, column.name.clone()));
+                }
+            }
+        }
+        best
+    };
+    let size = worst(first, Direction::Vertical, 0.0).map_or(0.0, |(value, ..)| value.abs());
+    let kinds = [
+        ("largest vertical reaction", Direction::Vertical, 1.0),
+        ("smallest vertical reaction", Direction::Vertical, -1.0),
+        ("largest lateral reaction", Direction::Lateral, 0.0),
+    ];
+    let row = |(words, direction, sign): (&str, Direction, f64)| {
+        let (value, time, name) =
+            worst(first, direction, sign).filter(|(value, ..)| value.abs() > ROUNDING * size)?;
+        Some(GoverningRow {
+            words: words.to_owned(),
+            unit: unit.clone(),
+            factor,
+            value,
+            more: String::new(),
+            name,
+            span: TableCell::Empty,
+            x: TableCell::Empty,
+            time,
+            others: others
+                .iter()
+                .filter_map(|other| worst(other, direction, sign))
+                .map(|found| found.0)
+                .collect(),
+            size,
+        })
+    };
+    kinds.into_iter().filter_map(row).collect()
+}

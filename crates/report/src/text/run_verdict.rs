@@ -1,0 +1,153 @@
+//! The first page of a run: whether it can be used, what governs, and where the wheels stand then.
+
+use crate::ReportSection;
+use crate::figures::design::{digits, reading_unit, unit_of, with_unit};
+use crate::figures::rail_sketch::RailSketch;
+use crate::text::girders::largest;
+use crate::text::run_governing::governing;
+use formats::scene::{Analysis, Document, Origin, Scene};
+use formats::units::Dimension;
+use results::case_result::CaseResult;
+use results::girders::GirderExtreme;
+use results::run_error;
+use results::warning;
+use trains::GirderResponse;
+
+/// Significant digits of values.
+const DIGITS: usize = 4;
+/// Largest number of warnings on the first page.
+const WARNINGS: usize = 4;
+
+/// Status, governing values, and the wheels at the instant of the largest sagging moment.
+pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
+    let mut section = ReportSection::new("Verdict");
+    section.paragraphs.extend(statuses(document, outcomes));
+    section.paragraphs.extend(checks(document.scene(), &outcomes[0]));
+    let mut all: Vec<String> = Vec::new();
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        let own = warning::case_warnings(&case.scene, outcome).into_iter();
+        all.extend(own.map(|text| format!("Warning, {}: {text}.", outcome.label)));
+    }
+    let more = all.len().saturating_sub(WARNINGS);
+    section.paragraphs.extend(all.into_iter().take(WARNINGS));
+    if more > 0 {
+        section =
+            section.paragraph(format!("{more} more warnings are in the section on warnings and notes."));
+    }
+    let table = governing(document, outcomes);
+    if !table.rows.is_empty() {
+        section = section.table(table);
+    }
+    let sagging = largest(&outcomes[0], GirderResponse::VerticalMoment, true);
+    match sagging.and_then(|found| sketch(document.scene(), &outcomes[0], found)) {
+        Some((svg, caption)) => section.figure(svg, caption),
+        None => section,
+    }
+}
+
+/// Whether the runs reached their ends, and how well their energy balances.
+fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
+    let mut out = Vec::new();
+    for (case, outcome) in document.cases.iter().zip(outcomes) {
+        if let Some(why) = run_error::reason_incomplete(&outcome.run.status, &case.scene) {
+            out.push(format!("The run \"{}\" is incomplete: {why}.", outcome.label));
+        }
+    }
+    if out.is_empty() {
+        out.push(match outcomes.len() {
+            1 => "The run reached its end.".to_owned(),
+            2 => "Both runs reached their ends.".to_owned(),
+            count => format!("All {count} runs reached their ends."),
+        });
+    }
+    let dynamic = document.cases.iter().zip(outcomes).filter(|(case, outcome)| {
+        case.scene.analysis == Analysis::Dynamic && outcome.run.status.is_complete()
+    });
+    let residual = dynamic.map(|(_, outcome)| outcome.run.audit.residual().abs()).reduce(f64::max);
+    if let Some((residual, first)) = residual.zip(out.first_mut()) {
+        first.push_str(&format!(
+            " The energy balance closes to {} of the largest stored energy.",
+            digits(residual, 2)
+        ));
+    }
+    out
+}
+
+/// Uplift, limits of static deflections and fatigue in the first run.
+fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
+    let mut out = Vec::new();
+    let uplifts = &outcome.response.uplifts;
+    if let Some(first) = uplifts.first() {
+        out.push(format!(
+            "Wheels leave their rails {} times, first {} at {} s.",
+            uplifts.len(),
+            first.wheel,
+            digits(first.time, DIGITS)
+        ));
+    }
+    let limits = outcome.codes.iter().flat_map(|codes| &codes.limits);
+    let all: Vec<(f64, String)> = limits
+        .flat_map(|found| {
+            let name = format!("{} of {}", found.displacement.word().replace('_', " "), found.rail);
+            found.limits.iter().map(move |limit| (found.value / limit.value, name.clone()))
+        })
+        .collect();
+    if let Some((most, name)) = all.iter().max_by(|a, b| a.0.total_cmp(&b.0)) {
+        let failed = all.iter().filter(|(used, _)| *used > 1.0).count();
+        let verdict =
+            if failed == 0 { "are kept".to_owned() } else { format!("are exceeded in {failed} cases") };
+        out.push(format!(
+            "The limits of codes on deflections under static wheel loads, {} in all, {verdict}; the highest utilisation \
+             is {:.0} % ({name}).",
+            all.len(),
+            100.0 * most
+        ));
+    }
+    if let Some(worst) = outcome.fatigue.iter().max_by(|a, b| a.damage.sum.total_cmp(&b.damage.sum)) {
+        let life = worst.life.map_or_else(String::new, |life| format!(", {} of a life", digits(life, 3)));
+        out.push(format!(
+            "Fatigue: the largest damage of the run is {}{life} at {} (detail {}), gamma_Mf = {}.",
+            digits(worst.damage.sum, 3),
+            worst.column,
+            worst.detail.word(),
+            scene.output.fatigue.material
+        ));
+    }
+    out
+}
+
+/// The rail of an extreme with the wheels at its instant, and the caption.
+fn sketch(scene: &Scene, outcome: &CaseResult, found: &GirderExtreme) -> Option<(crate::chart::Svg, String)> {
+    let rail = scene.rails.get(found.rail)?;
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
+    let (model, rails) = spec.model().ok()?;
+    let supports = results::response::spans(spec, &model, &rails, rail.rail);
+    let times = outcome.columns.values("time");
+    let distance = |row: &usize| (times[*row] - found.time).abs();
+    let row = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
+    let (force, factor) = reading_unit(scene.units, Dimension::FORCE);
+    let on_rail = outcome.input.wheels.iter().filter(|wheel| wheel.rail == found.rail);
+    let at = |name: &str, part: &str| outcome.columns.part(name, part).get(row).copied();
+    let wheels =
+        on_rail.filter_map(|wheel| Some((at(&wheel.name, "x")?, factor * at(&wheel.name, "vertical")?)));
+    let [from, to] = rail.range;
+    let length = scene.units.label(Dimension::LENGTH);
+    let sketch = RailSketch {
+        range: rail.range,
+        supports: &supports,
+        length_unit: &length,
+        wheels: wheels.filter(|(x, _)| (from..=to).contains(x)).collect(),
+        section: Some(found.x),
+    };
+    let (unit, by) = unit_of(scene.units, found.quantity);
+    let caption = format!(
+        "The wheels on {} at t = {} s, when its largest sagging moment is {} at x = {}, drawn to scale along the rail; at \
+         each wheel its vertical force in {force} and its place in {length} ({}).",
+        rail.name,
+        digits(found.time, DIGITS),
+        with_unit(&digits(by * found.value, DIGITS), &unit),
+        digits(found.x, DIGITS),
+        outcome.label,
+    );
+    Some((sketch.svg("Wheels at the largest sagging moment"), caption))
+}
