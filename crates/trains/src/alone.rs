@@ -1,8 +1,8 @@
 //! The largest deflection of a carrier under a single train, enclosed by bisection of the places.
 //!
-//! Between two places the deflection w of one state has a second derivative of at most k in size, except for kinks under
-//! wheels. The largest deflection W under the wheels is exact (`under_wheels`); what exceeds it is smooth where it is
-//! largest. So no state exceeds, on an interval of length h that is shorter than the distance between wheels,
+//! Between two places the deflection w of one state bulges: minus its second derivative is at most k, except for kinks
+//! under wheels. The largest deflection W under the wheels is exact (`under_wheels`); what exceeds it is smooth where it
+//! is largest. So no state exceeds, on an interval of length h that is shorter than the distance between wheels,
 //!
 //! max(W, w at both ends + k h^2/2),    without kinks    w at both ends + k h^2/8.
 //!
@@ -18,7 +18,6 @@ use crate::extremes::{Governing, TrainPosition};
 use crate::follow::SectionSide;
 use crate::overrun::Overrun;
 use crate::plan::{CasePlan, Standing};
-use crate::search::Bend;
 use crate::structure::{Carrier, GirderResponse};
 
 /// Parts of a window from which the bisection starts.
@@ -34,10 +33,11 @@ pub(crate) struct Alone<'a> {
     pub window: [f64; 2],
     /// Dead load with the factor of the case; `None` where it does not count.
     pub dead: Option<&'a DeadLoad>,
-    /// How a state bends, the kinks of all wheels included, by rail coordinate.
-    pub bend: Bend,
-    /// Relative distance between the largest value found and the bound of all others.
+    /// The sum of the jumps of its slope at all wheels, by rail coordinate.
+    pub kinks: f64,
+    /// Distance between the largest value found and the bound of all others, relative to it or to `size`.
     pub gap: f64,
+    pub size: f64,
     /// Most evaluations.
     pub most: usize,
 }
@@ -66,8 +66,7 @@ impl Alone<'_> {
     /// the wheels, where the slope has kinks; `known` is sign times a value below which nothing is sought.
     pub fn enclosed(&self, under_wheels: Option<Governing>, known: f64) -> (Option<Governing>, f64) {
         let follows = under_wheels.is_some();
-        let mut found =
-            Found { largest: under_wheels.as_ref().map_or(0.0, |g| g.value.abs()), best: under_wheels };
+        let mut found = Found { largest: self.size, best: under_wheels };
         let [from, to] = self.window;
         let all: Active = Rc::new(self.active(&mut found, known));
         let place = |k: usize| if k == PARTS { to } else { from + (to - from) * k as f64 / PARTS as f64 };
@@ -75,10 +74,12 @@ impl Alone<'_> {
             (0..=PARTS).map(|k| self.evaluate(place(k), &all, f64::NEG_INFINITY, &mut found)).collect();
         let spacing = self.over.all().map(|p| p.on.least_distance()).fold(f64::INFINITY, f64::min);
         let spacing = spacing / self.carrier.rate();
-        let margin = |x: [f64; 2]| {
+        let bulge = self.bulges();
+        let margin = |x: [f64; 2], at: &[usize; 2]| {
             let h = x[1] - x[0];
-            let all = self.bend.margin(x);
-            if follows && h < spacing { all.min(self.bend.curvature * h * h / 2.0) } else { all }
+            let own = bulge(at) * h * h;
+            let all = own / 8.0 + self.kinks * h / 4.0;
+            if follows && h < spacing { all.min(own / 2.0) } else { all }
         };
         let limit = |found: &Found| {
             let best = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
@@ -102,13 +103,24 @@ impl Alone<'_> {
             let middle = 0.5 * (x[0] + x[1]);
             let halves = [[x[0], middle], [middle, x[1]]];
             // Pieces that stay below this are left out of both halves, whatever their value is.
-            let floor = most - margin(halves[0]).max(margin(halves[1]));
+            let largest = active.iter().map(|at| margin(halves[0], at).max(margin(halves[1], at)));
+            let floor = most - largest.fold(0.0, f64::max);
             let at_middle = self.evaluate(middle, &active, floor, &mut found);
             evaluations += 1;
             let most = limit(&found);
             let [a, b] = &values;
             open.extend(interval(halves[0], &active, [a, &at_middle], &margin, most));
             open.extend(interval(halves[1], &active, [&at_middle, b], &margin, most));
+        }
+    }
+
+    /// By how much a state of a piece can bulge, dead load included, by rail coordinate.
+    fn bulges(&self) -> impl Fn(&[usize; 2]) -> f64 {
+        let rate = self.carrier.rate();
+        let direction = usize::from(self.quantity == GirderResponse::LateralDeflection);
+        let dead = self.dead.map_or(0.0, |dead| dead.bend(self.quantity, self.carrier.length));
+        move |&[stance, piece]| {
+            (self.over.bounds(stance).bulge(direction, self.sign, piece) + dead) * rate * rate
         }
     }
 
@@ -175,13 +187,13 @@ fn interval(
     x: [f64; 2],
     active: &Active,
     values: [&Vec<f64>; 2],
-    margin: &impl Fn([f64; 2]) -> f64,
+    margin: &impl Fn([f64; 2], &[usize; 2]) -> f64,
     limit: f64,
 ) -> Option<Interval> {
-    let margin = margin(x);
     let [a, b] = values;
-    let keeps: Vec<usize> = (0..active.len()).filter(|&k| a[k].max(b[k]) + margin > limit).collect();
-    let bound = keeps.iter().map(|&k| a[k].max(b[k]) + margin).reduce(f64::max)?;
+    let most = |k: usize| a[k].max(b[k]) + margin(x, &active[k]);
+    let keeps: Vec<usize> = (0..active.len()).filter(|&k| most(k) > limit).collect();
+    let bound = keeps.iter().map(|&k| most(k)).reduce(f64::max)?;
     let take = |values: &Vec<f64>| keeps.iter().map(|&k| values[k]).collect();
     let active = if keeps.len() == active.len() {
         Rc::clone(active)

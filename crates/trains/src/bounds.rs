@@ -7,7 +7,8 @@
 //! force <= its ends + sum J,    moment <= its ends + sum J + h/4 sum V,    deflection <= its ends + k h^2/8 + h/4 sum g.
 
 use crate::line::bound_of_cubic;
-use crate::section::{Passage, slope_index};
+use crate::polynomial::Polynomial;
+use crate::section::{Passage, WheelOnMember, slope_index};
 use crate::structure::{GirderResponse, QUANTITIES};
 
 /// Parts of a carrier.
@@ -19,6 +20,8 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
     values: Vec<f64>,
+    /// By direction and piece: bounds of plus and minus the second derivative of a deflection along the member.
+    second: [Vec<[f64; 2]>; 2],
     pieces: usize,
     length: f64,
 }
@@ -51,7 +54,20 @@ impl Bounds {
                 }
             }
         }
-        Bounds { values, pieces, length }
+        let second = [0, 1].map(|direction| {
+            let known = passage.deflections[direction].is_some();
+            (0..pieces)
+                .map(|piece| if known { second(passage, piece, direction) } else { [0.0; 2] })
+                .collect()
+        });
+        Bounds { values, second, pieces, length }
+    }
+
+    /// A bound of minus the second derivative of sign times a deflection in a piece, at least 0: by how much a state can
+    /// bulge over its chord.
+    pub fn bulge(&self, direction: usize, sign: f64, piece: usize) -> f64 {
+        let [above, below] = self.second[direction][piece];
+        if sign > 0.0 { below.max(0.0) } else { above.max(0.0) }
     }
 
     /// Bounds of sign times response k around place s, by piece.
@@ -69,6 +85,48 @@ impl Bounds {
         let first = ((part * GirderResponse::ALL.len() + k) * 2 + usize::from(sign < 0.0)) * self.pieces;
         &self.values[first..first + self.pieces]
     }
+}
+
+/// Bounds of plus and minus the second derivative of a deflection in a piece, by distance along the member. It is linear
+/// between wheels, as a moment is, so that the ends and both sides of each wheel tell for all.
+fn second(passage: &Passage, piece: usize, direction: usize) -> [f64; 2] {
+    let Some(pieces) = &passage.deflections[direction] else { return [0.0; 2] };
+    let length = passage.on.length();
+    let time = passage.pieces.list[piece].length();
+    let wheels = passage.wheels(piece);
+    let [_, _, c, d] = &pieces.list[piece].cubics;
+    let base = |place: &Polynomial| {
+        let own = Polynomial::new(d).times(place);
+        Polynomial::default().plus(&Polynomial::new(c), 2.0 / length.powi(2)).plus(&own, 6.0 / length.powi(3))
+    };
+    let mut out = [f64::NEG_INFINITY; 2];
+    let mut offer = |second: &Polynomial| {
+        out[0] = out[0].max(second.bound(time));
+        out[1] = out[1].max(Polynomial::default().plus(second, -1.0).bound(time));
+    };
+    let place = |wheel: &WheelOnMember| Polynomial::new(&[wheel.start, wheel.rate]);
+    let ends = [Polynomial::new(&[0.0]), Polynomial::new(&[length])];
+    if wheels.iter().any(|wheel| wheel.rate != wheels[0].rate) {
+        // Wheels that move against each other: with any of them passed.
+        ends.iter().for_each(|end| offer(&base(end)));
+        let more: f64 = wheels.iter().map(|wheel| wheel.kernel(direction).second(length)).sum();
+        return out.map(|bound| bound + more);
+    }
+    let mut at = |place_of: &Polynomial, passed: usize| {
+        let bent = |sum: Polynomial, wheel: &WheelOnMember| {
+            let distance = place_of.plus(&place(wheel), -1.0);
+            let [constant, slope] = wheel.kernel(direction).second_derivative();
+            sum.plus(&Polynomial::new(&[constant]), 1.0).plus(&distance, slope)
+        };
+        offer(&wheels[..passed].iter().fold(base(place_of), bent));
+    };
+    at(&ends[0], 0);
+    at(&ends[1], wheels.len());
+    for (index, wheel) in wheels.iter().enumerate() {
+        at(&place(wheel), index);
+        at(&place(wheel), index + 1);
+    }
+    out
 }
 
 /// By how much sign times response k can exceed its values at the ends of a part of the carrier.

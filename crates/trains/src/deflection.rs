@@ -56,12 +56,14 @@ impl Deflections<'_> {
                 let bend = self.bend(span, all, direction)?;
                 let several = bend.kinks > 0.0 && self.plan.trains.len() > 1;
                 let blocked = if several { Some(self.blocked(direction, bend)?) } else { None };
+                let mut largest = 0.0;
                 for is_max in [true, false] {
                     let sign = sign_of(is_max);
                     let entry = entry(all, self.carrier.rail, span, quantity, is_max);
                     let (best, bound) = if self.plan.trains.len() == 1 {
+                        let size = largest;
                         let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
-                        self.alone(direction, sign, window, bend, known)
+                        self.alone(direction, sign, window, bend.kinks, (known, size))
                     } else {
                         let margin: Margin<'_> = match &blocked {
                             Some(blocked) => Box::new(|x| blocked.margin(x)),
@@ -81,6 +83,7 @@ impl Deflections<'_> {
                         (search.best, search.bound)
                     };
                     offer(&mut entry.governing, best, sign);
+                    largest = entry.governing.as_ref().map_or(largest, |g| largest.max(g.value.abs()));
                     entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
                 }
             }
@@ -94,10 +97,10 @@ impl Deflections<'_> {
         direction: usize,
         sign: f64,
         window: [f64; 2],
-        bend: Bend,
-        known: f64,
+        kinks: f64,
+        (known, size): (f64, f64),
     ) -> (Option<Governing>, f64) {
-        let under = if bend.kinks > 0.0 {
+        let under = if kinks > 0.0 {
             let window = window.map(|x| self.carrier.place(x));
             let under = UnderWheels { direction, sign, window, dead: Some(self.dead) };
             under.largest(self.plan, self.over, self.carrier)
@@ -112,8 +115,9 @@ impl Deflections<'_> {
             sign,
             window,
             dead: Some(self.dead),
-            bend,
+            kinks,
             gap: GAP,
+            size,
             most: MOST,
         };
         search.enclosed(under, known)
@@ -188,8 +192,9 @@ impl Deflections<'_> {
                             sign,
                             window,
                             dead: None,
-                            bend,
+                            kinks: bend.kinks,
                             gap: GAP_OF_CHORDS,
+                            size: 0.0,
                             most: MOST_OF_CHORDS,
                         };
                         search.enclosed(None, f64::NEG_INFINITY).0

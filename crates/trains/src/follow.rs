@@ -9,6 +9,7 @@
 use crate::bounds::Bounds;
 use crate::dead::DeadLoad;
 use crate::line::shifted;
+use crate::plan::TIE;
 use crate::polynomial::Polynomial;
 use crate::running::PiecewiseFunction;
 use crate::section::{Passage, WheelOnMember, slope_index};
@@ -51,7 +52,7 @@ impl Passage {
         let mut best: Option<Peak> = None;
         let dead = target.dead.bound(GirderResponse::ALL[target.k], target.sign, target.window);
         for (index, piece) in self.pieces.list.iter().enumerate() {
-            let limit = best.map_or(floor, |best| best.signed);
+            let limit = limit_of(&best, floor);
             if bounds.over_all(target.k, target.sign, index) + dead <= limit {
                 continue;
             }
@@ -72,7 +73,7 @@ impl Passage {
                     let live = of(target.k);
                     let dead = target.dead.along(target.k, &place);
                     let total = Polynomial::default().plus(&live, target.sign).plus(&dead, target.sign);
-                    let limit = best.map_or(floor, |best| best.signed);
+                    let limit = limit_of(&best, floor);
                     if let Some((t, signed)) = total.largest_above(to - from, limit)
                         && signed > limit
                     {
@@ -142,7 +143,7 @@ impl Passage {
             let slope = state.quantity(shear, &start, 0.0, count).plus(&Polynomial::new(&[b]), 1.0);
             let total = value.plus(&slope.times(&slope), -0.25 / c);
             let signed = Polynomial::default().plus(&total, target.sign);
-            let limit = best.map_or(floor, |best| best.signed);
+            let limit = limit_of(best, floor);
             if signed.bound(h) <= limit {
                 continue;
             }
@@ -154,7 +155,7 @@ impl Passage {
                 let from = at(count.checked_sub(1).and_then(|k| state.wheels.get(k)), 0.0);
                 let to = at(state.wheels.get(count), self.on.length());
                 let inside = place >= from.max(target.window[0]) && place <= to.min(target.window[1]);
-                let limit = best.map_or(floor, |best| best.signed);
+                let limit = limit_of(best, floor);
                 if inside && signed.at(t) > limit {
                     *best = Some(Peak {
                         signed: signed.at(t),
@@ -166,6 +167,11 @@ impl Passage {
             }
         }
     }
+}
+
+/// What a value must exceed to replace the best: of equal ones the first counts.
+fn limit_of(best: &Option<Peak>, floor: f64) -> f64 {
+    best.map_or(floor, |best| best.signed + TIE * best.signed.abs())
 }
 
 /// The quantities at the end of the member and the wheels on it, in one piece.

@@ -4,11 +4,11 @@
 //! follow by equilibrium of the part between: each load passed at s_k < s changes force and couple by its jump, and
 //! moments by (s - s_k) times the jump of the shear. Loads may stand anywhere; nothing is sampled along the member.
 
-use fea::{Effect, Model, Rail};
 use crate::error::Error;
 use crate::line::LineCell;
 use crate::section::slope_index;
 use crate::structure::{Carrier, OnMember, QUANTITIES, Structure};
+use fea::{Effect, Model, Rail};
 
 /// Distance from the end of a member, relative to its length along the rail, within which a load counts as just inside.
 const INSIDE: f64 = 1e-9;

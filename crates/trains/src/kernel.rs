@@ -28,6 +28,12 @@ impl Kernel {
         self.0[0]
     }
 
+    /// The second derivative, constant and by the distance.
+    pub fn second_derivative(&self) -> [f64; 2] {
+        let [_, b, c] = self.0;
+        [2.0 * b, 6.0 * c]
+    }
+
     /// Bound of the size of the second derivative up to a distance.
     pub fn second(&self, d: f64) -> f64 {
         let [_, b, c] = self.0;

@@ -587,14 +587,18 @@ fn spans(
     check: &mut Check<'_>,
 ) -> Vec<Vec<f64>> {
     let mut out: Vec<Vec<f64>> = rails.iter().map(|rail| rail.range.to_vec()).collect();
-    if let Some(girder) = spec.girder() {
-        let mut x = 0.0;
-        out[0] = std::iter::once(0.0)
-            .chain(girder.spans.iter().map(|span| {
-                x += span;
-                x
-            }))
-            .collect();
+    // A model with a fault is refused when it is solved, with the place of the fault.
+    if let Ok((model, segments)) = spec.model() {
+        for (index, out) in out.iter_mut().enumerate() {
+            let [low, high] = rails[index].range;
+            let mut ends = spec.spans(&model, &segments, index);
+            // The first and the last support may lie beyond the part of the rail that carries loads.
+            ends.iter_mut().for_each(|x| *x = x.clamp(low, high));
+            ends.dedup_by(|b, a| *b - *a <= 1e-9 * (high - low));
+            if ends.len() >= 2 {
+                *out = ends;
+            }
+        }
     }
     let at = root.key("spans");
     let known = names(rails, |rail| &rail.name);

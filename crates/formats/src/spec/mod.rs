@@ -3,7 +3,7 @@
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
 //! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `cuts`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
-//! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), places of
+//! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), places of
 //! solver errors (`locate`) and rails on ties ([`ties`]).
 
 mod block;
@@ -24,6 +24,7 @@ mod references;
 mod rolled;
 mod sections;
 mod shape;
+mod spans;
 mod stress;
 mod structure;
 mod tapers;

@@ -119,7 +119,7 @@ fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluenc
         let (Some(lines), Origin::Spec { spec, .. }) = (lines, &structure.origin) else { continue };
         let Ok((model, rails)) = spec.model() else { continue };
         for (rail, outline) in structure.rails.iter().enumerate() {
-            let supports = results::response::spans(spec, &model, &rails, rail);
+            let supports = spec.spans(&model, &rails, rail);
             for (index, column) in
                 lines.columns().iter().enumerate().filter(|(_, column)| column.kind == Kind::Section)
             {
@@ -157,10 +157,9 @@ fn moments(run: &LabelledRun, girders: &GirderExtremes) -> Vec<RunFigure> {
             continue;
         }
         let supports = match &run.scene.structures[rail.structure].origin {
-            Origin::Spec { spec, .. } => spec.model().map_or_else(
-                |_| Vec::new(),
-                |(model, rails)| results::response::spans(spec, &model, &rails, rail.rail),
-            ),
+            Origin::Spec { spec, .. } => spec
+                .model()
+                .map_or_else(|_| Vec::new(), |(model, rails)| spec.spans(&model, &rails, rail.rail)),
             Origin::Tables { .. } => Vec::new(),
         };
         figures.push(moment_envelope(run, &rail.name, largest, smallest, &supports));

@@ -24,7 +24,7 @@ pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSecti
                 let spans: Vec<Vec<f64>> = spec.model().map_or_else(
                     |_| Vec::new(),
                     |(model, rails)| {
-                        let of = |rail| results::response::spans(spec, &model, &rails, rail);
+                        let of = |rail| spec.spans(&model, &rails, rail);
                         (0..rails.len()).map(of).collect()
                     },
                 );

@@ -121,7 +121,7 @@ fn sketch(scene: &Scene, outcome: &CaseResult, found: &GirderExtreme) -> Option<
     let rail = scene.rails.get(found.rail)?;
     let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
     let (model, rails) = spec.model().ok()?;
-    let supports = results::response::spans(spec, &model, &rails, rail.rail);
+    let supports = spec.spans(&model, &rails, rail.rail);
     let times = outcome.columns.values("time");
     let distance = |row: &usize| (times[*row] - found.time).abs();
     let row = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;

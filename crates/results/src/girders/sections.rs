@@ -5,7 +5,6 @@ use formats::scene::{Origin, Scene};
 use formats::spec::Spec;
 use trains::{MemberForces, SectionSide};
 
-use crate::response::spans;
 use foundations::SolvedModel;
 
 /// Parts into which each span is divided.
@@ -158,7 +157,7 @@ fn rail_spans(
     let rail = scene.rails[index].rail;
     let range = members.structure().range(rail);
     let given = scene.output.spans.iter().find(|(known, _)| *known == index);
-    let mut ends = given.map_or_else(|| spans(spec, model, &solved.rails, rail), |(_, ends)| ends.clone());
+    let mut ends = given.map_or_else(|| spec.spans(model, &solved.rails, rail), |(_, ends)| ends.clone());
     // the first and the last support may lie beyond the part of the rail that carries loads
     ends.iter_mut().for_each(|x| *x = x.clamp(range[0], range[1]));
     tidy(&mut ends, range);

@@ -21,7 +21,7 @@ pub(crate) use influence::ColumnTerm;
 pub use loaded::{WheelLoad, WheelLoadReader};
 pub(crate) use loaded::{displacements, spread};
 pub use modes::SceneMode;
-pub use serviceability::{Deflection, Drift, spans};
+pub use serviceability::{Deflection, Drift};
 
 use loaded::LoadedStructure;
 use serde_json::{Map, Value, json};

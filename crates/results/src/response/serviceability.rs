@@ -15,7 +15,7 @@ use splines::{Axis, Error, Probe};
 
 use super::loaded::{LoadedStructure, WheelLoad, spread};
 use formats::scene::Origin;
-use formats::spec::{Form, Spec};
+use formats::spec::Form;
 use formats::units::{Dimension, Scale, Units};
 use foundations::SolvedModel;
 
@@ -111,7 +111,7 @@ pub(super) fn deflections(
     for (index, rail) in scene.rails.iter().enumerate().filter(|(_, rail)| rail.structure == s) {
         let given = scene.output.spans.iter().find(|(known, _)| *known == index);
         let ends = given
-            .map_or_else(|| spans(spec, &solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
+            .map_or_else(|| spec.spans(&solved.model, &solved.rails, rail.rail), |(_, ends)| ends.clone());
         for span in ends.windows(2).map(|pair| [pair[0].max(rail.range[0]), pair[1].min(rail.range[1])]) {
             let [from, to] = span;
             let inside = |load: &WheelLoad| {
@@ -233,7 +233,7 @@ pub(super) fn drifts(
     let is_loaded = all.iter().flat_map(|(_, loads)| loads).any(|load| load.force[2] != 0.0);
     let mut found = Vec::new();
     for rail in scene.rails.iter().filter(|rail| rail.structure == s && is_loaded) {
-        let columns = spans(spec, &solved.model, &solved.rails, rail.rail);
+        let columns = spec.spans(&solved.model, &solved.rails, rail.rail);
         let inside = |x: &f64| *x >= rail.range[0] && *x <= rail.range[1];
         let columns: Vec<f64> = columns.into_iter().filter(inside).collect();
         let height = height(&solved.model, &solved.rails, rail.rail).filter(|height| *height > 0.0);
@@ -281,40 +281,4 @@ fn height(model: &Model, rails: &[Rail], rail: usize) -> Option<f64> {
     let base = model.supports.iter().filter_map(|support| model.points.get(support.point));
     let base = base.map(|point| of(*point)).reduce(f64::min)?;
     Some(top - base)
-}
-
-/// Rail coordinates of the ends of the spans of rail `index`, increasing; empty where fewer than two are known.
-///
-/// The spans of a girder end at its supports. The spans of a frame end at those points of the members under the rail
-/// that are connected to a support, a spring, a link, or a member that is not under a rail, such as a column.
-#[must_use]
-pub fn spans(spec: &Spec, model: &Model, rails: &[Rail], index: usize) -> Vec<f64> {
-    let Some(rail) = rails.get(index) else { return Vec::new() };
-    let mut ends = match &spec.form {
-        Form::Girder(_) => model.supports.iter().map(|support| model.points[support.point][0]).collect(),
-        Form::Frame(_) => supported_points(model, rails, rail),
-    };
-    ends.sort_by(f64::total_cmp);
-    let slack = 1e-9 * ends.iter().fold(0.0_f64, |far, x| far.max(x.abs()));
-    ends.dedup_by(|b, a| *b - *a <= slack);
-    if ends.len() < 2 { Vec::new() } else { ends }
-}
-
-/// Rail coordinates of those points of the members under `rail` that are connected to a support, spring, link or
-/// other member.
-fn supported_points(model: &Model, rails: &[Rail], rail: &Rail) -> Vec<f64> {
-    let mut carries = vec![false; model.members.len()];
-    for segment in rails.iter().flat_map(|rail| &rail.segments) {
-        carries[segment.member] = true;
-    }
-    let mut is_supported = vec![false; model.points.len()];
-    model.supports.iter().for_each(|support| is_supported[support.point] = true);
-    model.springs.iter().for_each(|spring| is_supported[spring.point] = true);
-    model.links.iter().flat_map(|link| [link.from, link.to]).for_each(|point| is_supported[point] = true);
-    let others = model.members.iter().zip(&carries).filter(|(_, carries)| !**carries);
-    others.flat_map(|(member, _)| member.points).for_each(|point| is_supported[point] = true);
-    let axis = Vector3::from(rail.axis).normalize();
-    let place = |point: usize| (Vector3::from(model.points[point]) - Vector3::from(rail.origin)).dot(&axis);
-    let points = rail.segments.iter().flat_map(|segment| model.members[segment.member].points);
-    points.filter(|point| is_supported[*point]).map(place).collect()
 }

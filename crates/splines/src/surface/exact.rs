@@ -194,7 +194,8 @@ impl ExactSurface {
     fn restrained_row(&self, at: Probe) -> Result<ShapeRow, Error> {
         let mut row = ShapeRow::EMPTY;
         self.rails.row_into(at, &mut row)?;
-        let is_free = |(&dof, value): (&usize, &f64)| *value != 0.0 && self.nodal[(dof, dof)] == f64::INFINITY;
+        let is_free =
+            |(&dof, value): (&usize, &f64)| *value != 0.0 && self.nodal[(dof, dof)] == f64::INFINITY;
         if row.indices().iter().zip(row.values()).any(is_free) {
             return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
         }
