@@ -35,7 +35,8 @@ impl Details {
         trains: &[TrainCase],
         cases: &[SolvedCase],
     ) -> Result<Details, Error> {
-        let lines = RailLines::new(design, rails, model.up);
+        let ranges: Vec<[f64; 2]> = design.spec.rails().iter().map(|rail| rail.range).collect();
+        let lines = RailLines::new(rails, &ranges, model.up);
         let sections = GirderSections::new(design, model, rails, &lines);
         let basis = StressBasis { design, lines: &lines, sections: &sections, trains, cases };
         let mut left_out = basis.left_out();

@@ -1,7 +1,6 @@
 //! Trains where they stand in a state: the loads on the rails, and where rails lie beside each other.
 
 use fea::Rail;
-use formats::design::Design;
 use trains::{RailLoad, TrainCase, TrainPosition};
 
 /// Directions and places of the rails of a structure.
@@ -19,16 +18,15 @@ struct RailLine {
 }
 
 impl RailLines {
-    /// The rails of a design; `rails` are those of its model, `up` its vertical direction.
-    pub fn new(design: &Design, rails: &[Rail], up: [f64; 3]) -> RailLines {
-        let outlines = design.spec.rails();
-        let line = |(rail, outline): (&Rail, &formats::spec::RailOutline)| {
+    /// The rails of a model, with the first and last coordinate of each; `up` is its vertical direction.
+    pub fn new(rails: &[Rail], ranges: &[[f64; 2]], up: [f64; 3]) -> RailLines {
+        let line = |(rail, range): (&Rail, &[f64; 2])| {
             let x = unit(rail.axis);
             let rise = dot(up, x);
             let y = unit(std::array::from_fn(|k| up[k] - rise * x[k]));
-            RailLine { origin: rail.origin, axes: [x, y, cross(x, y)], range: outline.range }
+            RailLine { origin: rail.origin, axes: [x, y, cross(x, y)], range: *range }
         };
-        RailLines { lines: rails.iter().zip(&outlines).map(line).collect() }
+        RailLines { lines: rails.iter().zip(ranges).map(line).collect() }
     }
 
     /// Number of rails.

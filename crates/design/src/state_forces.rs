@@ -85,8 +85,8 @@ impl StateForces {
         self.carrying.iter().enumerate().find(on).map(|(index, _)| index)
     }
 
-    /// The forces at the section of a governing state, on both sides of a wheel that stands there unless the state names one;
-    /// `factor` is that of the dead load.
+    /// The forces at the section of a governing state, on both sides of a wheel that stands there unless the state says on which
+    /// one, each with the index of the carrying member.
     pub fn at(
         &mut self,
         lines: &RailLines,
@@ -114,14 +114,29 @@ impl StateForces {
         self.members.load(carrier, loads, &mut passed);
         let [first, last] = self.carrying[carrier].x.map(|x| self.members.place(carrier, x));
         let near = NEAR * (last - first).abs();
-        let own = passed.places().find(|(_, at)| (at - place).abs() <= near).map(|(index, _)| index);
-        let Some(index) = own else { return vec![passed.quantities(place, None)] };
-        let sides: &[bool] = match side {
-            SectionSide::Before => &[false],
-            SectionSide::Behind => &[true],
-            SectionSide::At => &[false, true],
+        if !passed.places().any(|(_, at)| (at - place).abs() <= near) {
+            return vec![passed.quantities(place, None)];
+        }
+        // At the end of a member the side of the state is that of the member, not that of the wheel.
+        let is_inside = place > first + near && place < last - near;
+        let sides: &[f64] = match side {
+            SectionSide::Before if is_inside => &[-1.0],
+            SectionSide::Behind if is_inside => &[1.0],
+            _ => &[-1.0, 1.0],
         };
-        sides.iter().map(|behind| passed.quantities(place, Some((index, *behind)))).collect()
+        let beside = |side: &f64| {
+            // Just beyond all loads at the section, and back along the slopes of the moments.
+            let step = 2.0 * side * near;
+            let mut forces = passed.quantities(place + step, None);
+            for (moment, shear) in [
+                (GirderResponse::VerticalMoment, GirderResponse::VerticalShear),
+                (GirderResponse::LateralMoment, GirderResponse::LateralShear),
+            ] {
+                forces[index(moment)] -= step * forces[index(shear)];
+            }
+            forces
+        };
+        sides.iter().map(beside).collect()
     }
 
     /// The forces under dead load: along a member they are polynomials of at most the second degree, given by three places.
@@ -148,4 +163,89 @@ impl StateForces {
 /// Index of a quantity in [`SectionForces`].
 pub(crate) const fn index(quantity: GirderResponse) -> usize {
     quantity as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fea::Girder;
+    use trains::{Request, Train, TrainWheel, envelopes};
+
+    fn girder() -> Girder {
+        Girder {
+            spans: vec![6.0, 7.5],
+            e: 2.1e8,
+            g: Some(8.1e7),
+            area: Some(0.02),
+            i_vertical: 5.8e-4,
+            i_lateral: Some(1.1e-4),
+            j: Some(3.6e-6),
+            rail_height: 0.3,
+            mass_per_length: Some(0.2),
+            ..Girder::default()
+        }
+    }
+
+    fn train(first: f64, ends: [f64; 2]) -> Train {
+        let wheel = |x: f64, vertical: f64| TrainWheel {
+            rail: 0,
+            x,
+            vertical,
+            lateral: 0.1 * vertical,
+            longitudinal: 12.0,
+            eccentricity: 0.02,
+        };
+        let wheels = vec![wheel(0.0, first), wheel(2.6, 80.0)];
+        Train { wheels, ends, turned: true, reverses: true, enters: false }
+    }
+
+    /// Analytic: in the state that governs a quantity the section has this quantity, with dead load, signs, eccentricity and
+    /// trains that are turned. The six quantities of a state and the envelopes are calculated on different ways.
+    #[test]
+    fn the_forces_of_a_governing_state_hold_the_governing_force() {
+        let (model, rail) = girder().model_and_rail().expect("a girder");
+        let rails = [rail];
+        let structure = Structure::new(&model, &rails, true).expect("a structure");
+        let lines = RailLines::new(&rails, &[structure.range(0)], model.up);
+        let dead = DeadLoads { gravity: 9.81, lines: vec![0.7] };
+        let cases = [
+            TrainCase { trains: vec![train(120.0, [0.3, 0.6])], dead: 1.35, ..TrainCase::default() },
+            TrainCase {
+                trains: vec![train(120.0, [0.3; 2]), train(60.0, [0.2; 2])],
+                gap: 0.4,
+                ..TrainCase::default()
+            },
+        ];
+        let request = Request {
+            spans: vec![vec![0.0, 6.0, 13.5]],
+            places: vec![vec![0.0, 2.2, 6.0, 9.1]],
+            ..Request::default()
+        };
+        let found = envelopes(&structure, &dead, &cases, &request).expect("envelopes");
+        let mut forces = StateForces::new(&model, &rails, &lines, &dead, true).expect("a structure");
+        let mut compared = 0;
+        for (case, found) in cases.iter().zip(&found) {
+            let spans = found.extremes.iter().map(|e| (e.quantity, &e.governing));
+            for (quantity, governing) in
+                spans.chain(found.envelopes.iter().map(|e| (e.quantity, &e.governing)))
+            {
+                if index(quantity) >= 6 {
+                    continue;
+                }
+                let all = forces.at(&lines, case, 0, governing).expect("forces");
+                let size = found.extremes.iter().filter(|e| e.quantity == quantity);
+                let size = size.map(|e| e.governing.value.abs()).fold(1.0, f64::max);
+                let error = |own: &SectionForces| (own[index(quantity)] - governing.value).abs() / size;
+                let nearest = all.iter().map(|(_, own)| error(own)).fold(f64::INFINITY, f64::min);
+                assert!(
+                    nearest < 1e-8,
+                    "{quantity:?} at {}: {all:?} without {}",
+                    governing.x,
+                    governing.value
+                );
+                compared += 1;
+            }
+        }
+        assert!(compared > 150, "{compared}");
+    }
 }

@@ -2,6 +2,7 @@
 
 use crate::figures::design::{deflection_unit, digits, envelope_charts, position_sketch, unit_of};
 use crate::text::design_codes::{codes, limits, sources};
+use crate::text::design_stresses::{utilisation, with_details};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, ReactionExtremes, SolvedCase, load_word, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
@@ -50,6 +51,9 @@ const GOVERNING: [(GirderResponse, bool, &str); 7] = [
 fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     let mut section = ReportSection::new("Verdict");
     section = section.paragraph(sentence(result));
+    if let Some(line) = utilisation(result) {
+        section = section.paragraph(line);
+    }
     for warning in &result.warnings {
         section = section.paragraph(format!("Warning: {warning}."));
     }
@@ -101,6 +105,7 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
             section = section.paragraph(line);
         }
     }
+    section = with_details(section, design, result);
     if let Some((case, found)) = largest(result, GirderResponse::VerticalMoment, true) {
         let caption = format!(
             "The position that causes the largest sagging moment, {} {} at x = {} (case {}); wheel forces without \

@@ -3,6 +3,7 @@
 pub(crate) mod codes;
 mod design_codes;
 pub mod design_report;
+mod design_stresses;
 pub(crate) mod fatigue;
 pub(crate) mod girders;
 pub(crate) mod responses;
