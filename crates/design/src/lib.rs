@@ -4,12 +4,17 @@
 //! the positions that govern them, and reactions by load. [`envelope_csv`], [`reactions_csv`] and [`summary`] write
 //! the results as files.
 //!
-//! Files, lowest first: `words` (names of quantities, members for clauses), `error`, `loads` (trains of a case with its
-//! factors), `outcome` (what a calculation gives), `combinations` (cases of codes), `limits` (limits of codes), `rounding`
-//! (what is only rounding), `placed` (trains where they stand), `state_forces` (all forces of a section in a state), `fibres`
-//! and `girder_sections` (sections as stresses need them), `stresses`, `wheel_stresses`, `end_stops`, `rail_pairs`, `details` (what
-//! follows from the governing states), `solve`, `tables`, `state_json`, `detail_rows`,
-//! `summary`.
+//! Wings, lowest first: words, error, loads, outcome, combinations, limits, rounding, placed, state_forces, fibres,
+//! girder_sections, stresses, wheel_stresses, end_stops, rail_pairs, details, solve, tables, state_json, detail_rows, summary
+//!
+//! 1. `words`, `error`: names of quantities, members for clauses; why a design has no results;
+//! 2. `loads`, `outcome`: trains of a case with its factors; what a calculation gives;
+//! 3. `combinations`, `limits`: cases and limits of codes;
+//! 4. `rounding`: what is only rounding;
+//! 5. `placed`, `state_forces`: trains where they stand in a state, and all forces of a section in it;
+//! 6. `fibres`, `girder_sections`: sections as stresses need them;
+//! 7. `stresses`, `wheel_stresses`, `end_stops`, `rail_pairs`, `details`: what follows from the governing states;
+//! 8. `solve`, `tables`, `state_json`, `detail_rows`, `summary`: the calculation and its files.
 
 mod combinations;
 mod detail_rows;

@@ -9,7 +9,7 @@ use crate::girder_sections::by_reason;
 use crate::outcome::{WheelCycle, WheelStress};
 use crate::state_forces::StateForces;
 use crate::stresses::StressBasis;
-use formats::spec::{CarriedRail, SectionPlates};
+use formats::spec::{SectionPlates, SpecCraneRail};
 use formats::units::Length;
 
 /// Whether any rail has a crane rail on an upright I section.
@@ -73,7 +73,7 @@ fn seat<'a>(
     basis: &StressBasis<'a>,
     fibres: &'a Fibres,
     plates: &SectionPlates,
-    carried: &CarriedRail,
+    carried: &SpecCraneRail,
 ) -> Result<Seat<'a>, String> {
     let profile = carried.profile;
     let default = if carried.is_composite { RailFixing::Rigid } else { RailFixing::Loose };

@@ -37,7 +37,7 @@ pub(crate) use block::{Block, Reference};
 pub use cuts::{Cut, CutPlace};
 pub use grounds::SupportedPoint;
 pub use locate::SolveError;
-pub use outline::{CarriedRail, MemberOutline, OutlineShape, SectionOutline, SectionPlates};
+pub use outline::{MemberOutline, OutlineShape, SectionOutline, SectionPlates, SpecCraneRail};
 pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};
 pub use read::{FORMAT, format, stem};
 pub use stress::{Detail, StressPoint};

@@ -63,7 +63,7 @@ impl SectionPlates {
 
 /// A crane rail on a rail of a spec.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CarriedRail {
+pub struct SpecCraneRail {
     /// Its dimensions, in millimetres.
     pub profile: &'static RailProfile,
     /// Whether it is a part of the section of its members.
@@ -121,10 +121,10 @@ pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>
 }
 
 /// The crane rails of a spec without faults, by rail.
-pub(super) fn crane_rails(raw: &RawSpec) -> Vec<Option<CarriedRail>> {
+pub(super) fn crane_rails(raw: &RawSpec) -> Vec<Option<SpecCraneRail>> {
     let carried = |name: &Option<String>, composite: Option<bool>| {
         let profile = crane_rail(name.as_deref()?)?;
-        Some(CarriedRail { profile, is_composite: composite.unwrap_or(false) })
+        Some(SpecCraneRail { profile, is_composite: composite.unwrap_or(false) })
     };
     match &raw.girder {
         Some(girder) => vec![carried(&girder.crane_rail, girder.composite)],

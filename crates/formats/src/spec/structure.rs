@@ -3,7 +3,7 @@
 use fea::{BeamTheory, Girder, Model, Rail};
 
 use super::cuts::Cut;
-use super::outline::{CarriedRail, MemberOutline, SectionOutline};
+use super::outline::{MemberOutline, SectionOutline, SpecCraneRail};
 use crate::units::Units;
 
 /// Name of the only rail of the short form.
@@ -45,7 +45,7 @@ pub struct Spec {
     /// Shapes and strengths of the sections, in the order of the file; one for the short form.
     pub outlines: Vec<SectionOutline>,
     /// Crane rails by rail; empty where the rails are those of ties.
-    pub crane_rails: Vec<Option<CarriedRail>>,
+    pub crane_rails: Vec<Option<SpecCraneRail>>,
 }
 
 /// The two forms of a spec.
