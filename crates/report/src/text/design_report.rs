@@ -2,7 +2,7 @@
 
 use crate::figures::design::{deflection_unit, digits, envelope_charts, position_sketch, unit_of};
 use crate::text::design_codes::{codes, limits, sources};
-use crate::text::design_stresses::{utilisation, with_details};
+use crate::text::design_stresses::{details, governing_stresses, utilisation};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, ReactionExtremes, SolvedCase, load_word, plane_word, quantity_word};
 use formats::design::{Design, DesignTrain};
@@ -21,6 +21,7 @@ pub fn design_report(design: &Design, result: &DesignResult) -> Report {
     for (index, case) in result.cases.iter().enumerate() {
         sections.push(extremes(design, case, index));
     }
+    sections.extend(details(design, result));
     sections.push(reactions(design, result));
     for index in 0..result.cases.len() {
         sections.push(envelopes(design, result, index));
@@ -53,6 +54,9 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
     section = section.paragraph(sentence(result));
     if let Some(line) = utilisation(result) {
         section = section.paragraph(line);
+    }
+    if let Some(table) = governing_stresses(design, result) {
+        section = section.table(table);
     }
     for warning in &result.warnings {
         section = section.paragraph(format!("Warning: {warning}."));
@@ -105,7 +109,6 @@ fn verdict(design: &Design, result: &DesignResult) -> ReportSection {
             section = section.paragraph(line);
         }
     }
-    section = with_details(section, design, result);
     if let Some((case, found)) = largest(result, GirderResponse::VerticalMoment, true) {
         let caption = format!(
             "The position that causes the largest sagging moment, {} {} at x = {} (case {}); wheel forces without \

@@ -35,12 +35,63 @@ pub(super) fn utilisation(result: &DesignResult) -> Option<String> {
     ))
 }
 
-/// Adds the tables of stresses, end stops and pairs of rails that the design has, each with its method.
-pub(super) fn with_details(
-    mut section: ReportSection,
-    design: &Design,
-    result: &DesignResult,
-) -> ReportSection {
+/// The largest stress of each kind on each rail over all cases; nothing where no stress is known.
+pub(super) fn governing_stresses(design: &Design, result: &DesignResult) -> Option<ReportTable> {
+    let (unit, factor) = stress_unit(design.units);
+    let length = design.units.label(Dimension::LENGTH);
+    let columns = [
+        ("stress", ""),
+        ("rail", ""),
+        ("case", ""),
+        ("value", unit),
+        ("strength", unit),
+        ("utilisation", ""),
+        ("x", length.as_str()),
+        ("position of the train", length.as_str()),
+    ];
+    let mut out = table("Largest stresses of each rail, dead load and factors included", &columns);
+    for rail in design.spec.rails() {
+        for quantity in ["direct stress", "shear stress in the web"] {
+            let own =
+                result.stresses.iter().filter(|check| check.rail == rail.name && check.quantity == quantity);
+            let worst = own.reduce(|a, b| if b.utilisation() > a.utilisation() { b } else { a });
+            out.rows.extend(worst.map(|check| {
+                vec![
+                    TableCell::from(place(check)),
+                    TableCell::from(check.rail.clone()),
+                    TableCell::from(check.case),
+                    TableCell::from(digits(factor * check.value, DIGITS)),
+                    TableCell::from(digits(factor * check.strength, DIGITS)),
+                    TableCell::from(format!("{:.0} %", 100.0 * check.utilisation())),
+                    TableCell::from(digits(check.governing.x, DIGITS)),
+                    TableCell::from(positions(&check.governing)),
+                ]
+            }));
+        }
+        let own = result.wheel_stresses.iter().filter(|found| found.rail == rail.name);
+        let worst = own.reduce(|a, b| if b.vertical > a.vertical { b } else { a });
+        out.rows.extend(worst.map(|found| {
+            let strength = |text: &dyn Fn(f64) -> String| {
+                found.yield_strength.map_or(TableCell::Empty, |fy| TableCell::from(text(fy)))
+            };
+            vec![
+                TableCell::from("local stress in the web under a wheel"),
+                TableCell::from(found.rail.clone()),
+                TableCell::from(found.case),
+                TableCell::from(digits(-factor * found.vertical, DIGITS)),
+                strength(&|fy| digits(factor * fy, DIGITS)),
+                strength(&|fy| format!("{:.0} %", 100.0 * found.vertical / fy)),
+                TableCell::from("anywhere"),
+                TableCell::Empty,
+            ]
+        }));
+    }
+    (!out.rows.is_empty()).then_some(out)
+}
+
+/// Stresses, end stops and pairs of rails in all cases, with their methods; nothing where the design has none.
+pub(super) fn details(design: &Design, result: &DesignResult) -> Option<ReportSection> {
+    let mut section = ReportSection::new("Stresses, end stops and pairs of rails");
     if !result.stresses.is_empty() {
         section = section.table(stresses(design, result)).paragraph(method(design));
     }
@@ -56,7 +107,7 @@ pub(super) fn with_details(
     if !result.pairs.is_empty() {
         section = section.table(pairs(design, result));
     }
-    section
+    (!section.tables.is_empty()).then_some(section)
 }
 
 fn table(caption: &str, columns: &[(&str, &str)]) -> ReportTable {
@@ -87,7 +138,7 @@ fn stresses(design: &Design, result: &DesignResult) -> ReportTable {
         ("value", unit),
         ("strength", unit),
         ("utilisation", ""),
-        ("parts: normal, vertical, lateral", unit),
+        ("of N, vertical, lateral", unit),
         ("x", length.as_str()),
         ("position of the train", length.as_str()),
     ];
