@@ -71,7 +71,13 @@ fn stresses_are_those_of_the_coincident_forces() {
 /// bottom flange takes nothing of the lateral moment. The largest stress is therefore compression at the top.
 #[test]
 fn the_top_flange_alone_takes_lateral_moments_where_it_is_asked_to() {
-    let found = solved(&beam(), &wheel(json!({"lateral_section": "top flange"})));
+    let (folder, output) = run(&beam(), &wheel(json!({"lateral_section": "top flange"})), &[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let page = std::fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    for part in ["Largest stresses of each rail", "lateral moments on the top flange alone"] {
+        assert!(page.contains(part), "the page does not say: {part}");
+    }
+    let found = summary(&folder);
     let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
     let stress = 200.0 * 0.2 / 5.8e-4 + 20.0 / (0.024 * 0.09 / 6.0) + 50.0 / 0.02;
     close(value(direct, "value"), -stress, "top flange");
@@ -151,6 +157,23 @@ fn local_stresses_follow_from_the_effective_length() {
             close(value(local, "total_shear"), girder + 0.2 * stress, "total shear");
             close(value(local, "utilisation"), stress / 2.35e5, "utilisation");
         }
+    }
+}
+
+/// Hand calculation: two wheels of 100 kN at 0.15 m on an effective length of 0.207 m press together on the web; at 0.3 m they do
+/// not, and a passage has a cycle for each.
+#[test]
+fn wheels_closer_than_the_effective_length_press_together() {
+    let mut spec = beam();
+    spec["girder"]["crane_rail"] = json!("A65");
+    for (distance, together) in [(0.15, 200.0), (0.3, 100.0)] {
+        let mut design = wheel(json!({}));
+        design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": 100}, {"x": distance, "vertical": 100}]);
+        let found = solved(&spec, &design);
+        let local = row(&found, "wheel_stresses", &[("case", json!(1))]);
+        assert_eq!((value(local, "force"), value(local, "overlapping")), (100.0, together), "{local}");
+        close(value(local, "vertical"), together / (value(local, "effective_length") * 0.0135), "sigma_oz");
+        assert_eq!(local["cycles"].as_array().map(Vec::len), Some(2));
     }
 }
 

@@ -72,6 +72,7 @@ fn wheel_stress(found: &WheelStress) -> Value {
         "train": found.wheel.0,
         "wheel": found.wheel.1,
         "force": found.force,
+        "overlapping": found.overlapping,
         "effective_length": found.length,
         "vertical": found.vertical,
         "shear": found.shear,

@@ -159,9 +159,11 @@ pub struct WheelStress {
     pub wheel: (String, usize),
     /// Its force, with the factors of the case.
     pub force: f64,
+    /// Largest sum of the forces of wheels whose effective lengths overlap: that of one wheel where none do.
+    pub overlapping: f64,
     /// Effective length at the lower face of the flange.
     pub length: f64,
-    /// sigma_oz, compressive.
+    /// sigma_oz, compressive, of the overlapping wheels together.
     pub vertical: f64,
     /// tau_oxz beside the wheel, of either sign.
     pub shear: f64,

@@ -2,7 +2,7 @@
 
 use practice::clause::{CodeClause, Evidence, en_1993_6};
 use practice::local_stress::{LocalStresses, RailFixing, RailSeat};
-use trains::GirderResponse;
+use trains::{GirderResponse, Train};
 
 use crate::fibres::Fibres;
 use crate::girder_sections::by_reason;
@@ -157,7 +157,9 @@ impl Seat<'_> {
             }
         }
         let (wheel, force) = largest?;
-        let found = stresses(force)?;
+        let trains = &basis.trains[case].trains;
+        let overlapping = trains.iter().map(|train| self.overlapping(train, rail)).fold(force, f64::max);
+        let found = stresses(overlapping)?;
         Some(WheelStress {
             case: case + 1,
             rail: design.spec.rails()[rail].name.clone(),
@@ -167,6 +169,7 @@ impl Seat<'_> {
             fastening: self.fastening,
             wheel,
             force,
+            overlapping,
             length: self.length,
             vertical: found.vertical,
             shear: found.shear,
@@ -174,6 +177,17 @@ impl Seat<'_> {
             yield_strength: self.fibres.yield_strength,
             cycles,
         })
+    }
+
+    /// Largest sum of the forces of the wheels of a train on a rail that stand on less than one effective length, so that their
+    /// stresses are superposed.
+    fn overlapping(&self, train: &Train, rail: usize) -> f64 {
+        let on_rail = || train.wheels.iter().filter(|wheel| wheel.rail == rail && wheel.vertical > 0.0);
+        let from = |x: f64| -> f64 {
+            let near = on_rail().filter(|wheel| wheel.x >= x && wheel.x - x < self.length);
+            near.map(|wheel| wheel.vertical).sum()
+        };
+        on_rail().map(|wheel| from(wheel.x)).fold(0.0, f64::max)
     }
 
     /// Largest shear stress of the girder in a case where it has this section.

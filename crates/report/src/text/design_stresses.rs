@@ -29,8 +29,13 @@ pub(super) fn utilisation(result: &DesignResult) -> Option<String> {
     let worst =
         result.stresses.iter().reduce(|a, b| if b.utilisation() > a.utilisation() { b } else { a })?;
     let percent = 100.0 * worst.utilisation();
+    let lateral = match worst.lateral_section {
+        Some(word) if word == LateralSection::TopFlange.word() => ", lateral moments on the top flange alone",
+        Some(_) => ", lateral moments on the whole section",
+        None => "",
+    };
     Some(format!(
-        "The largest utilisation of the yield strength is {percent:.0} % ({} of section {}, case {}, rail {}).",
+        "The largest utilisation of the yield strength is {percent:.0} %: {} in {}, case {}, rail {}{lateral}.",
         worst.quantity, worst.section, worst.case, worst.rail
     ))
 }
