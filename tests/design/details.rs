@@ -362,3 +362,50 @@ fn sections_upside_down_keep_their_plates() {
     close(value(west, "value"), -180.0 * 1e-3 * (600.0 - low) / (1e-12 * inertia), "compression above");
     assert!(west["fibre"].as_str().is_some_and(|fibre| fibre.starts_with("top")), "{west}");
 }
+
+/// Hand calculation: W24X94 is 24.3 in deep with a web of 0.515 in (AISC). The spec is in ft and lbf, the design in in and kip:
+/// 20 kip at a support over 24.3 * 0.515 in2, against 50/sqrt(3) ksi; M = 20 * 240/4 kip in over I.
+#[test]
+fn stresses_have_the_units_of_the_design() {
+    let spec = json!({
+        "format": "girderway-beam/1", "units": {"length": "ft", "force": "lbf", "time": "s"}, "theory": "euler-bernoulli",
+        "girder": {"spans": [20], "section": "W24x94", "fy": 7.2e6, "I_vertical": 0.13, "mass_per_length": 0}, "stations": [0, 20]
+    });
+    let design = json!({
+        "format": "girderway-design/1", "name": "inches", "units": {"length": "in", "force": "kip", "time": "s"},
+        "spec": "spec.json", "trains": [{"name": "hoist", "wheels": [{"x": 0, "vertical": 20}]}]
+    });
+    let found = solved(&spec, &design);
+    let shear = row(&found, "stresses", &[("quantity", json!("shear stress in the web"))]);
+    close(value(shear, "value").abs(), 20.0 / (24.3 * 0.515), "shear stress");
+    close(value(shear, "strength"), 50.0 / 3f64.sqrt(), "strength");
+    let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
+    close(value(direct, "value").abs(), 20.0 * 60.0 * 12.15 / (0.13 * 12f64.powi(4)), "direct stress");
+}
+
+/// Analytic, sampled here every 2 mm with the section at either wheel: wheels of 100 and 60 kN whose lateral forces of 5 and 15 kN
+/// are not in proportion, so that both moments are not largest at once. The value is a stress that occurs, not above the largest
+/// and not far below it; the bound is not exceeded.
+#[test]
+fn the_utilisation_is_enclosed_by_its_bound() {
+    let mut design = wheel(json!({}));
+    design["trains"] = json!([{"name": "crane", "turned": false,
+        "wheels": [{"x": 0, "vertical": 100, "lateral": 5}, {"x": 3, "vertical": 60, "lateral": 15}]}]);
+    let found = solved(&beam(), &design);
+    let direct = row(&found, "stresses", &[("quantity", json!("direct stress"))]);
+    let moment = |x: f64, at: f64, force: f64| {
+        if x <= at { force * (8.0 - at) / 8.0 * x } else { force * at / 8.0 * (8.0 - x) }
+    };
+    let mut largest: f64 = 0.0;
+    for step in 0..=2500 {
+        let p = 0.002 * f64::from(step);
+        for x in [p, p + 3.0] {
+            let vertical = moment(x, p, 100.0) + moment(x, p + 3.0, 60.0);
+            let lateral = moment(x, p, 5.0) + moment(x, p + 3.0, 15.0);
+            largest = largest.max(vertical * 0.2 / 5.8e-4 + lateral * 0.15 / 1.1e-4);
+        }
+    }
+    let (stress, bound) = (value(direct, "value").abs(), 2.35e5 * value(direct, "bound"));
+    assert!(stress <= largest * (1.0 + 1e-4) && stress >= 0.99 * largest, "{stress} and {largest}");
+    assert!(bound >= largest * (1.0 - 1e-12) && bound > stress * 1.001, "{bound} and {largest}");
+}
