@@ -1,5 +1,6 @@
 //! `girderway design` from its files to its tables.
 
+mod details;
 mod lines;
 mod mill;
 mod moving;

@@ -46,7 +46,11 @@ pub const TARGETS: &[Target] = &[
     Target {
         name: "design",
         run: design,
-        seeds: &["tests/malformed/base/design.json", "tests/fuzz/seeds/design.json"],
+        seeds: &[
+            "tests/malformed/base/design.json",
+            "tests/fuzz/seeds/design.json",
+            "tests/fuzz/seeds/runways_design.json",
+        ],
     },
     Target { name: "grid", run: grid, seeds: &["tests/malformed/base/grid.json"] },
     Target { name: "tables_adm", run: tables_adm, seeds: &ADM },
@@ -177,6 +181,7 @@ fn file_beside_others(name: &str) -> PathBuf {
                 ["aisle.json", "girders.json"].map(|name| root().join("examples/bridge_crane").join(name)),
             );
             others.push(root().join("examples/bogie/printed.adm"));
+            others.push(root().join("tests/fuzz/seeds/runways.json"));
             for other in others {
                 let name = other.file_name().expect("the name of a file");
                 fs::copy(&other, folder.path().join(name)).expect("a writable folder");
@@ -237,6 +242,11 @@ fn design(bytes: &[u8]) -> u64 {
                 let text = table.expect("the table is finite");
                 assert!(!text.contains("NaN") && !text.contains("inf"), "{text}");
             }
+            let used =
+                result.stresses.iter().map(|stress| stress.utilisation() + stress.bound.unwrap_or(0.0));
+            let local = result.wheel_stresses.iter().map(|wheel| wheel.vertical + wheel.total_shear());
+            let moved = result.pairs.iter().map(|pair| pair.value);
+            assert!(used.chain(local).chain(moved).all(f64::is_finite), "a detail that is not finite");
             result.cases.len() as u64
         }
         Err(DesignError::Input(wrong)) => refused(&wrong, None),

@@ -158,7 +158,7 @@ fn spans_of_the_mill_girderway_end_at_its_columns() {
     let document = Document::open(&example.join("scene.json")).unwrap_or_else(|wrong| panic!("{wrong:?}"));
     let (_, _, spec) = distinct_specs(&document).remove(0);
     let (model, rails) = spec.model().expect("a model");
-    let found = results::response::spans(spec, &model, &rails, 0);
+    let found = spec.spans(&model, &rails, 0);
     assert_eq!(found, [0.0, 40.0, 95.0, 170.0, 230.0, 275.0, 325.0]);
     let [reactions, sections] = formats::scene::columns::names("aisle", spec);
     for name in ["aisle.column3.uy", "aisle.roof2.uz", "aisle.brace.ux"] {

@@ -1,8 +1,8 @@
 //! Cases from the groups of crane loads of a code.
 
-use formats::design::{Design, DesignCase, WHOLE};
+use formats::design::{CODE_PARTS, Design, DesignCase, TROLLEY_DRIVES, WHOLE};
 use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups};
-use practice::factor::{Release, phi5};
+use practice::factor::{Release, phi5, test_load};
 use practice::limit_choice::code_name;
 use practice::mill_combination::{asce_group, mill_combinations, mill_fatigue};
 
@@ -37,6 +37,7 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
             return (cases, left_out);
         }
     };
+    left_out.extend(wind(&groups));
     for group in &groups {
         let own = design.cases.iter().filter(|case| case.factors.is_empty());
         let fitting = own.filter(|case| !group.is_single_crane || case.trains.len() == 1);
@@ -61,6 +62,17 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
         }
     }
     (cases, left_out)
+}
+
+/// The groups whose wind in service is left out.
+fn wind(groups: &[LoadGroup]) -> Option<String> {
+    let with_wind = groups.iter().filter(|group| group.loads.iter().any(|own| own.load == CraneLoad::Wind));
+    let names: Vec<&str> = with_wind.clone().map(|group| group.name).collect();
+    let code = with_wind.map(|group| group.clause.standard).next()?;
+    Some(format!(
+        "{code}, groups {}: wind in service, which a design does not have, is not included",
+        names.join(", ")
+    ))
 }
 
 /// The groups of the code, with the dynamic factors of the crane.
@@ -104,9 +116,21 @@ fn factors(
     let needed = [
         (CraneLoad::Skewing, wheels().any(|w| w.skewing != 0.0), "no wheel has a `skewing` force"),
         (CraneLoad::BufferForce, wheels().any(|w| w.buffer != 0.0), "no train has a `buffer` force"),
-        (CraneLoad::TrolleyDrives, false, "a design has no forces of the trolley's drives"),
-        (CraneLoad::TestLoad, false, "a design has no test load"),
-        (CraneLoad::Tilting, false, "a design has no tilting force"),
+        (
+            CraneLoad::TrolleyDrives,
+            wheels().any(|w| w.trolley_drives != 0.0),
+            "no train gives `hoist_load` and `trolley`, from which the force of the trolley's drives follows",
+        ),
+        (
+            CraneLoad::TestLoad,
+            wheels().any(|w| w.vertical.iter().any(|(name, _)| name == CODE_PARTS[1])),
+            "no wheel has a hoisted load",
+        ),
+        (
+            CraneLoad::Tilting,
+            false,
+            "a tilting force needs a load or an attachment that is guided, which a design does not describe",
+        ),
     ];
     if let Some((.., why)) = needed.iter().find(|(load, is_there, _)| of(*load) != 0.0 && !is_there) {
         return Err((*why).to_owned());
@@ -115,7 +139,12 @@ fn factors(
     let is_mill = group.clause.standard.starts_with("AIST");
     // TR-13 factors the impact of the kind of crane, ASCE 7 gives it.
     let impact = of(CraneLoad::Impact) * if is_mill { design.practice.kind.fractions().impact } else { 1.0 };
-    let [crane, hoist] = [of(CraneLoad::SelfWeight), of(CraneLoad::HoistLoad)].map(|factor| factor + impact);
+    let [crane, mut hoist] =
+        [of(CraneLoad::SelfWeight), of(CraneLoad::HoistLoad)].map(|factor| factor + impact);
+    if of(CraneLoad::TestLoad) != 0.0 {
+        // The larger of the static test, 1.25 times the hoisted load with phi6 = 1, and the dynamic one, phi6 times 1.1.
+        hoist = test_load(dynamic.phi[1]).map_err(|error| error.to_string())?;
+    }
     // The factors 0.2 and 0.1 of ASCE 7 make the forces that the trains give already.
     let given = |factor: f64| if is_asce { f64::from(u8::from(factor != 0.0)) } else { factor };
     let mut out = vec![
@@ -125,6 +154,8 @@ fn factors(
         ("skewing".to_owned(), of(CraneLoad::Skewing)),
         ("buffer".to_owned(), of(CraneLoad::BufferForce)),
     ];
+    let trolley = of(CraneLoad::TrolleyDrives);
+    out.extend((trolley != 0.0).then(|| (TROLLEY_DRIVES.to_owned(), trolley)));
     let in_parts = wheels().any(|wheel| wheel.vertical.iter().any(|(name, _)| name != WHOLE));
     if in_parts {
         out.extend([("crane".to_owned(), crane), ("hoist".to_owned(), hoist)]);

@@ -4,20 +4,39 @@
 //! the positions that govern them, and reactions by load. [`envelope_csv`], [`reactions_csv`] and [`summary`] write
 //! the results as files.
 //!
-//! Files, lowest first: `words` (names of quantities, members for clauses), `error`, `loads` (trains of a case with its
-//! factors), `outcome` (what a calculation gives), `combinations` (cases of codes), `limits` (limits of codes), `rounding`
-//! (what is only rounding), `solve`, `tables`, `governing_lines` (influence lines of the values that govern), `summary`.
+//! Wings, lowest first: words, error, loads, outcome, combinations, limits, rounding, placed, state_forces, fibres,
+//! girder_sections, stresses, wheel_stresses, end_stops, rail_pairs, details, solve, tables, governing_lines, state_json, detail_rows, summary
+//!
+//! 1. `words`, `error`: names of quantities, members for clauses; why a design has no results;
+//! 2. `loads`, `outcome`: trains of a case with its factors; what a calculation gives;
+//! 3. `combinations`, `limits`: cases and limits of codes;
+//! 4. `rounding`: what is only rounding;
+//! 5. `placed`, `state_forces`: trains where they stand in a state, and all forces of a section in it;
+//! 6. `fibres`, `girder_sections`: sections as stresses need them;
+//! 7. `stresses`, `wheel_stresses`, `end_stops`, `rail_pairs`, `details`: what follows from the governing states;
+//! 8. `solve`, `tables`, `governing_lines` (influence lines of the values that govern), `state_json`, `detail_rows`, `summary`: the calculation and its files.
 
 mod combinations;
+mod detail_rows;
+mod details;
+mod end_stops;
 mod error;
+mod fibres;
+mod girder_sections;
 mod governing_lines;
 mod limits;
 mod loads;
 mod outcome;
+mod placed;
+mod rail_pairs;
 mod rounding;
 mod solve;
+mod state_forces;
+mod state_json;
+mod stresses;
 mod summary;
 mod tables;
+mod wheel_stresses;
 mod words;
 
 pub use combinations::with_combinations;
@@ -26,7 +45,10 @@ pub use governing_lines::{
     GoverningLine, LineSubject, WheelOrdinate, governing_lines, governing_reaction, influence_csv,
 };
 pub use loads::LoadKind;
-pub use outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes, ReactionName, SolvedCase};
+pub use outcome::{
+    DesignResult, EndStopForce, FatigueLoads, LimitCheck, RailPairResponse, ReactionExtremes, ReactionName,
+    SolvedCase, StressCheck, WheelCycle, WheelStress,
+};
 pub use solve::solve;
 pub use summary::summary;
 pub use tables::{envelope_csv, load_word, reactions_csv};

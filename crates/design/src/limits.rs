@@ -7,7 +7,7 @@ use practice::factor::PHI1;
 use practice::limits::{DeflectionLimit, LimitedDisplacement};
 use trains::GirderResponse;
 
-use crate::outcome::{FatigueLoads, LimitCheck, SolvedCase};
+use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse, SolvedCase};
 
 /// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
 /// and without factors, as the codes want them.
@@ -34,6 +34,7 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
                     case: number + 1,
                     rail: rails[deflection.rail].name.clone(),
                     span: deflection.span,
+                    is_sampled: false,
                 });
             }
         }
@@ -60,8 +61,9 @@ fn words(
     }
 }
 
-/// Limits of the code that a design cannot check, and groups of loads that it cannot form, with the reasons.
-pub(crate) fn left_out(design: &Design, groups: &[String]) -> Vec<String> {
+/// Limits of the code that a design cannot check, and groups of loads that it cannot form, with the reasons; `pairs` are the
+/// responses of pairs of rails.
+pub(crate) fn left_out(design: &Design, groups: &[String], pairs: &[RailPairResponse]) -> Vec<String> {
     let mut out = Vec::new();
     for limit in &design.practice.limits {
         let why = match limit.displacement {
@@ -75,7 +77,18 @@ pub(crate) fn left_out(design: &Design, groups: &[String]) -> Vec<String> {
             LimitedDisplacement::MonorailVertical | LimitedDisplacement::BridgeGirder => {
                 "a design calculates runways"
             }
-            _ => "a design has deflections of rails one by one; `record` them in a scene",
+            LimitedDisplacement::GaugeChange | LimitedDisplacement::HeightDifference => {
+                let quantity = if limit.displacement == LimitedDisplacement::GaugeChange {
+                    "change of gauge"
+                } else {
+                    "difference in height"
+                };
+                if pairs.iter().any(|pair| pair.quantity == quantity) {
+                    continue;
+                }
+                "no train of a case without factors stands on two rails that resist these displacements"
+            }
+            _ => "a design has deflections of rails, not of frames; `record` them in a scene",
         };
         let name = limit.displacement.word();
         let clause = limit.clause;

@@ -1,6 +1,6 @@
 //! Trains of a case with its factors.
 
-use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, WHOLE};
+use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, TROLLEY_DRIVES, WHOLE};
 use trains::{Train, TrainCase, TrainWheel};
 
 /// Which forces of the trains act.
@@ -18,12 +18,20 @@ pub enum LoadKind {
     Buffer,
     /// Lateral forces from skewing.
     Skewing,
+    /// Lateral forces of the trolley's drives.
+    TrolleyDrives,
 }
 
 impl LoadKind {
     /// The kinds that are listed by themselves.
-    pub const SINGLE: [LoadKind; 5] =
-        [LoadKind::Vertical, LoadKind::SideThrust, LoadKind::Traction, LoadKind::Buffer, LoadKind::Skewing];
+    pub const SINGLE: [LoadKind; 6] = [
+        LoadKind::Vertical,
+        LoadKind::SideThrust,
+        LoadKind::Traction,
+        LoadKind::Buffer,
+        LoadKind::Skewing,
+        LoadKind::TrolleyDrives,
+    ];
 }
 
 /// The trains of a case under its factors. The dead load acts with its factor where `kind` is all.
@@ -50,11 +58,13 @@ fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
     };
     let (buffer, skewing) =
         (on_request(LoadKind::Buffer, "buffer"), on_request(LoadKind::Skewing, "skewing"));
+    // These follow from weights that may be given for other rows: they are listed only in cases that factor them.
+    let trolley = share(LoadKind::TrolleyDrives) * case.factor(TROLLEY_DRIVES);
     let wheel = |wheel: &DesignWheel| TrainWheel {
         rail: wheel.rail,
         x: wheel.x,
         vertical: share(LoadKind::Vertical) * vertical(wheel, case),
-        lateral: lateral * wheel.lateral + skewing * wheel.skewing,
+        lateral: lateral * wheel.lateral + skewing * wheel.skewing + trolley * wheel.trolley_drives,
         longitudinal: longitudinal * wheel.longitudinal + buffer * wheel.buffer,
         eccentricity: wheel.eccentricity,
     };
@@ -81,7 +91,7 @@ pub(crate) fn has(design: &Design, case: &DesignCase, kind: LoadKind) -> bool {
     train_case(design, case, kind).trains.iter().flat_map(|train| &train.wheels).any(|wheel| match kind {
         LoadKind::All => true,
         LoadKind::Vertical => wheel.vertical != 0.0,
-        LoadKind::SideThrust | LoadKind::Skewing => wheel.lateral != 0.0,
+        LoadKind::SideThrust | LoadKind::Skewing | LoadKind::TrolleyDrives => wheel.lateral != 0.0,
         LoadKind::Traction | LoadKind::Buffer => wheel.longitudinal != 0.0,
     })
 }

@@ -12,6 +12,14 @@ pub struct DesignResult {
     pub cases: Vec<SolvedCase>,
     /// Limits of codes against the results.
     pub limits: Vec<LimitCheck>,
+    /// Largest direct stress and largest shear stress in the web of each rail and case.
+    pub stresses: Vec<StressCheck>,
+    /// Local stresses in webs under the largest wheel of each rail and case.
+    pub wheel_stresses: Vec<WheelStress>,
+    /// Forces of buffers on end stops.
+    pub end_stops: Vec<EndStopForce>,
+    /// Change of gauge and difference in height of pairs of rails.
+    pub pairs: Vec<RailPairResponse>,
     /// Damage-equivalent loads of the wheels of each train.
     pub fatigue: Vec<FatigueLoads>,
     /// What the code has and the design does not give, so that it is left out: name and reason.
@@ -76,6 +84,8 @@ pub struct LimitCheck {
     pub rail: String,
     /// Number of the span from 1.
     pub span: usize,
+    /// Whether the value is the largest of chosen states only; otherwise it is the largest of all states.
+    pub is_sampled: bool,
 }
 
 /// Loads of wheels that cause the same fatigue damage as the passages of a life.
@@ -89,6 +99,147 @@ pub struct FatigueLoads {
     pub dynamic: [f64; 2],
     /// By wheel: equivalent loads for direct and shear stress.
     pub wheels: Vec<[f64; 2]>,
+}
+
+/// A stress with the strength that it uses, in one state.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StressCheck {
+    /// Which stress: `direct stress` or `shear stress in the web`.
+    pub quantity: &'static str,
+    /// Number of the case from 1.
+    pub case: usize,
+    /// Name of the rail.
+    pub rail: String,
+    /// Number of the span; 0 and one more than the last for overhangs.
+    pub span: usize,
+    /// Name of the section.
+    pub section: String,
+    /// The stress, in force over the square of length; direct stress is positive in tension.
+    pub value: f64,
+    /// The strength: f_y for direct stress, f_y/sqrt(3) for shear stress.
+    pub strength: f64,
+    /// A utilisation that no state of the case exceeds; `None` for shear stress, whose extremes are exact.
+    pub bound: Option<f64>,
+    /// The fibre, by its edge: `top` or `bottom`, `+z` or `-z`.
+    pub fibre: Option<&'static str>,
+    /// Parts of the stress, by the force that causes them.
+    pub parts: Vec<(&'static str, f64)>,
+    /// Coincident forces of the section.
+    pub forces: Vec<(&'static str, f64)>,
+    /// What resists the lateral moment.
+    pub lateral_section: Option<&'static str>,
+    /// The state in which the stress is evaluated.
+    pub governing: Governing,
+}
+
+impl StressCheck {
+    /// The stress over the strength.
+    #[must_use]
+    pub fn utilisation(&self) -> f64 {
+        self.value.abs() / self.strength
+    }
+}
+
+/// Local stresses in the web of a girder under a wheel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WheelStress {
+    /// Number of the case from 1.
+    pub case: usize,
+    /// Name of the rail.
+    pub rail: String,
+    /// Name of the section.
+    pub section: String,
+    /// Name of the crane rail.
+    pub crane_rail: &'static str,
+    /// Code, edition, clause of the effective length, and how it was checked.
+    pub clause: CodeClause,
+    /// Word of its fastening, and whether it is assumed.
+    pub fastening: (&'static str, bool),
+    /// Name of the train and number of the wheel from 1 with the largest force.
+    pub wheel: (String, usize),
+    /// Its force, with the factors of the case.
+    pub force: f64,
+    /// Largest sum of the forces of wheels whose effective lengths overlap: that of one wheel where none do.
+    pub overlapping: f64,
+    /// Effective length at the lower face of the flange.
+    pub length: f64,
+    /// sigma_oz, compressive, of the overlapping wheels together.
+    pub vertical: f64,
+    /// tau_oxz beside the wheel, of either sign.
+    pub shear: f64,
+    /// Largest shear stress V/(h t_w) of the girder in the case, to which the local one is added.
+    pub global_shear: f64,
+    /// Yield strength of the web, where the spec gives it.
+    pub yield_strength: Option<f64>,
+    /// Cycles of one passage.
+    pub cycles: Vec<WheelCycle>,
+}
+
+impl WheelStress {
+    /// |tau| + tau_oxz, the largest shear stress of the girder with the local one.
+    #[must_use]
+    pub fn total_shear(&self) -> f64 {
+        self.global_shear + self.shear
+    }
+}
+
+/// The cycle of local stresses as a wheel passes a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WheelCycle {
+    /// Name of the train and number of the wheel from 1.
+    pub wheel: (String, usize),
+    /// Range of sigma_oz: from 0 to its value under the wheel.
+    pub vertical: f64,
+    /// Range of tau_oxz, which reverses: twice its value beside the wheel.
+    pub shear: f64,
+}
+
+/// The force of a train's buffer on an end stop.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndStopForce {
+    /// Number of the case from 1.
+    pub case: usize,
+    /// Name of the train.
+    pub train: String,
+    /// Name of the rail.
+    pub rail: String,
+    /// Whether the stop is at the last coordinate of the rail; otherwise at the first.
+    pub is_last: bool,
+    /// Coordinate of the end of the rail.
+    pub x: f64,
+    /// Factor of buffer forces in the case.
+    pub factor: f64,
+    /// Force on the stop along +x, with the factor.
+    pub force: f64,
+}
+
+/// How two rails move against each other under a train that stands on both.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RailPairResponse {
+    /// Number of the case from 1.
+    pub case: usize,
+    /// Names of the rails.
+    pub rails: [String; 2],
+    /// Which response: `change of gauge` or `difference in height`.
+    pub quantity: &'static str,
+    /// Distance of the rails.
+    pub distance: f64,
+    /// The value of largest size: the rails apart, or the second one below the first.
+    pub value: f64,
+    /// Coordinate on the first rail.
+    pub x: f64,
+    /// Number of the span of the first rail.
+    pub span: usize,
+    /// The state.
+    pub governing: Governing,
+}
+
+impl DesignResult {
+    /// Whether all limits are kept and no stress exceeds its strength.
+    #[must_use]
+    pub fn within(&self) -> bool {
+        self.limits.iter().all(LimitCheck::within) && self.stresses.iter().all(|s| s.utilisation() <= 1.0)
+    }
 }
 
 impl LimitCheck {

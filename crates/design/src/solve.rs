@@ -6,6 +6,7 @@ use formats::text::inputs::Inputs;
 use trains::{DeadLoads, GirderResponse, Governing, Request, Structure, TrainCase};
 
 use crate::combinations::groups_left_out;
+use crate::details::Details;
 use crate::error::DesignError;
 use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
@@ -57,10 +58,24 @@ pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignErr
         });
     }
     let warnings = warnings(design, &solved);
-    let limits = check_limits(design, &solved);
+    let details = Details::new(design, &model, &rails, &dead, &cases, &solved).map_err(located)?;
+    let mut limits = check_limits(design, &solved);
+    limits.extend(details.limits);
     let error_bound = structure.frame().certificate().error_bound;
-    let (fatigue, left_out) = (fatigue_loads(design), left_out(design, &groups_left_out(design)));
-    Ok(DesignResult { cases: solved, limits, fatigue, left_out, warnings, error_bound })
+    let mut left_out = left_out(design, &groups_left_out(design), &details.pairs);
+    left_out.extend(details.left_out);
+    Ok(DesignResult {
+        cases: solved,
+        limits,
+        stresses: details.stresses,
+        wheel_stresses: details.wheel_stresses,
+        end_stops: details.end_stops,
+        pairs: details.pairs,
+        fatigue: fatigue_loads(design),
+        left_out,
+        warnings,
+        error_bound,
+    })
 }
 
 /// Reactions under each kind of load alone that the case has.

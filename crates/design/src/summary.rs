@@ -2,9 +2,11 @@
 
 use formats::design::{Design, DesignSection};
 use serde_json::{Map, Value, json};
-use trains::{Governing, SpanDeflection, SpanExtreme, TrainPosition};
+use trains::{Governing, SpanDeflection, SpanExtreme};
 
+use crate::detail_rows::add_details;
 use crate::outcome::{DesignResult, FatigueLoads, LimitCheck, ReactionExtremes};
+use crate::state_json::{add_state, train_names};
 use crate::words::{kind_word, plane_word, quantity_word, side_word};
 
 /// Name and version of the format.
@@ -46,7 +48,7 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
         "units": design.units.json(),
         "spec": design.spec_file,
         "error_bound": result.error_bound,
-        "within": result.limits.iter().all(LimitCheck::within),
+        "within": result.within(),
         "cases": cases,
         "extremes": extremes,
         "deflections": deflections,
@@ -57,26 +59,11 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
     if !result.fatigue.is_empty() {
         summary["fatigue"] = json!(result.fatigue.iter().map(fatigue).collect::<Vec<_>>());
     }
+    add_details(&mut summary, design, result);
     if !design.spec.notes.is_empty() {
         summary["notes"] = json!(design.spec.notes);
     }
     summary
-}
-
-/// Names of the trains of a case, numbered where a train occurs several times.
-fn train_names(design: &Design, case: usize) -> Vec<String> {
-    let trains = &design.cases[case].trains;
-    trains
-        .iter()
-        .enumerate()
-        .map(|(k, train)| {
-            let name = &design.trains[*train].name;
-            if trains.iter().filter(|other| *other == train).count() == 1 {
-                return name.clone();
-            }
-            format!("{name}{}", trains[..=k].iter().filter(|other| *other == train).count())
-        })
-        .collect()
 }
 
 struct OfCase<'a> {
@@ -101,7 +88,7 @@ impl OfCase<'_> {
             "side": side_word(g.side),
             "dead": g.dead + 0.0,
         });
-        self.add_state(&mut out, g);
+        add_state(&mut out, &self.names, g);
         out["bound"] = json!(extreme.bound + 0.0);
         let [moment, shear, deflection] = g.coincident.map(|value| value + 0.0);
         out["coincident"] = json!({ "moment": moment, "shear": shear, "deflection": deflection });
@@ -120,7 +107,7 @@ impl OfCase<'_> {
                 "value": g.value + 0.0,
                 "dead": g.dead + 0.0,
             });
-            self.add_state(&mut out, g);
+            add_state(&mut out, &self.names, g);
             out
         })
     }
@@ -138,7 +125,7 @@ impl OfCase<'_> {
                 "value": g.value + 0.0,
                 "dead": g.dead + 0.0,
             });
-            self.add_state(&mut out, g);
+            add_state(&mut out, &self.names, g);
             out
         })
     }
@@ -158,30 +145,8 @@ impl OfCase<'_> {
         if g.value != 0.0 && (length / g.value).is_finite() {
             out["ratio"] = json!((length / g.value).abs());
         }
-        self.add_state(&mut out, g);
+        add_state(&mut out, &self.names, g);
         out
-    }
-
-    /// Adds where the trains stand: the first one, and all of them by name.
-    fn add_state(&self, out: &mut Value, g: &Governing) {
-        let one = |train: &TrainPosition| json!({ "position": train.position + 0.0, "turned": train.stance.turned });
-        let positions: Map<String, Value> =
-            self.names.iter().cloned().zip(g.trains.iter().map(one)).collect();
-        let signs: Map<String, Value> = self
-            .names
-            .iter()
-            .zip(&g.trains)
-            .map(|(name, train)| {
-                let [lateral, longitudinal, eccentricity] = train.stance.signs;
-                let signs =
-                    json!({ "lateral": lateral, "longitudinal": longitudinal, "eccentricity": eccentricity });
-                (name.clone(), signs)
-            })
-            .collect();
-        out["train"] = json!(self.names.first());
-        out["position"] = json!(g.trains.first().map(|train| train.position + 0.0));
-        out["positions"] = Value::Object(positions);
-        out["signs"] = Value::Object(signs);
     }
 }
 
@@ -198,7 +163,7 @@ fn fatigue(loads: &FatigueLoads) -> Value {
 }
 
 fn limit(check: &LimitCheck) -> Value {
-    json!({
+    let mut out = json!({
         "case": check.case,
         "rail": check.rail,
         "span": check.span,
@@ -212,5 +177,9 @@ fn limit(check: &LimitCheck) -> Value {
         "value": check.value,
         "limit": check.limit,
         "within": check.within(),
-    })
+    });
+    if check.is_sampled {
+        out["sampled"] = json!(true);
+    }
+    out
 }

@@ -1,6 +1,6 @@
 //! `envelope.csv` and `reactions.csv`.
 
-use formats::design::Design;
+use formats::design::{Design, TROLLEY_DRIVES};
 use trains::{Governing, TrainPosition};
 
 use crate::loads::LoadKind;
@@ -108,6 +108,7 @@ pub const fn load_word(kind: LoadKind) -> &'static str {
         LoadKind::Traction => "traction",
         LoadKind::Buffer => "buffer",
         LoadKind::Skewing => "skewing",
+        LoadKind::TrolleyDrives => TROLLEY_DRIVES,
     }
 }
 

@@ -5,6 +5,7 @@ use practice::asce::CraneOperation;
 use practice::duty::FatigueClass;
 use practice::factor::{DriveOnset, HoistingClass, Release};
 use practice::limits::ServiceClass;
+use practice::local_stress::RailFixing;
 use practice::skew::Guide;
 
 /// Keywords of the hoisting classes.
@@ -24,6 +25,10 @@ pub(crate) const DRIVES: [(&str, DriveOnset); 4] = [
 
 /// Keywords of the rate at which a payload is released.
 pub(crate) const RELEASE: [(&str, Release); 2] = [("slow", Release::Slow), ("rapid", Release::Rapid)];
+
+/// Keywords of the fastening of crane rails to flanges.
+pub(crate) const FASTENINGS: [(&str, RailFixing); 3] =
+    [("rigid", RailFixing::Rigid), ("loose", RailFixing::Loose), ("pad", RailFixing::ElasticPad)];
 
 /// Keywords of the guidance of a crane.
 pub(crate) const GUIDE: [(&str, Guide); 2] = [("flanges", Guide::Flanges), ("rollers", Guide::Rollers)];

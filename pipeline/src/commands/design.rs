@@ -56,11 +56,23 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
         let all = json!({ "output": written.display().to_string(), "summary": summary });
         output::print(&output::json(&all))?;
     }
-    match result.limits.iter().filter(|limit| !limit.within()).count() {
-        0 => Ok(Exit::Done),
-        _ if !args.fail_on_limit => Ok(Exit::Done),
-        count => Err(Failure::Differs(format!("{count} limits are exceeded: {}", worst(&result.limits)))),
+    let strained = result.stresses.iter().filter(|stress| stress.utilisation() > 1.0);
+    let (limits, stresses) =
+        (result.limits.iter().filter(|limit| !limit.within()).count(), strained.clone().count());
+    if !args.fail_on_limit || result.within() {
+        return Ok(Exit::Done);
     }
+    let mut said = Vec::new();
+    if limits > 0 {
+        said.push(format!("{limits} limits are exceeded: {}", worst(&result.limits)));
+    }
+    let most = strained.max_by(|a, b| a.utilisation().total_cmp(&b.utilisation()));
+    said.extend(most.map(|most| {
+        let used = most.utilisation();
+        let (quantity, rail) = (most.quantity, &most.rail);
+        format!("{stresses} stresses exceed their strength: {quantity} of rail {rail}, {used:.3} of it")
+    }));
+    Err(Failure::Differs(said.join("; ")))
 }
 
 /// The limit that is exceeded most, in words.

@@ -6,9 +6,9 @@ use practice::factor::DriveOnset;
 use practice::limit_choice::{LIMIT_CODES, code_name, limits_of};
 
 use super::raw::RawDesignPractice;
-use super::values::DesignPractice;
+use super::values::{DesignPractice, LateralSection};
 use crate::check::Check;
-use crate::practice_words::{DRIVES, HOISTING, KINDS, OPERATIONS, RELEASE, fatigue_classes};
+use crate::practice_words::{DRIVES, FASTENINGS, HOISTING, KINDS, OPERATIONS, RELEASE, fatigue_classes};
 use crate::text::fault::Fault;
 use crate::text::names::resolve;
 use crate::text::place::Place;
@@ -16,6 +16,10 @@ use crate::units::{Dimension, Scale, Units};
 
 /// A code that has loads but no limits of deflections.
 const ASCE_7: &str = "ASCE 7";
+
+/// What may resist lateral moments, by its words.
+const LATERAL_SECTIONS: [(&str, LateralSection); 2] =
+    [("whole section", LateralSection::Whole), ("top flange", LateralSection::TopFlange)];
 
 /// Reads the member; `units` are those of the file.
 pub(super) fn read(
@@ -35,6 +39,14 @@ pub(super) fn read(
     let hoisting = raw.hoisting.as_ref().and_then(|word| faults.one_of(word, &at.key("hoisting"), &HOISTING));
     let drives = raw.drives.as_ref().and_then(|word| faults.one_of(word, &at.key("drives"), &DRIVES));
     let release = raw.release.as_ref().and_then(|word| faults.one_of(word, &at.key("release"), &RELEASE));
+    let lateral_section = raw
+        .lateral_section
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("lateral_section"), &LATERAL_SECTIONS));
+    let rail_fastening = raw
+        .rail_fastening
+        .as_ref()
+        .and_then(|word| faults.one_of(word, &at.key("rail_fastening"), &FASTENINGS));
     let speed = check.optional_positive(raw.hoist_speed, &at.key("hoist_speed"), Dimension::SPEED, "rated");
     let metric = Scale { from: units, to: Units::SI }.factor(Dimension::SPEED);
     let combinations = raw.combinations.unwrap_or(false);
@@ -54,6 +66,8 @@ pub(super) fn read(
         drives: drives.unwrap_or(DriveOnset::Smooth),
         release,
         hoist_speed: speed.map(|speed| speed * metric),
+        lateral_section: lateral_section.unwrap_or_default(),
+        rail_fastening,
         combinations,
     }
 }

@@ -117,7 +117,7 @@ pub(crate) struct RawNamedCase {
     /// Order of the trains along the rail: "any" (default) or "given".
     pub order: Option<String>,
     /// Factors of the loads: `dead`, `vertical`, parts of vertical forces by name, `lateral`, `longitudinal`, by default
-    /// 1; `skewing` and `buffer`, by default 0.
+    /// 1; `skewing`, `buffer` and `trolley drives`, by default 0.
     #[serde(default)]
     pub factors: Entries<f64>,
 }
@@ -173,6 +173,10 @@ pub(crate) struct RawDesignPractice {
     pub drives: Option<String>,
     /// Release of the load by grabs or magnets, for phi3: "slow" or "rapid".
     pub release: Option<String>,
+    /// What resists lateral moments in stresses: "whole section" (default) or "top flange".
+    pub lateral_section: Option<String>,
+    /// How crane rails are fastened to their flanges: "rigid", "loose" or "pad".
+    pub rail_fastening: Option<String>,
     /// Guidance of the crane: "flanges" or "rollers".
     pub guide: Option<String>,
     /// Least distance between hook and rail, length.

@@ -7,7 +7,9 @@ use fea::{Model, Rail};
 
 use super::practice;
 use super::raw::{RawCase, RawDead, RawDesign, RawForces, RawNamedCase, RawSectionCut, RawTrain};
-use super::values::{Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, WHOLE};
+use super::values::{
+    Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, TROLLEY_DRIVES, WHOLE,
+};
 use crate::check::Check;
 use crate::limits::{CASE_TRAINS, TRAIN_WHEELS, TRAINS};
 use crate::spec::{COMPONENTS, Form, RailOutline, Spec, format, stem};
@@ -26,7 +28,7 @@ pub const FORMAT: &str = "girderway-design/1";
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Names of loads that every case may factor, beside those of parts of vertical forces.
-const LOADS: [&str; 6] = ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer"];
+const LOADS: [&str; 7] = ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer", TROLLEY_DRIVES];
 
 impl Design {
     /// Reads a design and the spec that it names.
@@ -252,18 +254,31 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
         let skewing = own_number(given.skewing, "skewing", Dimension::FORCE, None);
         let vertical = vertical(&given.vertical, &here, check);
         let rail = own.unwrap_or(0);
-        wheels.push(DesignWheel { rail, x, vertical, lateral, longitudinal, skewing, buffer, eccentricity });
+        wheels.push(DesignWheel {
+            rail,
+            x,
+            vertical,
+            lateral,
+            longitudinal,
+            skewing,
+            buffer,
+            trolley_drives: 0.0,
+            eccentricity,
+        });
     }
     check_order(&wheels, &places, check.faults);
     let mut weight = |value: Option<f64>, key: &str| {
         value.map(|value| check.not_negative(value, &at.key(key), Dimension::FORCE, "a weight"))
     };
+    let weights =
+        [weight(raw.hoist_load, "hoist_load"), weight(raw.trolley, "trolley"), weight(raw.bridge, "bridge")];
+    if let [Some(lifted), Some(trolley), _] = weights {
+        let whole = ::practice::buffer::trolley_force(lifted, trolley).unwrap_or(0.0);
+        let share = whole / wheels.len().max(1) as f64;
+        wheels.iter_mut().for_each(|wheel| wheel.trolley_drives = share);
+    }
     DesignTrain {
-        weights: [
-            weight(raw.hoist_load, "hoist_load"),
-            weight(raw.trolley, "trolley"),
-            weight(raw.bridge, "bridge"),
-        ],
+        weights,
         name,
         ends,
         wheels,

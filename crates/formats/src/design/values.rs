@@ -7,9 +7,13 @@ use practice::asce::CraneOperation;
 use practice::duty::FatigueClass;
 use practice::factor::{DriveOnset, HoistingClass, Release, phi2};
 use practice::limits::DeflectionLimit;
+use practice::local_stress::RailFixing;
 
 use crate::spec::Spec;
 use crate::units::Units;
+
+/// Name of the lateral force of the trolley's drives in factors.
+pub const TROLLEY_DRIVES: &str = "trolley drives";
 
 /// Name of the part of a vertical force that is given as a number.
 pub const WHOLE: &str = "vertical";
@@ -60,8 +64,33 @@ pub struct DesignPractice {
     pub release: Option<Release>,
     /// Rated hoisting speed, m/s.
     pub hoist_speed: Option<f64>,
+    /// What resists lateral moments in stresses.
+    pub lateral_section: LateralSection,
+    /// How crane rails are fastened to their flanges, where the design says it.
+    pub rail_fastening: Option<RailFixing>,
     /// Whether cases without factors of their own are also calculated with the groups of loads of the code.
     pub combinations: bool,
+}
+
+/// What resists lateral moments in stresses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LateralSection {
+    /// The whole section, with its second moment for lateral bending.
+    #[default]
+    Whole,
+    /// The top flange alone, as in hand calculations.
+    TopFlange,
+}
+
+impl LateralSection {
+    /// Its word in files.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            LateralSection::Whole => "whole section",
+            LateralSection::TopFlange => "top flange",
+        }
+    }
 }
 
 impl DesignPractice {
@@ -117,6 +146,9 @@ pub struct DesignWheel {
     pub skewing: f64,
     /// Its share in a buffer force along +x.
     pub buffer: f64,
+    /// Its share in the lateral force of the trolley's drives, 0.1 (Q + T) of EN 1991-3, 2.7.5, along +z; 0 where the train
+    /// does not give both weights.
+    pub trolley_drives: f64,
     /// Distance of the forces from the line of the rail along +z.
     pub eccentricity: f64,
 }
@@ -156,10 +188,10 @@ pub struct DesignCase {
 }
 
 /// Loads that act only where a case gives them a factor.
-const ON_REQUEST: [&str; 2] = ["skewing", "buffer"];
+const ON_REQUEST: [&str; 3] = ["skewing", "buffer", TROLLEY_DRIVES];
 
 impl DesignCase {
-    /// Factor of a load by name; by default 0 for `skewing` and `buffer`, and 1 for all others.
+    /// Factor of a load by name; by default 0 for `skewing`, `buffer` and `trolley drives`, and 1 for all others.
     #[must_use]
     pub fn factor(&self, name: &str) -> f64 {
         let default = if ON_REQUEST.contains(&name) { 0.0 } else { 1.0 };

@@ -3,6 +3,7 @@
 use fea::{BeamTheory, Dof, GroundSpring, Member, Model, PointMass, RailSegment, RigidLink, Support, Taper};
 
 use super::cuts::{self, Cut};
+use super::outline::MemberOutline;
 use super::raw::RawSpec;
 use super::references::{Points, dofs, index_below};
 use super::shape::ShapeTaper;
@@ -63,6 +64,7 @@ pub(super) fn read(
     };
     let cuts = cuts::read_frame(raw, &cells, &points_of, root, check);
     let points = model.points.len();
+    let member_outlines = member_outlines(&model, &cells.tapers);
     let frame = FrameSpec {
         model,
         rails,
@@ -73,6 +75,7 @@ pub(super) fn read(
         point_sets,
         supports,
         pads: Vec::new(),
+        member_outlines,
     };
     let (mut frame, cuts) = if cells.complete {
         let shapes = shapes(raw, &frame.model, &cells.tapers, check);
@@ -82,6 +85,18 @@ pub(super) fn read(
     };
     crane_rail::add(raw, root, &mut frame, check);
     (frame, cuts)
+}
+
+/// The section of the file that each member has, before crane rails change it.
+fn member_outlines(model: &Model, tapers: &[Option<Taper>]) -> Vec<MemberOutline> {
+    let own = |(index, member): (usize, &Member)| {
+        let taper = tapers.get(index).copied().flatten();
+        MemberOutline {
+            section: member.section,
+            is_tapered: taper.is_some_and(|taper| taper.section != member.section),
+        }
+    };
+    model.members.iter().enumerate().map(own).collect()
 }
 
 /// The shapes of each tapered member whose sections have shapes of one kind.
@@ -135,7 +150,13 @@ fn in_parts(
         cut.place = (along - part as f64).min(1.0);
     }
     let cells = frame.cells.iter().zip(&parts).flat_map(|(cell, own)| own.clone().map(|_| *cell)).collect();
-    (FrameSpec { model, rails, cells, ..frame }, cuts)
+    let member_outlines = frame
+        .member_outlines
+        .iter()
+        .zip(&parts)
+        .flat_map(|(own, parts)| parts.clone().map(|_| *own))
+        .collect();
+    (FrameSpec { model, rails, cells, member_outlines, ..frame }, cuts)
 }
 
 /// Reads the supports. The result contains, for each support of the model, the index of the corresponding support in

@@ -118,6 +118,8 @@ pub(crate) struct RawGirder {
     pub section: Option<String>,
     /// With `section`: mass density, mass / length^3; by default that of steel, as are `E` and `G`.
     pub density: Option<f64>,
+    /// Yield strength, force / length^2; for stresses of a design.
+    pub fy: Option<f64>,
     /// Name of a crane rail, such as "A75" or "ASCE 85": its height is added to `rail_height`, its mass to that of the girder.
     pub crane_rail: Option<String>,
     /// Whether girder and crane rail resist bending as one plane section; by default false.
@@ -190,6 +192,8 @@ pub struct RawMaterial {
     pub g: Option<f64>,
     /// Mass density, mass / length^3; by default 0.
     pub density: Option<f64>,
+    /// Yield strength, force / length^2; for stresses of a design.
+    pub fy: Option<f64>,
 }
 
 /// A cross section. Properties that are left out are computed from `shape`.

@@ -5,7 +5,7 @@ use fea::BeamTheory;
 use super::raw::RawSpec;
 use super::structure::{Form, Spec};
 use super::words::THEORIES;
-use super::{cuts, frame, girder, notes, stress};
+use super::{cuts, frame, girder, notes, outline, stress};
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults};
@@ -63,8 +63,13 @@ impl Spec {
             }
         };
         let name = raw.name.clone().unwrap_or_else(|| stem(file));
+        let outlines = match &raw.girder {
+            Some(girder) => vec![outline::of_girder(girder, &root.key("girder"), &mut check)],
+            None => outline::of_sections(raw, &root, &mut check),
+        };
         let notes = if check.faults.0.is_empty() { notes::of(raw, from) } else { Vec::new() };
-        Some(Spec { name, units: to, theory, form, effects, notes })
+        let crane_rails = outline::crane_rails(raw);
+        Some(Spec { name, units: to, theory, form, effects, notes, outlines, crane_rails })
     }
 }
 

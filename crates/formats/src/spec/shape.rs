@@ -16,7 +16,7 @@ const KEYS: [&str; 8] =
 
 /// Kinds of shapes in specs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Kind {
+pub(super) enum Kind {
     I,
     Box,
     Tube,
@@ -241,7 +241,7 @@ impl ShapeTaper {
 }
 
 /// The shape of a section that is given by dimensions, not by a name.
-fn dimensions(raw: &RawSection) -> Option<&RawShape> {
+pub(super) fn dimensions(raw: &RawSection) -> Option<&RawShape> {
     match raw.shape.as_ref()? {
         RawSectionShape::Dimensions(shape) => Some(shape),
         RawSectionShape::Name(_) => None,
@@ -249,7 +249,7 @@ fn dimensions(raw: &RawSection) -> Option<&RawShape> {
 }
 
 /// Kind and dimensions of a shape that was read without a fault, in the unit of length of the model.
-fn in_model_units(raw: &RawShape, scale: &Scale) -> Option<(Kind, [f64; 8])> {
+pub(super) fn in_model_units(raw: &RawShape, scale: &Scale) -> Option<(Kind, [f64; 8])> {
     let word = raw.kind.as_deref()?;
     let kind = Kind::WORDS.iter().find(|(known, _)| *known == word)?.1;
     let unit = match &raw.length {

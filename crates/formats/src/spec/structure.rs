@@ -3,6 +3,7 @@
 use fea::{BeamTheory, Girder, Model, Rail};
 
 use super::cuts::Cut;
+use super::outline::{MemberOutline, SectionOutline, SpecCraneRail};
 use crate::units::Units;
 
 /// Name of the only rail of the short form.
@@ -41,6 +42,10 @@ pub struct Spec {
     /// Numbers that follow from names of rolled sections and crane rails, and defaults of steel, for the user to check, in words and in the
     /// units of the file.
     pub notes: Vec<String>,
+    /// Shapes and strengths of the sections, in the order of the file; one for the short form.
+    pub outlines: Vec<SectionOutline>,
+    /// Crane rails by rail; empty where the rails are those of ties.
+    pub crane_rails: Vec<Option<SpecCraneRail>>,
 }
 
 /// The two forms of a spec.
@@ -85,6 +90,8 @@ pub struct FrameSpec {
     pub supports: Vec<usize>,
     /// Pads between rail and structure, if ties carry the rail.
     pub pads: Vec<Pad>,
+    /// Section of the file that each member has; empty where ties have split the members.
+    pub member_outlines: Vec<MemberOutline>,
 }
 
 /// The pad between a rail and its base at one tie. Its damper acts between the two points.
@@ -114,6 +121,19 @@ impl Spec {
         match &self.form {
             Form::Girder(_) => &[],
             Form::Frame(frame) => &frame.pads,
+        }
+    }
+
+    /// Shape and strength of the section of a member, and whether the member is tapered; `None` for members that the file does
+    /// not have.
+    #[must_use]
+    pub fn outline(&self, member: usize) -> Option<(&SectionOutline, bool)> {
+        match &self.form {
+            Form::Girder(_) => Some((self.outlines.first()?, false)),
+            Form::Frame(frame) => {
+                let own = frame.member_outlines.get(member)?;
+                Some((self.outlines.get(own.section)?, own.is_tapered))
+            }
         }
     }
 

@@ -154,10 +154,12 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
         supports: Vec::new(),
         model,
         pads,
+        member_outlines: Vec::new(),
     };
     let (name, form) = (name.to_owned(), Form::Frame(frame));
     let theory = BeamTheory::EulerBernoulli;
-    Ok(Spec { name, units, theory, form, effects: Vec::new(), notes: Vec::new() })
+    let (outlines, crane_rails) = (Vec::new(), Vec::new());
+    Ok(Spec { name, units, theory, form, effects: Vec::new(), notes: Vec::new(), outlines, crane_rails })
 }
 
 /// The structure with a rail on ties above each of its rails. The new rails have the names, coordinates and stations
@@ -223,8 +225,9 @@ pub fn on_structure(spec: &Spec, ties: &Ties) -> Result<Spec, TiesError> {
         point_sets,
         supports,
         pads,
+        member_outlines: Vec::new(),
     };
-    Ok(Spec { form: Form::Frame(frame), effects, ..spec.clone() })
+    Ok(Spec { form: Form::Frame(frame), effects, crane_rails: Vec::new(), ..spec.clone() })
 }
 
 /// The seats of the ties of all rails of a structure, and the line, the positions of the ties and the outline of each

@@ -5,6 +5,7 @@ use crate::figures::influence_lines::influence_figure;
 use crate::text::design_basis::basis;
 use crate::text::design_codes::{codes, limits, sources};
 use crate::text::design_inputs::inputs;
+use crate::text::design_stresses::details;
 use crate::text::design_verdict::{DIGITS, positions, verdict};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, GoverningLine, SolvedCase, load_word, plane_word, quantity_word};
@@ -24,6 +25,7 @@ pub fn design_report(design: &Design, result: &DesignResult, lines: &[GoverningL
     for (index, case) in result.cases.iter().enumerate() {
         sections.push(extremes(design, case, index));
     }
+    sections.extend(details(design, result));
     sections.push(reactions(design, result));
     for index in 0..result.cases.len() {
         sections.push(envelopes(design, result, index));

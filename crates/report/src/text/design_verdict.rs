@@ -4,6 +4,7 @@ use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, wit
 use crate::figures::influence_lines::subject_words;
 use crate::figures::rail_sketch::RailSketch;
 use crate::text::design_codes::limits;
+use crate::text::design_stresses::{governing_stresses, utilisation};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{
     DesignResult, GoverningLine, LimitCheck, LineSubject, ReactionExtremes, governing_reaction, plane_word,
@@ -31,6 +32,7 @@ const GOVERNING: [(GirderResponse, bool, &str); 7] = [
 /// What governs, whether limits are kept, and the position that causes the largest sagging moment.
 pub(super) fn verdict(design: &Design, result: &DesignResult, lines: &[GoverningLine]) -> ReportSection {
     let mut section = ReportSection::new("Verdict").paragraph(sentence(result));
+    section.paragraphs.extend(utilisation(result));
     section.paragraphs.extend(fatigue_sentence(design, result));
     let notes = result.warnings.iter().map(|text| format!("Warning: {text}."));
     let notes: Vec<String> =
@@ -42,6 +44,9 @@ pub(super) fn verdict(design: &Design, result: &DesignResult, lines: &[Governing
             section.paragraph(format!("{more} more warnings and notes are in the section on the method."));
     }
     section = section.table(governing_table(design, result));
+    if let Some(table) = governing_stresses(design, result) {
+        section = section.table(table);
+    }
     let worst = worst_limits(result);
     if !worst.is_empty() {
         let mut table = limits(design, &worst[..worst.len().min(MOST)]);

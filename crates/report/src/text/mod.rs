@@ -5,6 +5,7 @@ mod design_basis;
 mod design_codes;
 mod design_inputs;
 pub mod design_report;
+mod design_stresses;
 mod design_verdict;
 pub(crate) mod fatigue;
 pub(crate) mod girders;
