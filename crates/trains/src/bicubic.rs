@@ -10,10 +10,10 @@ use crate::rail_deflection::POWERS;
 use crate::structure::{Carrier, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 
-/// Bounds of the second derivative of the deflection of one carrier per unit load: by rail and component.
+/// Bounds of plus and minus the second derivative of the deflection of one carrier per unit load: by rail and component.
 #[derive(Clone, Debug)]
 pub(crate) struct SecondDerivatives {
-    rails: Vec<[f64; COMPONENTS]>,
+    rails: Vec<[[f64; 2]; COMPONENTS]>,
 }
 
 impl SecondDerivatives {
@@ -26,31 +26,34 @@ impl SecondDerivatives {
     ) -> Result<SecondDerivatives, Error> {
         let width = carrier.x[1] - carrier.x[0];
         let loads = structure.unit_kernels(carrier, direction)?;
-        let mut rails = vec![[0.0_f64; COMPONENTS]; structure.rail_count()];
+        let mut rails = vec![[[0.0_f64; 2]; COMPONENTS]; structure.rail_count()];
         for (bounds, cells) in rails.iter_mut().zip(&lines.rails) {
             for cell in cells {
                 let h = cell.x[1] - cell.x[0];
                 let on = loads.iter().find(|(on, _)| on.other.element == cell.element);
                 for (component, bound) in bounds.iter_mut().enumerate() {
                     let ahead = of_cell(cell, component);
-                    *bound = bound.max(ahead.second(width, h));
+                    let mut offer = |found: [f64; 2]| (0..2).for_each(|k| bound[k] = bound[k].max(found[k]));
+                    offer(ahead.second(width, h));
                     let Some((on, kernels)) = on else { continue };
                     let first = on.start + on.rate * (cell.x[0] - on.other.x[0]);
                     let kernel = Bicubic::new(NODES.map(|node| {
                         in_fractions(kernels[component].passing(node * carrier.length - first, on.rate), h)
                     }));
-                    *bound = bound.max(ahead.plus(&kernel).second(width, h));
+                    offer(ahead.plus(&kernel).second(width, h));
                 }
             }
         }
         Ok(SecondDerivatives { rails })
     }
 
-    /// The bound for all wheels of a train together.
-    pub fn of_train(&self, train: &PlacedTrain) -> f64 {
+    /// The bound of minus the second derivative of sign times the deflection for all wheels of a train together.
+    pub fn of_train(&self, train: &PlacedTrain, sign: f64) -> f64 {
         let wheels = train.wheels.iter().map(|wheel| {
             let bounds = wheel.load.iter().zip(&self.rails[wheel.rail]);
-            bounds.map(|(load, bound)| load.abs() * bound).sum::<f64>()
+            bounds
+                .map(|(load, [above, below])| load.abs() * if sign * load > 0.0 { *below } else { *above })
+                .sum::<f64>()
         });
         wheels.sum()
     }
@@ -86,9 +89,9 @@ impl Bicubic {
         Bicubic { c: std::array::from_fn(|i| std::array::from_fn(|j| self.c[i][j] + other.c[i][j])) }
     }
 
-    /// Bound over both fractions from 0 to 1 of the size of the second derivative by u, and of that along u and v together,
-    /// for lengths `hu` and `hv` of the two stretches.
-    fn second(&self, hu: f64, hv: f64) -> f64 {
+    /// Bounds over both fractions from 0 to 1 of plus and minus the second derivative by u, and of those along u and v
+    /// together, for lengths `hu` and `hv` of the two stretches.
+    fn second(&self, hu: f64, hv: f64) -> [f64; 2] {
         let (mut own, mut along) = ([[0.0; 4]; 4], [[0.0; 4]; 4]);
         for i in 0..4 {
             for j in 0..4 {
@@ -105,9 +108,23 @@ impl Bicubic {
                 }
             }
         }
-        let size = |all: &[[f64; 4]; 4]| all.iter().flatten().map(|c| c.abs()).sum::<f64>();
-        size(&own).max(size(&along))
+        [own, along]
+            .iter()
+            .map(bernstein)
+            .fold([f64::NEG_INFINITY; 2], |a, b| [a[0].max(b[0]), a[1].max(b[1])])
     }
+}
+
+/// Bounds of plus and minus a polynomial of degree three in two fractions: its largest and smallest Bernstein coefficient.
+///
+/// # Source
+/// Farouki, The Bernstein polynomial basis: a centennial retrospective, CAGD 29 (2012), section 3.
+fn bernstein(powers: &[[f64; 4]; 4]) -> [f64; 2] {
+    let convert = |[a, b, c, d]: [f64; 4]| [a, a + b / 3.0, a + (2.0 * b + c) / 3.0, a + b + c + d];
+    let rows = powers.map(convert);
+    let columns: [[f64; 4]; 4] = std::array::from_fn(|j| convert(rows.map(|row| row[j])));
+    let all = columns.iter().flatten();
+    all.fold([f64::NEG_INFINITY; 2], |bounds, c| [bounds[0].max(*c), bounds[1].max(-c)])
 }
 
 #[cfg(test)]
@@ -119,6 +136,7 @@ mod tests {
     fn second_derivatives_of_a_polynomial() {
         let at_nodes = NODES.map(|u| [0.0, u * u, 3.0, 0.0]);
         let found = Bicubic::new(at_nodes).second(2.0, 5.0);
-        assert!((found - (0.5 + 0.4 + 0.24)).abs() < 1e-12, "{found}");
+        // The second derivative by u alone is between 0 and 0.5.
+        assert!((found[0] - (0.5 + 0.4 + 0.24)).abs() < 1e-12 && found[1].abs() < 1e-12, "{found:?}");
     }
 }

@@ -6,7 +6,6 @@
 //!
 //! force <= its ends + sum J,    moment <= its ends + sum J + h/4 sum V,    deflection <= its ends + k h^2/8 + h/4 sum g.
 
-use crate::line::bound_of_cubic;
 use crate::polynomial::Polynomial;
 use crate::section::{Passage, WheelOnMember, slope_index};
 use crate::structure::{GirderResponse, QUANTITIES};
@@ -33,6 +32,12 @@ impl Bounds {
         let length = passage.on.length();
         let responses = GirderResponse::ALL.len();
         let mut values = vec![f64::INFINITY; PARTS * responses * 2 * pieces];
+        let second: [Vec<[f64; 2]>; 2] = [0, 1].map(|direction| {
+            let known = passage.deflections[direction].is_some();
+            (0..pieces)
+                .map(|piece| if known { second(passage, piece, direction) } else { [0.0; 2] })
+                .collect()
+        });
         for k in first..responses {
             for piece in 0..pieces {
                 let mut ends = [[f64::NEG_INFINITY; 2]; PARTS + 1];
@@ -47,6 +52,10 @@ impl Bounds {
                     let more = margin(passage, piece, k, part);
                     for sign in 0..2 {
                         let [a, b] = [ends[part][sign], ends[part + 1][sign]];
+                        let bulge = k.checked_sub(QUANTITIES).map_or(0.0, |direction| {
+                            bulge(second[direction][piece], sign) * (length / PARTS as f64).powi(2) / 8.0
+                        });
+                        let more = more + bulge;
                         let size = a.abs().max(b.abs()) + more;
                         values[((part * responses + k) * 2 + sign) * pieces + piece] =
                             a.max(b) + more + ROUNDING * size;
@@ -54,20 +63,13 @@ impl Bounds {
                 }
             }
         }
-        let second = [0, 1].map(|direction| {
-            let known = passage.deflections[direction].is_some();
-            (0..pieces)
-                .map(|piece| if known { second(passage, piece, direction) } else { [0.0; 2] })
-                .collect()
-        });
         Bounds { values, second, pieces, length }
     }
 
     /// A bound of minus the second derivative of sign times a deflection in a piece, at least 0: by how much a state can
     /// bulge over its chord.
     pub fn bulge(&self, direction: usize, sign: f64, piece: usize) -> f64 {
-        let [above, below] = self.second[direction][piece];
-        if sign > 0.0 { below.max(0.0) } else { above.max(0.0) }
+        bulge(self.second[direction][piece], usize::from(sign < 0.0))
     }
 
     /// Bounds of sign times response k around place s, by piece.
@@ -129,7 +131,12 @@ fn second(passage: &Passage, piece: usize, direction: usize) -> [f64; 2] {
     out
 }
 
-/// By how much sign times response k can exceed its values at the ends of a part of the carrier.
+/// Minus the second derivative of a deflection (sign 0) or of its negative (1) at most, by bounds of plus and minus.
+fn bulge([above, below]: [f64; 2], sign: usize) -> f64 {
+    if sign == 0 { below.max(0.0) } else { above.max(0.0) }
+}
+
+/// By how much sign times response k, apart from the bulge of a deflection, can exceed its values at the ends of a part of the carrier.
 fn margin(passage: &Passage, piece: usize, k: usize, part: usize) -> f64 {
     let length = passage.on.length();
     let h = length / PARTS as f64;
@@ -140,17 +147,7 @@ fn margin(passage: &Passage, piece: usize, k: usize, part: usize) -> f64 {
         ends[0].min(ends[1]) <= to + ROUNDING * length && ends[0].max(ends[1]) >= from - ROUNDING * length
     });
     if let Some(direction) = k.checked_sub(QUANTITIES) {
-        let Some(pieces) = &passage.deflections[direction] else { return 0.0 };
-        let [_, _, c, d] = &pieces.list[piece].cubics;
-        let size =
-            |cubic: &[f64; 4]| bound_of_cubic(cubic, time).max(bound_of_cubic(&cubic.map(|c| -c), time));
-        let ends = [2.0 * part as f64 / PARTS as f64, 2.0 * (part + 1) as f64 / PARTS as f64];
-        let bend = ends.map(|u| size(&std::array::from_fn(|p| 2.0 * c[p] + 3.0 * u * d[p])));
-        let own = bend[0].max(bend[1]) / (8.0 * (PARTS * PARTS) as f64);
-        // Wheels passed anywhere bend the rail; only those within the part kink it.
-        let bends: f64 = passage.wheels(piece).iter().map(|w| w.kernel(direction).second(length)).sum();
-        let kinks: f64 = within.map(|w| w.kernel(direction).slope().abs()).sum();
-        return own + bends * h * h / 8.0 + kinks * h / 4.0;
+        return within.map(|w| w.kernel(direction).slope().abs()).sum::<f64>() * h / 4.0;
     }
     within
         .map(|wheel| {

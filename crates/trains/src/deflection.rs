@@ -55,10 +55,10 @@ impl Deflections<'_> {
                 }
                 let bend = self.bend(span, all, direction)?;
                 let several = bend.kinks > 0.0 && self.plan.trains.len() > 1;
-                let blocked = if several { Some(self.blocked(direction, bend)?) } else { None };
                 let mut largest = 0.0;
                 for is_max in [true, false] {
                     let sign = sign_of(is_max);
+                    let blocked = if several { Some(self.blocked(direction, sign, bend)?) } else { None };
                     let entry = entry(all, self.carrier.rail, span, quantity, is_max);
                     let (best, bound) = if self.plan.trains.len() == 1 {
                         let size = largest;
@@ -77,7 +77,7 @@ impl Deflections<'_> {
                             search.most = MOST_OF_SEVERAL;
                         }
                         search.run()?;
-                        if several {
+                        if !search.is_closed() {
                             search.polish((window[1] - window[0]) / 40.0)?;
                         }
                         (search.best, search.bound)
@@ -150,11 +150,11 @@ impl Deflections<'_> {
     }
 
     /// What bounds a deflection under several trains between two places.
-    fn blocked(&self, direction: usize, bend: Bend) -> Result<Blocked, Error> {
+    fn blocked(&self, direction: usize, sign: f64, bend: Bend) -> Result<Blocked, Error> {
         let Some(lines) = &self.lines.deflections[direction] else { return Ok(Blocked::default()) };
         let bounds = SecondDerivatives::new(self.structure, self.carrier, direction, lines)?;
         let of_train = |stances: &Vec<PlacedTrain>| {
-            stances.iter().map(|train| bounds.of_train(train)).fold(0.0, f64::max)
+            stances.iter().map(|train| bounds.of_train(train, sign)).fold(0.0, f64::max)
         };
         let rate = self.carrier.rate();
         let dead = self.dead.bend(DEFLECTIONS[direction], self.carrier.length) * rate * rate;
@@ -201,7 +201,13 @@ impl Deflections<'_> {
                     } else {
                         let mut hint = None;
                         let value = |x| Ok(self.best(&over, None, direction, sign, x, &mut hint));
-                        let mut search = Search::new(sign, Box::new(move |x| bend.margin(x)), window, value);
+                        let margin: Margin<'_> = if bend.kinks > 0.0 {
+                            let blocked = self.blocked(direction, sign, bend)?;
+                            Box::new(move |x| blocked.margin(x))
+                        } else {
+                            Box::new(move |x| bend.margin(x))
+                        };
+                        let mut search = Search::new(sign, margin, window, value);
                         search.gap = GAP_OF_CHORDS;
                         search.most = MOST_OF_CHORDS;
                         search.run()?;

@@ -3,7 +3,6 @@
 use crate::bounds::Bounds;
 use crate::error::Error;
 use crate::line::Lines;
-use crate::pieces::ResponsePiece;
 use crate::plan::{Arrangement, CasePlan, Responses, Standing, TIE, can_exceed, offer_part};
 use crate::rail_deflection::{CarrierLines, POWERS};
 use crate::section::Passage;
@@ -18,8 +17,8 @@ pub(crate) struct Overrun {
     /// By response and train: the stances that differ. A lateral force, for instance, does not change a vertical moment,
     /// whatever its sign.
     distinct: Vec<Vec<Vec<usize>>>,
-    /// Bounds of the responses to a single train, by stance; empty for several.
-    bounds: Vec<Bounds>,
+    /// Bounds of the responses by train and stance.
+    bounds: Vec<Vec<Bounds>>,
 }
 
 impl Overrun {
@@ -48,10 +47,8 @@ impl Overrun {
             false => vec![Vec::new(); passages.len()],
         };
         let distinct = (0..GirderResponse::ALL.len()).map(distinct).collect();
-        let bounds = match &passages[..] {
-            [stances] => stances.iter().map(|passage| Bounds::new(passage, first)).collect(),
-            _ => Vec::new(),
-        };
+        let bounds = |stances: &Vec<Passage>| stances.iter().map(|p| Bounds::new(p, first)).collect();
+        let bounds = passages.iter().map(bounds).collect();
         Ok(Overrun { passages, distinct, bounds })
     }
 
@@ -76,7 +73,7 @@ impl Overrun {
 
     /// Bounds of the responses to a single train in a stance.
     pub fn bounds(&self, stance: usize) -> &Bounds {
-        &self.bounds[stance]
+        &self.bounds[0][stance]
     }
 
     /// The stances of a train that differ in response k.
@@ -84,13 +81,46 @@ impl Overrun {
         &self.distinct[k][train]
     }
 
-    /// Response k of the section at place s to each train, in the stances that differ.
-    pub fn responses(&self, k: usize, s: f64) -> Responses {
+    /// Response k of the section at place s to each train, in the stances that differ, without the pieces that cannot
+    /// take part where sign times the response to all trains reaches `floor`.
+    fn responses(&self, k: usize, sign: f64, s: f64, floor: f64) -> Responses {
+        let most = |train: usize| {
+            let stances = self.distinct[k][train].iter();
+            let all = stances.flat_map(|&stance| self.bounds[train][stance].near(k, sign, s));
+            all.copied().fold(f64::NEG_INFINITY, f64::max)
+        };
+        let most: Vec<f64> = (0..self.passages.len()).map(most).collect();
+        let all: f64 = most.iter().sum();
+        let rounding = TIE * most.iter().map(|bound| bound.abs()).sum::<f64>();
         let of = |(train, stances): (usize, &Vec<Passage>)| {
-            let own = self.distinct[k][train].iter();
-            own.map(|&stance| (stance, stances[stance].response(k, s))).collect()
+            let least = floor - (all - most[train]) - rounding;
+            let own = |&stance: &usize| {
+                let mut pieces = Vec::new();
+                for (piece, &bound) in self.bounds[train][stance].near(k, sign, s).iter().enumerate() {
+                    if floor == f64::NEG_INFINITY || bound >= least {
+                        stances[stance].parts(piece, k, s, |part| pieces.push(part));
+                    }
+                }
+                (stance, pieces)
+            };
+            self.distinct[k][train].iter().map(own).collect()
         };
         self.passages.iter().enumerate().map(of).collect()
+    }
+
+    /// Sign times response k at place s with the trains at the positions of an arrangement for another section.
+    fn value_at(&self, k: usize, sign: f64, s: f64, at: &Arrangement) -> f64 {
+        let each = at.trains.iter().zip(&self.passages);
+        let of = |(standing, stances): (&Standing, &Vec<Passage>)| {
+            let mut value = f64::INFINITY;
+            stances[standing.stance].parts(standing.origin[0], k, s, |part| {
+                if part.position[0] <= standing.position && standing.position <= part.position[1] {
+                    value = value.min(sign * part.at(standing.position));
+                }
+            });
+            if value.is_finite() { value } else { f64::NEG_INFINITY }
+        };
+        each.map(of).sum()
     }
 
     /// The arrangement with the largest value of sign times response k at place s. Where it is near that of `hint`, it is
@@ -105,9 +135,8 @@ impl Overrun {
     ) -> Option<Arrangement> {
         let lower = |value: f64| value - 2.0 * TIE * value.abs();
         let [stances] = &self.passages[..] else {
-            let responses = self.responses(k, s);
-            let floor = hint.map_or(f64::NEG_INFINITY, |hint| lower(value_in(&responses, hint, sign)));
-            return plan.best(&responses, sign, floor);
+            let floor = hint.map_or(f64::NEG_INFINITY, |hint| lower(self.value_at(k, sign, s, hint)));
+            return plan.best(&self.responses(k, sign, s, floor), sign, floor);
         };
         // The piece of the hint, or the one with the largest bound, shows what is reached at least.
         let known = hint.map(|hint| (hint.trains[0].stance, hint.trains[0].origin[0]));
@@ -118,7 +147,7 @@ impl Overrun {
         let search = |floor: f64| {
             let mut best: Option<(f64, Standing)> = None;
             for &stance in &self.distinct[k][0] {
-                for (piece, &bound) in self.bounds[stance].near(k, sign, s).iter().enumerate() {
+                for (piece, &bound) in self.bounds[0][stance].near(k, sign, s).iter().enumerate() {
                     if !can_exceed(&best, bound, floor) {
                         continue;
                     }
@@ -137,7 +166,7 @@ impl Overrun {
     /// The stance and the piece with the largest bound of sign times response k around place s under a single train.
     fn most_promising(&self, k: usize, sign: f64, s: f64) -> Option<(usize, usize)> {
         let of = |&stance: &usize| {
-            let bounds = self.bounds[stance].near(k, sign, s).iter().enumerate();
+            let bounds = self.bounds[0][stance].near(k, sign, s).iter().enumerate();
             bounds
                 .map(|(piece, bound)| ([stance, piece], *bound))
                 .reduce(|a, b| if b.1 > a.1 { b } else { a })
@@ -153,7 +182,7 @@ impl Overrun {
         let stances = self.distinct[k][0].iter();
         let all = stances
             .flat_map(|&stance| (0..self.passages[0][stance].pieces.list.len()).map(move |p| [stance, p]));
-        all.filter(|[stance, piece]| self.bounds[*stance].over_all(k, sign, *piece) > floor).collect()
+        all.filter(|[stance, piece]| self.bounds[0][*stance].over_all(k, sign, *piece) > floor).collect()
     }
 
     /// Response k at place s in an arrangement, without dead load.
@@ -164,18 +193,6 @@ impl Overrun {
         })
         .sum()
     }
-}
-
-/// A value that sign times a response has with the trains of an arrangement at their positions; minus infinity where one
-/// of them stands in a stance that is not given.
-fn value_in(responses: &Responses, at: &Arrangement, sign: f64) -> f64 {
-    let of = |(standing, own): (&Standing, &Vec<(usize, Vec<ResponsePiece>)>)| {
-        let pieces = own.iter().find(|(stance, _)| *stance == standing.stance).map(|(_, pieces)| pieces)?;
-        let first = pieces.partition_point(|piece| piece.position[1] < standing.position);
-        let here = pieces[first..].iter().take_while(|piece| piece.position[0] <= standing.position);
-        here.map(|piece| sign * piece.at(standing.position)).reduce(f64::min)
-    };
-    at.trains.iter().zip(responses).map(|pair| of(pair).unwrap_or(f64::NEG_INFINITY)).sum()
 }
 
 /// Of the stances with equal response k the first.

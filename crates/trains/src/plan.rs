@@ -239,10 +239,11 @@ impl CasePlan {
                 continue;
             }
             for &train in &group.orders[0].trains {
+                let least = floor - (all - bounds[train]);
                 let own = responses[train]
                     .iter()
-                    .map(|(stance, pieces)| (*stance, PiecewiseFunction::of(pieces, sign, *stance)));
-                ways[train] = self.ways(train, own, floor - (all - bounds[train]));
+                    .map(|(stance, pieces)| (*stance, PiecewiseFunction::of(pieces, sign, *stance, least)));
+                ways[train] = self.ways(train, own);
             }
             let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
             let mut best: Option<Chain> = None;
@@ -328,12 +329,11 @@ impl CasePlan {
         }
     }
 
-    /// A response to a train each way round, from that in each of some stances; what does not reach `floor` is left out.
+    /// A response to a train each way round, from that in each of some stances.
     pub fn ways(
         &self,
         train: usize,
         stances: impl IntoIterator<Item = (usize, PiecewiseFunction)>,
-        floor: f64,
     ) -> Vec<Way> {
         let mut out: Vec<(bool, usize, PiecewiseFunction)> = Vec::new();
         for (stance, own) in stances {
@@ -345,7 +345,6 @@ impl CasePlan {
         }
         let backwards = self.groups.iter().flat_map(|group| &group.orders).any(|order| order.mirrored);
         let way = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
-            let function = function.above(floor);
             let mirrored = backwards.then(|| function.mirrored());
             Way { stance, function, mirrored }
         };

@@ -80,18 +80,11 @@ impl PiecewiseFunction {
         self.pieces.is_empty()
     }
 
-    /// Sign times a response in a stance.
-    pub fn of(pieces: &[ResponsePiece], sign: f64, stance: usize) -> PiecewiseFunction {
+    /// Sign times a response in a stance, without the pieces that do not reach `floor`.
+    pub fn of(pieces: &[ResponsePiece], sign: f64, stance: usize, floor: f64) -> PiecewiseFunction {
         let part = |piece: &ResponsePiece| Part::new(piece.position, piece.times(sign), stance);
-        PiecewiseFunction { pieces: pieces.iter().map(part).collect() }
-    }
-
-    /// The parts that can reach a value.
-    pub fn above(mut self, floor: f64) -> PiecewiseFunction {
-        if floor > f64::NEG_INFINITY {
-            self.pieces.retain(|part| part.cubic.bound(part.length()) >= floor);
-        }
-        self
+        let kept = pieces.iter().filter(|piece| floor == f64::NEG_INFINITY || piece.bound(sign) >= floor);
+        PiecewiseFunction { pieces: kept.map(part).collect() }
     }
 
     /// The largest value, at the first position that has it.
@@ -141,7 +134,28 @@ fn overlaps(f: &PiecewiseFunction, g: &PiecewiseFunction, mut each: impl FnMut(P
     }
 }
 
-/// The larger of two functions of the same positions.
+/// The parts of a function where another is not defined.
+fn outside(f: &PiecewiseFunction, g: &PiecewiseFunction, out: &mut Vec<Part>) {
+    let mut first = 0;
+    for a in &f.pieces {
+        let [start, end] = a.position;
+        first += g.pieces[first..].iter().take_while(|b| b.position[1] < start).count();
+        let mut from = start;
+        let mut is_covered = false;
+        for b in g.pieces[first..].iter().take_while(|b| b.position[0] <= end) {
+            if b.position[0] > from {
+                out.push(a.between([from, b.position[0]]));
+            }
+            from = from.max(b.position[1]);
+            is_covered = true;
+        }
+        if from < end || !is_covered {
+            out.push(a.between([from, end]));
+        }
+    }
+}
+
+/// The larger of two functions; where only one of them is defined, that one.
 pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> PiecewiseFunction {
     let mut out = PiecewiseFunction::default();
     overlaps(f, g, |a, b| {
@@ -156,6 +170,11 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
                 from = to;
             }
         }
+    });
+    outside(f, g, &mut out.pieces);
+    outside(g, f, &mut out.pieces);
+    out.pieces.sort_by(|a, b| {
+        a.position[0].total_cmp(&b.position[0]).then(a.position[1].total_cmp(&b.position[1]))
     });
     out
 }

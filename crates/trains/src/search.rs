@@ -50,6 +50,8 @@ pub(crate) struct Search<'a, F> {
     pub best: Option<Governing>,
     /// What sign times the value nowhere exceeds.
     pub bound: f64,
+    /// Whether the search ended with the gap that was wanted.
+    is_closed: bool,
 }
 
 impl<'a, F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<'a, F> {
@@ -65,7 +67,13 @@ impl<'a, F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<'a, F> {
             value,
             best: None,
             bound: f64::NEG_INFINITY,
+            is_closed: false,
         }
+    }
+
+    /// Whether the search ended with the gap that was wanted.
+    pub fn is_closed(&self) -> bool {
+        self.is_closed
     }
 
     pub fn offer(&mut self, found: Option<Governing>) {
@@ -125,6 +133,7 @@ impl<'a, F: FnMut(f64) -> Result<Option<Governing>, Error>> Search<'a, F> {
             let Some(widest) = (0..open.len()).max_by(|&a, &b| open[a].bound.total_cmp(&open[b].bound))
             else {
                 self.bound = limit;
+                self.is_closed = true;
                 return Ok(());
             };
             if evaluations >= self.most {

@@ -65,7 +65,8 @@ pub(crate) fn enclosed(
     search.size = ZERO * forces(plan) * lever;
     search.known = known;
     search.run()?;
-    if search.best.as_ref().is_some_and(|best| target.sign * best.value > known) {
+    let is_larger = search.best.as_ref().is_some_and(|best| target.sign * best.value > known);
+    if is_larger && !search.is_closed() {
         search.polish((window[1] - window[0]) / 40.0)?;
     }
     let bound = search.bound;
@@ -90,9 +91,17 @@ fn beside_wheels(
     let all = |s: f64| -> Vec<Vec<Way>> {
         let of = |(train, stances): (usize, &Vec<Passage>)| {
             let own = stances.iter().enumerate().map(|(stance, passage)| {
-                (stance, PiecewiseFunction::of(&passage.response(target.k, s), target.sign, stance))
+                (
+                    stance,
+                    PiecewiseFunction::of(
+                        &passage.response(target.k, s),
+                        target.sign,
+                        stance,
+                        f64::NEG_INFINITY,
+                    ),
+                )
             });
-            plan.ways(train, own, f64::NEG_INFINITY)
+            plan.ways(train, own)
         };
         over.passages.iter().enumerate().map(of).collect()
     };
@@ -105,7 +114,7 @@ fn beside_wheels(
                     (stance, over.passages[train][stance].beside(target, wheel, side, stance))
                 };
                 let within = (0..stances.len()).map(beside).filter(|(_, function)| !function.is_empty());
-                let following = plan.ways(train, within, f64::NEG_INFINITY);
+                let following = plan.ways(train, within);
                 let Some(found) = plan.best_around(train, &following, &passed, &ahead) else { continue };
                 let standing = found.trains[train];
                 let mut at = Vec::new();
