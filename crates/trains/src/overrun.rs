@@ -136,7 +136,8 @@ impl Overrun {
         let lower = |value: f64| value - 2.0 * TIE * value.abs();
         let [stances] = &self.passages[..] else {
             let floor = hint.map_or(f64::NEG_INFINITY, |hint| lower(self.value_at(k, sign, s, hint)));
-            return plan.best(&self.responses(k, sign, s, floor), sign, floor);
+            let found = |floor: f64| plan.best(&self.responses(k, sign, s, floor), sign, floor);
+            return found(floor).or_else(|| found(f64::NEG_INFINITY));
         };
         // The piece of the hint, or the one with the largest bound, shows what is reached at least.
         let known = hint.map(|hint| (hint.trains[0].stance, hint.trains[0].origin[0]));

@@ -217,7 +217,7 @@ impl CasePlan {
     }
 
     /// The arrangement with the largest value of sign times a response. It is known to reach `floor`: what cannot is left
-    /// out.
+    /// out. `None` where nothing reaches it, which for a floor that is reached happens by rounding only.
     pub fn best(&self, responses: &Responses, sign: f64, floor: f64) -> Option<Arrangement> {
         if let [own] = &responses[..] {
             let (signed, standing) = best_of_one(own, sign)?;
@@ -245,6 +245,9 @@ impl CasePlan {
                     .map(|(stance, pieces)| (*stance, PiecewiseFunction::of(pieces, sign, *stance, least)));
                 ways[train] = self.ways(train, own);
             }
+            if group.orders[0].trains.iter().any(|&train| ways[train].is_empty()) {
+                return None;
+            }
             let listed: Vec<Vec<usize>> = ways.iter().map(|ways| (0..ways.len()).collect()).collect();
             let mut best: Option<Chain> = None;
             for order in &group.orders {
@@ -259,8 +262,7 @@ impl CasePlan {
             for (train, stance, position) in trains {
                 let own = responses[train].iter().find(|(known, _)| *known == stance);
                 let (_, list) = own.expect("the stance is one of those that were given");
-                let piece = list.partition_point(|piece| piece.position[1] < position).min(list.len() - 1);
-                out.trains[train] = Standing { stance, position, origin: list[piece].origin };
+                out.trains[train] = Standing { stance, position, origin: piece_at(list, position).origin };
             }
         }
         Some(out)
@@ -427,6 +429,17 @@ fn choices(order: &[usize], listed: &[Vec<usize>], each: &mut dyn FnMut(&[usize]
         at[k] += 1;
         at[k + 1..].fill(0);
     }
+}
+
+/// The first piece at a position; pieces may have been left out, and rounding may place a position just outside its own.
+fn piece_at(list: &[ResponsePiece], position: f64) -> &ResponsePiece {
+    let distance = |piece: &ResponsePiece| {
+        let [first, last] = piece.position;
+        (first - position).max(position - last).max(0.0)
+    };
+    let next = list.partition_point(|piece| piece.position[1] < position);
+    let near = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|k| list.get(k));
+    near.min_by(|a, b| distance(a).total_cmp(&distance(b))).expect("a train stands in one of its pieces")
 }
 
 /// The largest value for one train in some stances.
