@@ -1,9 +1,10 @@
 //! Extremes of the deflections of spans: at listed places, under wheels, and between them.
 //!
-//! A deflection that depends on the torsion or the shear of its member has a corner under each wheel, and its largest value
-//! is often there. Over time it follows the wheel, so that a fixed place misses it: the place and the time are refined
-//! together, along the path of the wheel. Extremes elsewhere are refined over time and along the rail in turn, from every
-//! place that is higher than those beside it and nearly as high as the highest.
+//! A deflection that depends on the torsion or the shear of its member has a corner under each wheel, and its largest
+//! value is often there. As the corner moves with the wheel, refinement along the rail and over time in turn does not
+//! reach it: the deflection under the wheel is refined over time, with its place. Extremes elsewhere are refined over
+//! time and along the rail in turn, from every listed place whose deflection exceeds those of the places beside it and
+//! is nearly as large as the largest.
 //!
 //! Only places that a member carries count. Between two members the rail moves with the nearer of their ends, which may
 //! be that of the girder of the next span.
@@ -12,11 +13,10 @@ use trains::SectionSide;
 
 use super::distributed::FORCES;
 use super::peaks::{Peak, largest};
-use super::refine::{EVALUATIONS, GirderValue, Refinement, offer};
+use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, offer};
 use super::scan::SIGNS;
-use super::spans::{NEAR, ROUNDS};
 
-/// What is looked for: the deflection of a span in a plane (0: vertical, 1: lateral) of a kind (0: largest, 1: smallest).
+/// An extreme of a deflection of a span: its plane (0: vertical, 1: lateral) and kind (0: largest, 1: smallest).
 #[derive(Clone, Copy)]
 pub(super) struct Wanted {
     /// Index in the list of rails.

@@ -6,10 +6,10 @@
 //! ([`trains::MemberForces`]). Inertia and dead load are added (`distributed`). Between the rows positions, forces and
 //! motions are interpolated (`instants`).
 //!
-//! 1. All sections, and both sides of each wheel (for deflections the place under it), are evaluated at all rows; so are the instants at which wheels pass
-//!    sections, on both sides (`scan`).
+//! 1. All sections, and both sides of each wheel, are evaluated at all rows; so are the instants at which wheels pass
+//!    sections, on both sides, and deflections at all listed places and under each wheel (`scan`).
 //! 2. Each peak is refined over time between its neighbouring rows and, at sections without a wheel, along the member
-//!    (`refine`, `spans`). Deflections are followed under the wheels as well (`deflections`).
+//!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
 //! 4. The result is compared with that of every second row. Where they differ by more than the accuracy of the scene, the
@@ -18,7 +18,8 @@
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
-//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, deflections, spans, structure, rows, this one.
+//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, deflections, spans, structure, rows,
+//! this one.
 
 mod deflections;
 mod distributed;

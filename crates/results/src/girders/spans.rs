@@ -5,13 +5,8 @@ use trains::SectionSide;
 use super::deflections::Wanted;
 use super::distributed::FORCES;
 use super::peaks::{Peak, largest};
-use super::refine::{EVALUATIONS, GirderValue, Refinement, is_moment, offer};
+use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
 use super::scan::{SIGNS, Scan};
-
-/// Rounds of refinement over time and along the girder in turn.
-pub(super) const ROUNDS: usize = 3;
-/// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
-pub(super) const NEAR: f64 = 0.05;
 
 /// The largest or smallest value of one quantity over a span.
 #[derive(Clone, Copy, Debug)]
