@@ -39,9 +39,6 @@ impl Refinement<'_> {
         let best = heights.iter().copied().chain(under).fold(f64::NEG_INFINITY, f64::max);
         let least = best - NEAR * self.size(FORCES + plane);
         let mut found: Option<GirderValue> = None;
-        for (load, peak) in tracks.filter(|(_, peak)| peak.height >= least) {
-            offer(&mut found, self.under(wanted, load, peak));
-        }
         for (k, &at) in points.iter().enumerate() {
             // of equal heights the first one counts
             let is_crest = (k == 0 || heights[k] > heights[k - 1])
@@ -50,6 +47,9 @@ impl Refinement<'_> {
                 let own = self.point(at, plane, kind).map(|from| self.along_and_in_time(wanted, from));
                 offer(&mut found, own);
             }
+        }
+        for (load, peak) in tracks.filter(|(_, peak)| peak.height >= least) {
+            offer(&mut found, self.under(wanted, load, peak));
         }
         found
     }
