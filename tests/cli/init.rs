@@ -4,8 +4,8 @@ use std::fs;
 
 use super::{example, folder, girderway, json, text};
 
-const STARTERS: [(&str, &str); 3] =
-    [("bogie", "bogie"), ("crane", "bridge_crane"), ("girderway", "mill_girderway")];
+const STARTERS: [(&str, &str); 4] =
+    [("bogie", "bogie"), ("crane", "bridge_crane"), ("girderway", "mill_girderway"), ("runway", "runway")];
 
 #[test]
 fn starter_files_are_those_of_the_examples() {
@@ -24,6 +24,9 @@ fn starter_files_are_those_of_the_examples() {
             let own = fs::read(folder.path().join(file)).expect("written");
             assert_eq!(own, fs::read(example(origin).join(name)).expect("an example"), "{file}");
         }
+        // with the static design of the example, where it has one
+        let has_design = files.iter().any(|file| file == "deep/mine/design.json");
+        assert_eq!(has_design, example(origin).join("design.json").exists(), "{word}");
     }
 }
 
@@ -42,6 +45,8 @@ fn starter_files_run_where_they_are() {
         let run = girderway(&folder, &["run", &scene, "-o", "out", "--quiet"]);
         assert!(run.status.success(), "{}", text(&run.stderr));
     }
+    let run = girderway(&folder, &["design", "girderway/design.json", "-o", "designed", "--quiet"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
     // that of the crane runs for seconds elsewhere: here its building stands
     assert!(girderway(&folder, &["init", "crane"]).status.success());
     let solved = girderway(&folder, &["fea", "aisle.json", "-o", "grid.json"]);

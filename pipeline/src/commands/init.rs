@@ -21,7 +21,7 @@ macro_rules! files {
 }
 
 const BOGIE: Files = files!("bogie": "scene.json", "spec.json", "printed.adm");
-const GIRDERWAY: Files = files!("mill_girderway": "scene.json", "spec.json");
+const GIRDERWAY: Files = files!("mill_girderway": "scene.json", "spec.json", "design.json");
 const CRANE: Files = files!(
     "bridge_crane":
     "scene.json", "aisle.json", "girders.json", "emergency.json", "lifting.json", "drop.json", "buffer.json", "skew.json",

@@ -81,6 +81,17 @@ impl LoadedGirders<'_> {
         on.next().map(|(index, _)| (index, self.members.place(index, x)))
     }
 
+    /// Whether a member carries the rail at a coordinate of a span, within rounding.
+    pub fn is_carried(&self, rail: usize, x: f64, span: usize) -> bool {
+        let outline = &self.sections.rails[rail];
+        let near = outline.slack();
+        let ([from, to], of_rail) = (outline.bounds(span), outline.rail);
+        self.members.members().any(|member| {
+            let ends = [member.x[0].max(from), member.x[1].min(to)];
+            member.rail == of_rail && ends[1] - ends[0] > near && ends[0] - near <= x && x <= ends[1] + near
+        })
+    }
+
     /// Deflections of points of a rail, downwards or along +z; `None` where they are not known or the structure is
     /// unrestrained in this direction.
     pub fn deflections(&self, rail: usize, x: &[f64], plane: usize, state: &LoadState) -> Option<Vec<f64>> {

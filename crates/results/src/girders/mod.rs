@@ -7,9 +7,9 @@
 //! motions are interpolated (`instants`).
 //!
 //! 1. All sections, and both sides of each wheel, are evaluated at all rows; so are the instants at which wheels pass
-//!    sections, on both sides (`scan`).
+//!    sections, on both sides, and deflections at all listed places and under each wheel (`scan`).
 //! 2. Each peak is refined over time between its neighbouring rows and, at sections without a wheel, along the member
-//!    (`refine`, `spans`).
+//!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
 //! 4. The result is compared with that of every second row. Where they differ by more than the accuracy of the scene, the
@@ -18,8 +18,10 @@
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
-//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, spans, structure, rows, this one.
+//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, deflections, spans, structure, rows,
+//! this one.
 
+mod deflections;
 mod distributed;
 mod girder;
 mod instants;

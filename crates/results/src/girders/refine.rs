@@ -9,6 +9,10 @@ use super::scan::{SIGNS, Scan};
 
 /// Number of evaluations of a golden section.
 pub(super) const EVALUATIONS: usize = 20;
+/// Rounds of refinement over time and along the girder in turn.
+pub(super) const ROUNDS: usize = 3;
+/// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
+pub(super) const NEAR: f64 = 0.05;
 
 /// A value at a section and a time.
 #[derive(Clone, Copy, Debug)]

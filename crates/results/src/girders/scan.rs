@@ -34,6 +34,8 @@ pub(super) struct Scan {
     pub points: Vec<[[Peak; 2]; 2]>,
     /// By load, side (before, behind) and number of the span over all rails.
     pub wheels: Vec<ForcePeaks>,
+    /// Deflections under loads: by load and number of the span over all rails, with rows like those of `points`.
+    pub under: Vec<[[Peak; 2]; 2]>,
     /// First number of the spans of each rail, and the number of all.
     pub first_span: Vec<usize>,
     pub passages: Vec<Passage>,
@@ -56,6 +58,7 @@ impl Scan {
             sections: vec![ForcePeaks::default(); sections.sections.len()],
             points: vec![Default::default(); sections.points.len()],
             wheels: vec![ForcePeaks::default(); 2 * loads * spans],
+            under: vec![Default::default(); loads * spans],
             first_span,
             passages: Vec::new(),
             sizes: [0.0; FORCES + 2],
@@ -73,7 +76,8 @@ impl Scan {
             before = Some(state);
         }
         let forces = scan.sections.iter_mut().chain(&mut scan.wheels).flatten().flatten();
-        forces.chain(scan.points.iter_mut().flatten().flatten()).for_each(Peak::finish);
+        let deflections = scan.points.iter_mut().chain(&mut scan.under).flatten().flatten();
+        forces.chain(deflections).for_each(Peak::finish);
         scan
     }
 
@@ -81,6 +85,11 @@ impl Scan {
     pub fn wheel(&self, load: usize, is_behind: bool, rail: usize, span: usize) -> usize {
         let spans = self.first_span[self.first_span.len() - 1];
         (2 * load + usize::from(is_behind)) * spans + self.first_span[rail] + span
+    }
+
+    /// Index of the peaks under a load in a span of a rail.
+    pub fn under(&self, load: usize, rail: usize, span: usize) -> usize {
+        load * self.first_span[self.first_span.len() - 1] + self.first_span[rail] + span
     }
 
     /// Adds the forces of all sections at a row, and of those just before and just behind each load.
@@ -112,17 +121,34 @@ impl Scan {
         }
     }
 
+    /// Adds the deflections of all points at a row, and those under each load on a member.
     fn add_deflections(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState) {
         let sections = girders.sections;
         let mut first = 0;
         for (rail, outline) in sections.rails.iter().enumerate() {
             let count = outline.places.len();
+            let on = |load: &usize| {
+                let load = state.loads[*load];
+                load.rail == outline.rail && load.x >= outline.range[0] && load.x <= outline.range[1]
+            };
+            let loads: Vec<usize> = (0..state.loads.len()).filter(on).collect();
+            let mut places = outline.places.clone();
+            places.extend(loads.iter().map(|load| state.loads[*load].x));
+            let mut under = Vec::new();
+            for (index, load) in loads.iter().enumerate() {
+                let x = places[count + index];
+                let spans = outline.spans_at(x).filter(|span| girders.is_carried(rail, x, *span));
+                under.extend(spans.map(|span| (index, self.under(*load, rail, span))));
+            }
             for plane in 0..2 {
-                let Some(all) = girders.deflections(rail, &outline.places, plane, state) else { continue };
-                for (peaks, value) in self.points[first..first + count].iter_mut().zip(all) {
-                    self.sizes[FORCES + plane] = self.sizes[FORCES + plane].max(value.abs());
-                    peaks[plane].iter_mut().zip(SIGNS).for_each(|(peak, sign)| peak.add(row, sign * value));
+                let Some(all) = girders.deflections(rail, &places, plane, state) else { continue };
+                let own = self.points[first..first + count].iter_mut().zip(&all);
+                own.for_each(|(peaks, value)| add_signed(&mut peaks[plane], row, *value));
+                for (index, at) in &under {
+                    add_signed(&mut self.under[*at][plane], row, all[count + index]);
                 }
+                let size = &mut self.sizes[FORCES + plane];
+                *size = all.iter().fold(*size, |most, value| most.max(value.abs()));
             }
             first += count;
         }
@@ -165,6 +191,11 @@ impl Scan {
 fn add(peaks: &mut ForcePeaks, sizes: &mut [f64], row: usize, values: &[f64; FORCES]) {
     for ((own, size), value) in peaks.iter_mut().zip(sizes).zip(values) {
         *size = size.max(value.abs());
-        own.iter_mut().zip(SIGNS).for_each(|(peak, sign)| peak.add(row, sign * value));
+        add_signed(own, row, *value);
     }
+}
+
+/// Adds a value to the peaks of the largest and of the smallest values.
+fn add_signed(peaks: &mut [Peak; 2], row: usize, value: f64) {
+    peaks.iter_mut().zip(SIGNS).for_each(|(peak, sign)| peak.add(row, sign * value));
 }

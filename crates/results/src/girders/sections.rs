@@ -45,7 +45,23 @@ impl RailSpans {
         [from.map_or(self.range[0], |x| *x), to.map_or(self.range[1], |x| *x)]
     }
 
-    fn slack(&self) -> f64 {
+    /// The spans in which a coordinate lies; two at the end that they have in common.
+    pub fn spans_at(&self, x: f64) -> impl Iterator<Item = usize> + '_ {
+        (0..=self.ends.len()).filter(move |span| {
+            let [from, to] = self.bounds(*span);
+            from < to && from <= x && x <= to
+        })
+    }
+
+    /// The sections beside a coordinate, or the coordinate itself at an end of the rail.
+    pub fn neighbours(&self, x: f64) -> [f64; 2] {
+        let before = self.places.iter().rev().find(|place| **place < x);
+        let after = self.places.iter().find(|place| **place > x);
+        [before.map_or(x, |place| *place), after.map_or(x, |place| *place)]
+    }
+
+    /// Differences of coordinates that count as rounding.
+    pub fn slack(&self) -> f64 {
         ROUNDING * (self.range[1] - self.range[0])
     }
 }

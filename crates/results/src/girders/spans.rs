@@ -2,15 +2,11 @@
 
 use trains::SectionSide;
 
+use super::deflections::Wanted;
 use super::distributed::FORCES;
 use super::peaks::{Peak, largest};
-use super::refine::{EVALUATIONS, GirderValue, Refinement, is_moment, offer};
+use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
 use super::scan::{SIGNS, Scan};
-
-/// Rounds of refinement over time and along the girder in turn.
-const ROUNDS: usize = 3;
-/// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
-const NEAR: f64 = 0.05;
 
 /// The largest or smallest value of one quantity over a span.
 #[derive(Clone, Copy, Debug)]
@@ -39,7 +35,7 @@ impl Refinement<'_> {
                     for kind in 0..2 {
                         let found = match quantity.checked_sub(FORCES) {
                             None => self.span_force(rail, span, quantity, kind),
-                            Some(plane) => self.span_deflection(rail, span, plane, kind),
+                            Some(plane) => self.span_deflection(Wanted { rail, span, plane, kind }),
                         };
                         out.extend(found.map(|found| SpanValue { rail, span, quantity, kind, found }));
                     }
@@ -140,7 +136,7 @@ impl Refinement<'_> {
         let outline = &girders.sections.rails[rail];
         let ends = girders.members.members().nth(member)?.x;
         let bounds = outline.bounds(span);
-        let neighbours = neighbours(&outline.places, from.x);
+        let neighbours = outline.neighbours(from.x);
         let near = [neighbours[0].max(ends[0]).max(bounds[0]), neighbours[1].min(ends[1]).min(bounds[1])];
         let value = |x: f64, position: f64| {
             let place = girders.members.place(member, x);
@@ -166,52 +162,4 @@ impl Refinement<'_> {
         }
         Some(found)
     }
-
-    /// The largest of sign times the deflection over a span.
-    fn span_deflection(&self, rail: usize, span: usize, plane: usize, kind: usize) -> Option<GirderValue> {
-        let (girders, sections) = (self.girders, self.girders.sections);
-        let outline = &sections.rails[rail];
-        let [from, to] = outline.bounds(span);
-        let own = (0..sections.points.len()).filter(|at| {
-            let point = sections.points[*at];
-            point.rail == rail && point.x >= from && point.x <= to
-        });
-        let at = own.max_by(|a, b| {
-            let height = |at: &usize| self.scan.points[*at][plane][kind].height;
-            // of equal heights the first one counts
-            height(a).total_cmp(&height(b)).then(b.cmp(a))
-        })?;
-        let mut found = self.point(at, plane, kind)?;
-        let near = neighbours(&outline.places, found.x);
-        let near = [near[0].max(from), near[1].min(to)];
-        for _ in 0..ROUNDS {
-            let state = girders.states.at(found.position);
-            let (signed, x) = largest(near, EVALUATIONS, &mut |x| {
-                girders.deflections(rail, &[x], plane, &state).map_or(0.0, |all| SIGNS[kind] * all[0])
-            });
-            if signed <= found.signed {
-                break;
-            }
-            let gain = signed - found.signed;
-            found = GirderValue { signed, x, ..found };
-            let (signed, position) =
-                self.near_in_time(found.position, girders.deflection_stride, &mut |position| {
-                    SIGNS[kind] * girders.deflection(rail, x, plane, position)
-                });
-            if signed > found.signed {
-                found = GirderValue { signed, position, ..found };
-            }
-            if gain <= 1e-3 * self.accuracy * self.size(FORCES + plane) {
-                break;
-            }
-        }
-        Some(found)
-    }
-}
-
-/// The places beside a coordinate.
-fn neighbours(places: &[f64], x: f64) -> [f64; 2] {
-    let before = places.iter().rev().find(|place| **place < x);
-    let after = places.iter().find(|place| **place > x);
-    [before.map_or(x, |place| *place), after.map_or(x, |place| *place)]
 }
