@@ -22,6 +22,7 @@ the exit status is 1 if PyCBA exceeds an exact extreme by more than 1e-9 of the 
 """
 
 import argparse
+import contextlib
 import importlib
 import json
 import random
@@ -181,7 +182,9 @@ def main():
         sizes["moment min"] = sizes["moment max"]
         for name, module, run in peers:
             begin = time.perf_counter()
-            found = run(module, spans, stiffness, axles, weights, args.osp_step)
+            # ospgrillage writes its library of materials into the working folder
+            with tempfile.TemporaryDirectory() as folder, contextlib.chdir(folder):
+                found = run(module, spans, stiffness, axles, weights, args.osp_step)
             taken = time.perf_counter() - begin
             seconds[name] += taken
             signs = {"moment max": 1, "moment min": -1, "shear": 1}

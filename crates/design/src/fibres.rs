@@ -4,7 +4,8 @@ use fea::{CrossSection, Model};
 use formats::design::LateralSection;
 use formats::spec::{OutlineShape, SectionOutline, SectionPlates, Spec};
 
-use crate::placed::{cross, dot, unit};
+use crate::placed::unit;
+use formats::vector::{cross, dot};
 
 /// Sine of the largest angle between a local axis and the plane of up and the rail that counts as rounding.
 const UPRIGHT: f64 = 1e-6;

@@ -1,6 +1,7 @@
 //! Trains where they stand in a state: the loads on the rails, and where rails lie beside each other.
 
 use fea::Rail;
+use formats::vector::{cross, dot, minus};
 use trains::{RailLoad, TrainCase, TrainPosition};
 
 /// Directions and places of the rails of a structure.
@@ -100,20 +101,6 @@ pub(crate) fn with_twins(rails: &[Rail], lines: &RailLines, eccentric: bool) -> 
         }
     }
     all
-}
-
-/// Scalar product.
-pub(crate) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-/// Vector product.
-pub(crate) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// The vector made a unit vector; readers refuse axes without a length.

@@ -5,8 +5,9 @@
 
 use formats::design::{Design, DesignCase};
 use formats::units::{Dimension, Scale, Units};
+use formats::vector::dot;
 use practice::limits::LimitedDisplacement;
-use splines::{Axis, Compliance, ExactSurface, Influence, Probe};
+use splines::{Axis, Compliance, ExactSurface, Probe};
 use trains::{Error, GirderResponse, Governing, RailLoad, Structure, TrainCase};
 
 use crate::outcome::{LimitCheck, RailPairResponse, SolvedCase};
@@ -16,6 +17,9 @@ use crate::stresses::span_of;
 /// Largest sine of the angle between rails that count as parallel.
 const PARALLEL: f64 = 1e-9;
 
+/// Of values that differ by no more than this fraction the first counts.
+const TIE: f64 = 1e-12;
+
 /// Pairs of rails on which a train of the case stands.
 fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2]> {
     let stands_on =
@@ -24,8 +28,8 @@ fn pairs(design: &Design, case: &DesignCase, lines: &RailLines) -> Vec<[usize; 2
     for a in 0..lines.count() {
         for b in a + 1..lines.count() {
             let [x, _, z] = lines.axes(a);
-            let aside: f64 = x.iter().zip(lines.axes(b)[2]).map(|(p, q)| p * q).sum();
-            let apart: f64 = z.iter().zip(lines.axes(b)[0]).map(|(p, q)| p * q).sum();
+            let aside = dot(x, lines.axes(b)[2]);
+            let apart = dot(z, lines.axes(b)[0]);
             let is_parallel = aside.abs() < PARALLEL && apart.abs() < PARALLEL;
             let both = case.trains.iter().any(|&train| stands_on(train, a) && stands_on(train, b));
             if both && is_parallel && lines.distance(a, b) != 0.0 {
@@ -140,7 +144,7 @@ impl Moved<'_> {
             let x = pair.map(|to| self.lines.on(to, self.lines.opposite(rail, to, governing.x)));
             let [Some(a), Some(b)] = x else { continue };
             let value = self.difference(pair, [a, b], axis, &self.lines.loads(case, &governing.trains))?;
-            if best.as_ref().is_none_or(|(most, ..)| value.abs() > most.abs()) {
+            if best.as_ref().is_none_or(|(most, ..)| value.abs() > (1.0 + TIE) * most.abs()) {
                 best = Some((value, a, governing.clone()));
             }
         }
@@ -155,21 +159,19 @@ impl Moved<'_> {
         axis: Axis,
         loads: &[RailLoad],
     ) -> Result<f64, Error> {
-        let mut probes = vec![Probe { rail: a, x: x[0], axis }, Probe { rail: b, x: x[1], axis }];
+        let at = [Probe { rail: a, x: x[0], axis }, Probe { rail: b, x: x[1], axis }];
         let mut forces = Vec::new();
         for load in loads {
-            for (k, along) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().enumerate() {
-                if load.force[k] != 0.0 && self.structure.frame().resists(load.rail, along) {
-                    probes.push(Probe { rail: load.rail, x: load.x, axis: along });
-                    forces.push(load.force[k]);
+            for (axis, force) in
+                [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
+            {
+                if force != 0.0 && self.structure.frame().resists(load.rail, axis) {
+                    forces.push((Probe { rail: load.rail, x: load.x, axis }, force));
                 }
             }
         }
-        let mut influence = Influence::zeros(probes.len());
-        self.surface.fill(&probes, &mut influence)?;
-        let moved = [0, 1].map(|row| -> f64 {
-            forces.iter().enumerate().map(|(k, force)| influence.value[(row, k + 2)] * force).sum()
-        });
+        let mut moved = [0.0; 2];
+        self.surface.displacements(&at, &forces, &mut moved)?;
         let apart = moved[1] - moved[0];
         Ok(match axis {
             Axis::Vertical => -apart,

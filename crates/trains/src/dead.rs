@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 use splines::Probe;
 
 use crate::error::Error;
+use crate::kernel::RailPoint;
 use crate::line::Lines;
 use crate::polynomial::Polynomial;
 use crate::structure::{
@@ -192,7 +193,7 @@ impl Structure {
         out: &mut [DeadLoad],
     ) -> Result<(), Error> {
         for (carrier, load) in carriers.iter().zip(out) {
-            let interior = self.interior_motion(carrier, load);
+            let interior = self.interior_motion(carrier, load)?;
             for (direction, quantity) in DEFLECTIONS.into_iter().enumerate() {
                 let (axis, sign) = deflection_axis(quantity);
                 if !self.rails[carrier.rail].resists[axis.component()] {
@@ -226,7 +227,7 @@ impl Structure {
     }
 
     /// Motion of the rail between the ends of a carrier that are held in place, by powers of the distance; global.
-    fn interior_motion(&self, carrier: &Carrier, load: &DeadLoad) -> [Vector3<f64>; 5] {
+    fn interior_motion(&self, carrier: &Carrier, load: &DeadLoad) -> Result<[Vector3<f64>; 5], Error> {
         let [t, u, z] = carrier.triad;
         let section = &self.model.sections[self.model.members[carrier.member].section];
         let theory: BeamTheory = self.model.theory;
@@ -260,15 +261,10 @@ impl Structure {
         }
         let twist = load.forces[GirderResponse::Torsion as usize][1];
         if twist != 0.0 && flexibility.torsion.is_finite() {
-            let stretch = self.rails[carrier.rail].stretches.iter().find(|s| s.element == carrier.element);
-            let offset = stretch
-                .and_then(|_| self.frame.line().ok())
-                .map_or([0.0; 3], |line| line.elements()[carrier.element].offset);
-            let axes = &self.rails[carrier.rail].axes;
-            let arm = axes[0] * offset[0] + axes[1] * offset[1] + axes[2] * offset[2];
+            let arm = RailPoint::new(self, carrier)?.arm;
             add(t.cross(&arm), [twist * flexibility.torsion, 0.0, 0.0]);
         }
-        out
+        Ok(out)
     }
 }
 

@@ -19,7 +19,8 @@ use crate::overrun::Overrun;
 use crate::plan::{Arrangement, CasePlan};
 use crate::rail_deflection::CarrierLines;
 use crate::search::{Bend, Margin, Search};
-use crate::structure::{Carrier, DEFLECTIONS, GirderResponse, OnMember, Structure};
+use crate::section::Passage;
+use crate::structure::{Carrier, DEFLECTIONS, GirderResponse, Structure};
 use crate::train::{COMPONENTS, PlacedTrain};
 use crate::under_wheels::UnderWheels;
 
@@ -244,8 +245,7 @@ impl Deflections<'_> {
         let point = RailPoint::new(self.structure, self.carrier)?;
         let [t, u, z] = self.carrier.triad;
         let [_, y_axis, z_axis] = point.axes;
-        let direction = point.directions[direction];
-        let along = |v: &Vector3<f64>| negligible(v.dot(&direction));
+        let along = |v: &Vector3<f64>| negligible(v.dot(&point.directions[direction]));
         // Moments and shear forces about and along the axes of the section are at most the sums of their projections.
         let mut project = |plane: [GirderResponse; 2], axis: &Vector3<f64>, other: [&Vector3<f64>; 2]| {
             most(plane[0]) * negligible(axis.dot(other[0])) + most(plane[1]) * negligible(axis.dot(other[1]))
@@ -265,47 +265,12 @@ impl Deflections<'_> {
             + along(&t.cross(&point.arm)) * twisted * rate(GirderResponse::Torsion)
             + along(&t) * stretched * rate(GirderResponse::Normal);
         let scale = self.carrier.rate();
-        let mut kinks = 0.0;
-        for stances in &self.plan.trains {
-            let sum = |train: &PlacedTrain| -> f64 {
-                self.loads_on(train).iter().map(|load| jump_of_slope(&point, load, &direction)).sum()
-            };
-            kinks += stances.iter().map(sum).fold(0.0, f64::max);
-        }
+        let of_train = |stances: &Vec<Passage>| {
+            stances.iter().map(|passage| passage.on.kinks(direction)).fold(0.0, f64::max)
+        };
+        let kinks: f64 = self.over.passages.iter().map(of_train).sum();
         Ok(Bend { curvature: curvature * scale * scale, kinks: kinks * scale })
     }
-
-    /// Force and couple about the axis of the member of the carrier from each wheel that can stand on it, global.
-    fn loads_on(&self, train: &PlacedTrain) -> Vec<[Vector3<f64>; 2]> {
-        let mut out = Vec::new();
-        for OnMember { stretch, .. } in self.structure.on_member(self.carrier) {
-            for wheel in train.wheels.iter().filter(|wheel| wheel.rail == stretch.rail) {
-                let mut total = [Vector3::zeros(); 2];
-                for (component, load) in wheel.load.iter().enumerate().filter(|(_, load)| **load != 0.0) {
-                    if let Ok(unit) = self.structure.load(stretch, component) {
-                        total.iter_mut().zip(unit).for_each(|(sum, unit)| *sum += unit * *load);
-                    }
-                }
-                out.push(total);
-            }
-        }
-        out
-    }
-}
-
-/// Jump of the slope of a deflection at a load. A couple in a plane of bending makes the moment jump, and with it only the
-/// curvature.
-fn jump_of_slope(point: &RailPoint, [force, couple]: &[Vector3<f64>; 2], direction: &Vector3<f64>) -> f64 {
-    let [t, y_axis, z_axis] = point.axes;
-    let [twisted, bending_y, bending_z] = point.bending;
-    let [stretched, sheared_y, sheared_z] = point.shear;
-    let sheared = force.dot(&y_axis) * y_axis * sheared_y + force.dot(&z_axis) * z_axis * sheared_z;
-    let turned = couple.dot(&t) * twisted * t
-        + couple.dot(&z_axis) * bending_z * z_axis
-        + couple.dot(&y_axis) * bending_y * y_axis;
-    let size = force.norm() * (sheared_y + sheared_z + stretched) + turned.norm() * point.arm.norm();
-    let slope = (sheared + force.dot(&t) * stretched * t + turned.cross(&point.arm)).dot(direction);
-    if slope.abs() > 1e-12 * size { slope.abs() } else { 0.0 }
 }
 
 /// Size of a component of a unit vector, 0 where it is only rounding.

@@ -5,7 +5,7 @@
 //! moments by (s - s_k) times the jump of the shear. Loads may stand anywhere; nothing is sampled along the member.
 
 use crate::error::Error;
-use crate::line::LineCell;
+use crate::line::{LineCell, value_of_cubic};
 use crate::section::slope_index;
 use crate::structure::{Carrier, OnMember, QUANTITIES, Structure};
 use fea::{Effect, Model, Rail};
@@ -181,8 +181,8 @@ impl MemberForces {
             let mut is_felt = false;
             for k in (0..3).filter(felt) {
                 is_felt = true;
-                for (sum, [a, b, c, d]) in own.iter_mut().zip(&cell.cubics[k]) {
-                    *sum += load.force[k] * (a + t * (b + t * (c + t * d)));
+                for (sum, cubic) in own.iter_mut().zip(&cell.cubics[k]) {
+                    *sum += load.force[k] * value_of_cubic(cubic, t);
                 }
                 if let Some(element) = element {
                     jump.iter_mut().zip(element.jumps[k]).for_each(|(sum, a)| *sum += load.force[k] * a);

@@ -13,6 +13,9 @@ use nalgebra::Vector3;
 use crate::error::Error;
 use crate::structure::{Carrier, DEFLECTIONS, Structure, deflection_axis};
 
+/// Slopes below this fraction of their parts are rounding.
+const ROUNDING: f64 = 1e-12;
+
 /// K(d) = k1 d + k2 d^2 + k3 d^3, a deflection by the distance d behind a load.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Kernel([f64; 3]);
@@ -98,6 +101,11 @@ impl RailPoint {
             turned.cross(&t) * 0.5 + bent.cross(&self.arm) * 0.5,
             bent.cross(&t) / 6.0,
         ];
-        self.directions.map(|direction| Kernel(powers.map(|power| power.dot(&direction))))
+        // A slope that is only rounding is none: the rail has no kink under this load.
+        let size = force.norm() * self.shear.iter().sum::<f64>() + turned.norm() * self.arm.norm();
+        self.directions.map(|direction| {
+            let [slope, second, third] = powers.map(|power| power.dot(&direction));
+            Kernel([if slope.abs() > ROUNDING * size { slope } else { 0.0 }, second, third])
+        })
     }
 }

@@ -87,6 +87,11 @@ pub(crate) fn bound_of_cubic([a, b, c, d]: &[f64; 4], h: f64) -> f64 {
     inner.max(*a).max(a + b + c + d)
 }
 
+/// The value of a cubic.
+pub(crate) fn value_of_cubic([a, b, c, d]: &[f64; 4], t: f64) -> f64 {
+    a + t * (b + t * (c + t * d))
+}
+
 /// The cubic c(x + t).
 pub(crate) fn shifted([a, b, c, d]: &[f64; 4], t: f64) -> [f64; 4] {
     [a + t * (b + t * (c + t * d)), b + t * (2.0 * c + t * (3.0 * d)), c + 3.0 * t * d, *d]

@@ -5,7 +5,7 @@ use fea::{Effect, ForceComponent};
 use crate::error::Error;
 use crate::extremes::TrainPosition;
 use crate::follow::SectionSide;
-use crate::line::{LineCell, Lines};
+use crate::line::{LineCell, Lines, value_of_cubic};
 use crate::structure::{GirderResponse, QUANTITIES, Structure};
 use crate::train::{COMPONENTS, Train};
 
@@ -40,8 +40,7 @@ impl InfluenceLine {
         };
         let count = self.pieces.iter().take_while(is_before).count();
         let (ends, cubic) = &self.pieces[count.saturating_sub(1)];
-        let t = x.clamp(ends[0], ends[1]) - ends[0];
-        cubic.iter().rev().fold(0.0, |sum, c| sum * t + c)
+        value_of_cubic(cubic, x.clamp(ends[0], ends[1]) - ends[0])
     }
 
     /// First and last coordinate; `None` for a rail without length.
@@ -60,7 +59,7 @@ impl InfluenceLine {
             let parts = ((to - from) / step).ceil().clamp(1.0, 1e4) as usize;
             for k in 0..=parts {
                 let t = (to - from) * k as f64 / parts as f64;
-                let value = cubic.iter().rev().fold(0.0, |sum, c| sum * t + c);
+                let value = value_of_cubic(cubic, t);
                 let point = [if k == parts { *to } else { from + t }, value];
                 let is_repeated = |last: &[f64; 2]| k == 0 && (last[1] - value).abs() <= ROUNDING * size;
                 if !out.last().is_some_and(is_repeated) {

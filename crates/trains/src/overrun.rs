@@ -17,8 +17,8 @@ pub(crate) struct Overrun {
     /// By response and train: the stances that differ. A lateral force, for instance, does not change a vertical moment,
     /// whatever its sign.
     distinct: Vec<Vec<Vec<usize>>>,
-    /// Bounds of the responses by train and stance.
-    bounds: Vec<Vec<Bounds>>,
+    /// Bounds of the responses to a single train, by stance; none for several.
+    bounds: Vec<Bounds>,
 }
 
 impl Overrun {
@@ -47,8 +47,10 @@ impl Overrun {
             false => vec![Vec::new(); passages.len()],
         };
         let distinct = (0..GirderResponse::ALL.len()).map(distinct).collect();
-        let bounds = |stances: &Vec<Passage>| stances.iter().map(|p| Bounds::new(p, first)).collect();
-        let bounds = passages.iter().map(bounds).collect();
+        let bounds = match &passages[..] {
+            [stances] => stances.iter().map(|passage| Bounds::new(passage, first)).collect(),
+            _ => Vec::new(),
+        };
         Ok(Overrun { passages, distinct, bounds })
     }
 
@@ -73,7 +75,7 @@ impl Overrun {
 
     /// Bounds of the responses to a single train in a stance.
     pub fn bounds(&self, stance: usize) -> &Bounds {
-        &self.bounds[0][stance]
+        &self.bounds[stance]
     }
 
     /// The stances of a train that differ in response k.
@@ -81,31 +83,12 @@ impl Overrun {
         &self.distinct[k][train]
     }
 
-    /// Response k of the section at place s to each train, in the stances that differ, without the pieces that cannot
-    /// take part where sign times the response to all trains reaches `floor`.
-    fn responses(&self, k: usize, sign: f64, s: f64, floor: f64) -> Responses {
-        let most = |train: usize| {
-            let stances = self.distinct[k][train].iter();
-            let all = stances.flat_map(|&stance| self.bounds[train][stance].near(k, sign, s));
-            all.copied().fold(f64::NEG_INFINITY, f64::max)
+    /// Response k of the section at place s to each train, in the stances that differ.
+    fn responses(&self, k: usize, s: f64) -> Responses {
+        let of = |(stances, distinct): (&Vec<Passage>, &Vec<usize>)| {
+            distinct.iter().map(|&stance| (stance, stances[stance].response(k, s))).collect()
         };
-        let most: Vec<f64> = (0..self.passages.len()).map(most).collect();
-        let all: f64 = most.iter().sum();
-        let rounding = TIE * most.iter().map(|bound| bound.abs()).sum::<f64>();
-        let of = |(train, stances): (usize, &Vec<Passage>)| {
-            let least = floor - (all - most[train]) - rounding;
-            let own = |&stance: &usize| {
-                let mut pieces = Vec::new();
-                for (piece, &bound) in self.bounds[train][stance].near(k, sign, s).iter().enumerate() {
-                    if floor == f64::NEG_INFINITY || bound >= least {
-                        stances[stance].parts(piece, k, s, |part| pieces.push(part));
-                    }
-                }
-                (stance, pieces)
-            };
-            self.distinct[k][train].iter().map(own).collect()
-        };
-        self.passages.iter().enumerate().map(of).collect()
+        self.passages.iter().zip(&self.distinct[k]).map(of).collect()
     }
 
     /// Sign times response k at place s with the trains at the positions of an arrangement for another section.
@@ -136,7 +119,8 @@ impl Overrun {
         let lower = |value: f64| value - 2.0 * TIE * value.abs();
         let [stances] = &self.passages[..] else {
             let floor = hint.map_or(f64::NEG_INFINITY, |hint| lower(self.value_at(k, sign, s, hint)));
-            let found = |floor: f64| plan.best(&self.responses(k, sign, s, floor), sign, floor);
+            let responses = self.responses(k, s);
+            let found = |floor: f64| plan.best(&responses, sign, floor);
             return found(floor).or_else(|| found(f64::NEG_INFINITY));
         };
         // The piece of the hint, or the one with the largest bound, shows what is reached at least.
@@ -148,7 +132,7 @@ impl Overrun {
         let search = |floor: f64| {
             let mut best: Option<(f64, Standing)> = None;
             for &stance in &self.distinct[k][0] {
-                for (piece, &bound) in self.bounds[0][stance].near(k, sign, s).iter().enumerate() {
+                for (piece, &bound) in self.bounds[stance].near(k, sign, s).iter().enumerate() {
                     if !can_exceed(&best, bound, floor) {
                         continue;
                     }
@@ -167,7 +151,7 @@ impl Overrun {
     /// The stance and the piece with the largest bound of sign times response k around place s under a single train.
     fn most_promising(&self, k: usize, sign: f64, s: f64) -> Option<(usize, usize)> {
         let of = |&stance: &usize| {
-            let bounds = self.bounds[0][stance].near(k, sign, s).iter().enumerate();
+            let bounds = self.bounds[stance].near(k, sign, s).iter().enumerate();
             bounds
                 .map(|(piece, bound)| ([stance, piece], *bound))
                 .reduce(|a, b| if b.1 > a.1 { b } else { a })
@@ -183,7 +167,7 @@ impl Overrun {
         let stances = self.distinct[k][0].iter();
         let all = stances
             .flat_map(|&stance| (0..self.passages[0][stance].pieces.list.len()).map(move |p| [stance, p]));
-        all.filter(|[stance, piece]| self.bounds[0][*stance].over_all(k, sign, *piece) > floor).collect()
+        all.filter(|[stance, piece]| self.bounds[*stance].over_all(k, sign, *piece) > floor).collect()
     }
 
     /// Response k at place s in an arrangement, without dead load.

@@ -1,6 +1,6 @@
 //! Responses to a train as piecewise cubics in its position.
 
-use crate::line::{LineCell, Lines, bound_of_cubic, cell_at, shifted};
+use crate::line::{LineCell, Lines, bound_of_cubic, cell_at, shifted, value_of_cubic};
 use crate::polynomial::{Polynomial, largest_of_cubic};
 use crate::train::{COMPONENTS, PlacedTrain};
 
@@ -37,8 +37,7 @@ impl ResponsePiece {
 
     /// Value at a position.
     pub fn at(&self, position: f64) -> f64 {
-        let t = position - self.position[0];
-        self.cubic.iter().rev().fold(0.0, |sum, c| sum * t + c)
+        value_of_cubic(&self.cubic, position - self.position[0])
     }
 
     /// A factor times the response.

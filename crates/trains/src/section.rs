@@ -132,6 +132,11 @@ impl TrainOnCarrier {
         self.reaching().map(move |(mapping, wheel)| mapping.changes[wheel].jump[k])
     }
 
+    /// Sum of the jumps of the slope of a deflection under all wheels that can stand on the member.
+    pub fn kinks(&self, direction: usize) -> f64 {
+        self.reaching().map(|(mapping, wheel)| mapping.changes[wheel].kernels[direction].slope().abs()).sum()
+    }
+
     /// The rails of the member on which wheels of the train can stand.
     pub fn reached_rails(&self) -> impl Iterator<Item = usize> {
         self.reaching().map(|(mapping, _)| mapping.rail)

@@ -1,10 +1,10 @@
-//! Figures of a design: envelopes along its rails; units and digits in which engineers read values.
+//! Figures of a design: envelopes along its rails; values, units and positions as engineers read them.
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
 use formats::units::{Dimension, Force, Length, Scale, Units};
-use trains::GirderResponse;
+use trains::{GirderResponse, Governing};
 
 /// Unit in which engineers read deflections, and its factor from `units`.
 pub(crate) fn deflection_unit(units: Units) -> (&'static str, f64) {
@@ -51,6 +51,15 @@ pub(crate) fn with_unit(value: &str, unit: &str) -> String {
 /// A number in a few significant digits.
 pub(crate) fn digits(value: f64, count: usize) -> String {
     crate::number(value, count).unwrap_or_default()
+}
+
+/// Positions of the trains of a state, turned ones marked.
+pub(crate) fn positions(governing: &Governing) -> String {
+    let each = governing.trains.iter().map(|train| {
+        let turned = if train.stance.turned { " turned" } else { "" };
+        format!("{}{turned}", digits(train.position, 4))
+    });
+    each.collect::<Vec<_>>().join("; ")
 }
 
 /// Charts of the envelopes of a case along a rail, in the order of an engineer's interest; quantities that are zero are

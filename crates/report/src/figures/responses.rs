@@ -38,27 +38,42 @@ pub fn response_charts(
     figures
 }
 
-/// Reactions of the ground in each direction over time: the largest ones of the first run, and a few in all runs.
-fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Vec<RunFigure> {
-    let scene = run.scene;
-    let mut figures = Vec::new();
-    // reactions of structures on a body are not reactions of the ground
+/// Whether a column is a reaction of the ground: those of structures on a body are not.
+pub(crate) fn ground_reactions(scene: &Scene) -> impl Fn(&Column) -> bool {
     let carried: Vec<String> = scene
         .structures
         .iter()
         .filter(|structure| structure.carrier.is_some())
         .map(|structure| format!("{}.", structure.name))
         .collect();
-    let is_ground = |column: &&Column| {
+    move |column| {
         column.kind == Kind::Reaction && !carried.iter().any(|structure| column.name.starts_with(structure))
-    };
-    let forces = response.columns.iter().filter(is_ground).filter(|column| column.direction.is_some());
+    }
+}
+
+/// Coordinates of the supports of a rail; none for a structure of tables, or one whose model cannot be made.
+pub(crate) fn supports(scene: &Scene, rail: usize) -> Vec<f64> {
+    let rail = &scene.rails[rail];
+    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return Vec::new() };
+    spec.model().map_or_else(|_| Vec::new(), |(model, rails)| spec.spans(&model, &rails, rail.rail))
+}
+
+/// Reactions of the ground in each direction over time: the largest ones of the first run, and a few in all runs.
+fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Vec<RunFigure> {
+    let scene = run.scene;
+    let mut figures = Vec::new();
+    let is_ground = ground_reactions(scene);
+    let forces = response
+        .columns
+        .iter()
+        .filter(|column| is_ground(column))
+        .filter(|column| column.direction.is_some());
     let most = forces.map(|column| largest_magnitude(run.record.values(&column.name))).fold(0.0, f64::max);
     for (toward, word) in [(Toward::Vertical, "vertical"), (Toward::Lateral, "lateral")] {
         let mut own: Vec<(f64, &Column)> = response
             .columns
             .iter()
-            .filter(is_ground)
+            .filter(|column| is_ground(column))
             .filter(|column| column.direction == Some(toward))
             .map(|column| (largest_magnitude(run.record.values(&column.name)), column))
             .filter(|(magnitude, _)| *magnitude > NEGLIGIBLE * most)
@@ -156,12 +171,7 @@ fn moments(run: &LabelledRun, girders: &GirderExtremes) -> Vec<RunFigure> {
         if largest.iter().chain(&smallest).all(|point| point[1] == 0.0) {
             continue;
         }
-        let supports = match &run.scene.structures[rail.structure].origin {
-            Origin::Spec { spec, .. } => spec
-                .model()
-                .map_or_else(|_| Vec::new(), |(model, rails)| spec.spans(&model, &rails, rail.rail)),
-            Origin::Tables { .. } => Vec::new(),
-        };
+        let supports = supports(run.scene, index);
         figures.push(moment_envelope(run, &rail.name, largest, smallest, &supports));
     }
     figures

@@ -125,14 +125,11 @@ fn deflected_rail(
     let places: Vec<f64> =
         (0..=4 * SAMPLES).map(|i| from + (to - from) * i as f64 / (4 * SAMPLES) as f64).collect();
     let probe = |x: f64| Probe { rail: 0, x, axis: Direction::Vertical };
-    let at: Vec<Probe> =
-        places.iter().map(|&x| probe(x)).chain(loads.iter().map(|&(x, _)| probe(x))).collect();
-    let mut influence = Influence::zeros(at.len());
-    surface.fill(&at, &mut influence)?;
-    let down = |i: usize| -> f64 {
-        loads.iter().enumerate().map(|(j, (_, force))| influence.value[(i, places.len() + j)] * force).sum()
-    };
-    Ok(places.iter().enumerate().map(|(i, &x)| [x, down(i)]).collect())
+    let at: Vec<Probe> = places.iter().map(|&x| probe(x)).collect();
+    let loads: Vec<(Probe, f64)> = loads.iter().map(|&(x, force)| (probe(x), force)).collect();
+    let mut down = vec![0.0; at.len()];
+    surface.displacements(&at, &loads, &mut down)?;
+    Ok(places.into_iter().zip(down).map(|(x, down)| [x, down]).collect())
 }
 
 /// Side view of the girder under `loads` (position, force), with the deflected `shape` of its rail.

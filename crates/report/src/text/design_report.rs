@@ -1,12 +1,12 @@
 //! The report of a design: the verdict first, then envelopes, reactions and inputs.
 
-use crate::figures::design::{deflection_unit, digits, envelope_charts, unit_of, with_unit};
+use crate::figures::design::{deflection_unit, digits, envelope_charts, positions, unit_of, with_unit};
 use crate::figures::influence_lines::influence_figure;
 use crate::text::design_basis::basis;
 use crate::text::design_codes::{codes, limits, sources};
 use crate::text::design_inputs::inputs;
 use crate::text::design_stresses::details;
-use crate::text::design_verdict::{DIGITS, positions, verdict};
+use crate::text::design_verdict::{DIGITS, verdict};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, GoverningLine, SolvedCase, load_word, plane_word, quantity_word};
 use formats::design::Design;

@@ -2,26 +2,18 @@
 
 use ::design::{DesignResult, StressCheck, WheelStress};
 use formats::design::{Design, LateralSection};
-use formats::units::{Dimension, Length, Scale, Units};
-use trains::Governing;
+use formats::units::{Dimension, Units};
 
-use crate::figures::design::{deflection_unit, digits};
+use crate::figures::design::{deflection_unit, digits, positions, reading_unit};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
 
 /// Unit of stresses for reading, and the factor from `units`.
-fn stress_unit(units: Units) -> (&'static str, f64) {
-    let (unit, to) = match units.length {
-        Length::Metre | Length::Millimetre => {
-            ("N/mm\u{b2}", Units { length: Length::Millimetre, force: formats::units::Force::Newton })
-        }
-        Length::Foot | Length::Inch => {
-            ("ksi", Units { length: Length::Inch, force: formats::units::Force::Kip })
-        }
-    };
-    (unit, Scale { from: units, to }.factor(Dimension::STRESS))
+fn stress_unit(units: Units) -> (String, f64) {
+    let (unit, factor) = reading_unit(units, Dimension::STRESS);
+    (unit.replace("kip/in\u{b2}", "ksi"), factor)
 }
 
 /// The largest utilisation in words; nothing where no stress was checked.
@@ -48,8 +40,8 @@ pub(super) fn governing_stresses(design: &Design, result: &DesignResult) -> Opti
         ("stress", ""),
         ("rail", ""),
         ("case", ""),
-        ("value", unit),
-        ("strength", unit),
+        ("value", unit.as_str()),
+        ("strength", unit.as_str()),
         ("utilisation", ""),
         ("x", length.as_str()),
         ("position of the train", length.as_str()),
@@ -123,15 +115,6 @@ fn table(caption: &str, columns: &[(&str, &str)]) -> ReportTable {
     }
 }
 
-/// Positions of the trains of a state, turned ones marked.
-fn positions(governing: &Governing) -> String {
-    let each = governing.trains.iter().map(|train| {
-        let turned = if train.stance.turned { " turned" } else { "" };
-        format!("{}{turned}", digits(train.position, DIGITS))
-    });
-    each.collect::<Vec<_>>().join("; ")
-}
-
 fn stresses(design: &Design, result: &DesignResult) -> ReportTable {
     let (unit, factor) = stress_unit(design.units);
     let length = design.units.label(Dimension::LENGTH);
@@ -140,10 +123,10 @@ fn stresses(design: &Design, result: &DesignResult) -> ReportTable {
         ("rail", ""),
         ("stress", ""),
         ("section", ""),
-        ("value", unit),
-        ("strength", unit),
+        ("value", unit.as_str()),
+        ("strength", unit.as_str()),
         ("utilisation", ""),
-        ("of N, vertical, lateral", unit),
+        ("of N, vertical, lateral", unit.as_str()),
         ("x", length.as_str()),
         ("position of the train", length.as_str()),
     ];
@@ -203,11 +186,11 @@ fn wheel_stresses(design: &Design, result: &DesignResult) -> ReportTable {
         ("crane rail on section", ""),
         ("largest wheel", force.as_str()),
         ("effective length", short),
-        ("vertical stress", unit),
+        ("vertical stress", unit.as_str()),
         ("of yield strength", ""),
-        ("local shear", unit),
-        ("with the girder's shear", unit),
-        ("cycles of a passage: vertical, shear", unit),
+        ("local shear", unit.as_str()),
+        ("with the girder's shear", unit.as_str()),
+        ("cycles of a passage: vertical, shear", unit.as_str()),
     ];
     let mut out = table("Local stresses in the web under a wheel, with the factors of the case", &columns);
     for found in &result.wheel_stresses {

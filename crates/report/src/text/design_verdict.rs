@@ -1,6 +1,6 @@
 //! The first page of a design: what governs, whether limits are kept, and on what the results rest.
 
-use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, with_unit};
+use crate::figures::design::{deflection_unit, digits, positions, reading_unit, unit_of, with_unit};
 use crate::figures::influence_lines::subject_words;
 use crate::figures::rail_sketch::RailSketch;
 use crate::text::design_codes::limits;
@@ -256,13 +256,4 @@ fn largest_horizontal<'r>(
     });
     all.filter(|(.., g)| g.value != 0.0)
         .reduce(|best, next| if next.2.value.abs() > best.2.value.abs() { next } else { best })
-}
-
-/// Positions of the trains of a state, turned ones marked.
-pub(super) fn positions(governing: &Governing) -> String {
-    let each = governing.trains.iter().map(|train| {
-        let turned = if train.stance.turned { " turned" } else { "" };
-        format!("{}{turned}", digits(train.position, DIGITS))
-    });
-    each.collect::<Vec<_>>().join("; ")
 }

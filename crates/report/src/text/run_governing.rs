@@ -1,9 +1,10 @@
 //! The table of governing values of a run, with the range of the other runs.
 
 use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, with_unit};
+use crate::figures::responses::ground_reactions;
 use crate::text::girders::{GOVERNING, largest};
 use crate::{ReportTable, TableCell, TableColumn};
-use formats::scene::columns::{Direction, Kind};
+use formats::scene::columns::Direction;
 use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
@@ -32,6 +33,23 @@ struct GoverningRow {
 }
 
 impl GoverningRow {
+    /// A row without place, text behind the value and other runs.
+    fn new(words: &str, (unit, factor): (&str, f64), value: f64, name: &str, time: f64) -> GoverningRow {
+        GoverningRow {
+            words: words.to_owned(),
+            unit: unit.to_owned(),
+            factor,
+            value,
+            more: String::new(),
+            name: name.to_owned(),
+            span: TableCell::Empty,
+            x: TableCell::Empty,
+            time,
+            others: Vec::new(),
+            size: 0.0,
+        }
+    }
+
     fn cells(self) -> Vec<TableCell> {
         let rounding = ROUNDING * self.size;
         let text =
@@ -90,18 +108,12 @@ fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<
         let found = largest(first, *quantity, *is_max)?;
         let (unit, factor) = unit_of(scene.units, *quantity);
         let same = others.iter().filter_map(|other| largest(other, *quantity, *is_max));
+        let name = &scene.rails[found.rail].name;
         Some(GoverningRow {
-            words: (*words).to_owned(),
-            unit,
-            factor,
-            value: found.value,
-            more: String::new(),
-            name: scene.rails[found.rail].name.clone(),
             span: TableCell::from(found.span),
             x: TableCell::from(digits(found.x, DIGITS)),
-            time: found.time,
             others: same.map(|found| found.value).collect(),
-            size: 0.0,
+            ..GoverningRow::new(words, (&unit, factor), found.value, name, found.time)
         })
     };
     GOVERNING.iter().filter_map(row).collect()
@@ -118,18 +130,12 @@ fn deflection_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> 
     let row = |direction: &str| {
         let (ratio, found) = worst(first, direction)?;
         let same = others.iter().filter_map(|other| worst(other, direction));
+        let words = format!("{direction} deflection from the chord");
         Some(GoverningRow {
-            words: format!("{direction} deflection from the chord"),
-            unit: unit.to_owned(),
-            factor,
-            value: found.value,
             more: format!(" = L/{ratio:.0}"),
-            name: found.rail.clone(),
-            span: TableCell::Empty,
             x: TableCell::from(digits(found.x, DIGITS)),
-            time: found.time,
             others: same.map(|(_, found)| found.value).collect(),
-            size: 0.0,
+            ..GoverningRow::new(&words, (unit, factor), found.value, &found.rail, found.time)
         })
     };
     ["vertical", "lateral"].into_iter().filter_map(row).collect()
@@ -162,18 +168,12 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
             .filter(|(value, ..)| part == "vertical" || value.abs() > ROUNDING * size)?;
         let name = &first.input.wheels[wheel].name;
         let x = first.columns.part(name, "x").get(row).copied();
+        let time = first.columns.values("time").get(row).copied().unwrap_or_default();
         Some(GoverningRow {
-            words: words.to_owned(),
-            unit: unit.clone(),
-            factor,
-            value,
-            more: String::new(),
-            name: name.clone(),
-            span: TableCell::Empty,
             x: x.map_or(TableCell::Empty, |x| TableCell::from(digits(x, DIGITS))),
-            time: first.columns.values("time").get(row).copied().unwrap_or_default(),
             others: others.iter().filter_map(|other| worst(other, part, sign)).map(|found| found.0).collect(),
             size,
+            ..GoverningRow::new(words, (&unit, factor), value, name, time)
         })
     };
     kinds.into_iter().filter_map(row).collect()
@@ -182,18 +182,12 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
 /// Largest and smallest vertical reaction, and the largest lateral one of either sign, of structures on the ground.
 fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
-    let carried: Vec<String> = scene
-        .structures
-        .iter()
-        .filter(|structure| structure.carrier.is_some())
-        .map(|structure| format!("{}.", structure.name))
-        .collect();
+    let is_ground = ground_reactions(scene);
     let worst = |outcome: &CaseResult, direction: Direction, sign: f64| {
         let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
         let mut best: Option<(f64, f64, String)> = None;
         for (column, envelope) in outcome.response.columns.iter().zip(&outcome.response.envelopes) {
-            let is_ground = !carried.iter().any(|structure| column.name.starts_with(structure));
-            if column.kind != Kind::Reaction || column.direction != Some(direction) || !is_ground {
+            if column.direction != Some(direction) || !is_ground(column) {
                 continue;
             }
             for extreme in [&envelope.max, &envelope.min] {
@@ -214,21 +208,13 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
         let (value, time, name) =
             worst(first, direction, sign).filter(|(value, ..)| value.abs() > ROUNDING * size)?;
         Some(GoverningRow {
-            words: words.to_owned(),
-            unit: unit.clone(),
-            factor,
-            value,
-            more: String::new(),
-            name,
-            span: TableCell::Empty,
-            x: TableCell::Empty,
-            time,
             others: others
                 .iter()
                 .filter_map(|other| worst(other, direction, sign))
                 .map(|found| found.0)
                 .collect(),
             size,
+            ..GoverningRow::new(words, (&unit, factor), value, &name, time)
         })
     };
     kinds.into_iter().filter_map(row).collect()

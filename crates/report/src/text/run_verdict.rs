@@ -3,9 +3,10 @@
 use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit, unit_of, with_unit};
 use crate::figures::rail_sketch::RailSketch;
+use crate::figures::responses::supports;
 use crate::text::girders::largest;
 use crate::text::run_governing::governing;
-use formats::scene::{Analysis, Document, Origin, Scene};
+use formats::scene::{Analysis, Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
 use results::girders::GirderExtreme;
@@ -119,9 +120,7 @@ fn checks(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
 /// The rail of an extreme with the wheels at its instant, and the caption.
 fn sketch(scene: &Scene, outcome: &CaseResult, found: &GirderExtreme) -> Option<(crate::chart::Svg, String)> {
     let rail = scene.rails.get(found.rail)?;
-    let Origin::Spec { spec, .. } = &scene.structures[rail.structure].origin else { return None };
-    let (model, rails) = spec.model().ok()?;
-    let supports = spec.spans(&model, &rails, rail.rail);
+    let supports = supports(scene, found.rail);
     let times = outcome.columns.values("time");
     let distance = |row: &usize| (times[*row] - found.time).abs();
     let row = (0..times.len()).min_by(|a, b| distance(a).total_cmp(&distance(b)))?;

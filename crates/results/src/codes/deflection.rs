@@ -13,7 +13,7 @@ use practice::limits::{
 };
 use serde_json::{Value, json};
 use sim::History;
-use splines::{Axis, Compliance, Influence, Probe};
+use splines::{Axis, Compliance, Probe};
 
 use super::crane::{CraneData, to_si};
 use crate::response::{Deflection, WheelLoad, WheelLoadReader};
@@ -258,22 +258,20 @@ impl Span {
         let mut places: Vec<f64> =
             (0..=PLACES + 1).map(|k| from + (to - from) * k as f64 / (PLACES + 1) as f64).collect();
         places.extend(wheels.iter().filter(|(load, _)| is_inside(load)).map(|(load, _)| load.x));
-        let mut at: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
-        let mut forces = Vec::new();
-        for (load, force) in wheels.iter().filter(|(load, _)| !lateral || load.rail == rail) {
-            at.push(Probe { rail: load.rail, x: load.x, axis });
-            forces.push(if lateral { LATERAL_FRACTION * force } else { 0.0 - force });
-        }
-        let mut influence = Influence::zeros(at.len());
-        surface.fill(&at, &mut influence).ok()?;
-        let moved = |i: usize| -> f64 {
-            let terms = forces.iter().enumerate();
-            terms.map(|(j, force)| influence.value[(i, places.len() + j)] * force).sum()
-        };
-        let (first, last) = (moved(0), moved(PLACES + 1));
+        let at: Vec<Probe> = places.iter().map(|&x| Probe { rail, x, axis }).collect();
+        let on = wheels.iter().filter(|(load, _)| !lateral || load.rail == rail);
+        let loads: Vec<(Probe, f64)> = on
+            .map(|(load, force)| {
+                let force = if lateral { LATERAL_FRACTION * force } else { 0.0 - force };
+                (Probe { rail: load.rail, x: load.x, axis }, force)
+            })
+            .collect();
+        let mut moved = vec![0.0; at.len()];
+        surface.displacements(&at, &loads, &mut moved).ok()?;
+        let (first, last) = (moved[0], moved[PLACES + 1]);
         let sags = places.iter().enumerate().map(|(i, &x)| {
             let fraction = (x - from) / (to - from);
-            let sag = (1.0 - fraction) * first + fraction * last - moved(i);
+            let sag = (1.0 - fraction) * first + fraction * last - moved[i];
             (x, if lateral { sag.abs() } else { sag })
         });
         sags.max_by(|a, b| a.1.total_cmp(&b.1))
