@@ -14,7 +14,7 @@ use crate::case_result::CaseResult;
 use crate::codes::{CodeCheck, SpanResponse};
 use crate::columns::NamedColumns;
 use crate::fatigue;
-use crate::girders;
+use crate::girders::{self, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
@@ -59,6 +59,7 @@ pub fn simulate(
 ) -> Result<Vec<CaseResult>, Error> {
     let cases = &document.cases;
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
+    let members = SolvedMembers::new(known);
     let outcomes = parallel_map(cases, threads, |index, case| {
         let mut watch = |t: f64| {
             // with "auto" a case is run several times, and its time starts again from zero in each run
@@ -67,7 +68,7 @@ pub fn simulate(
             progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)));
             ControlFlow::Continue(())
         };
-        run_case(case, known, &|trial| progress(SimulationProgress::Trial(trial)), &mut watch)
+        run_case(case, (known, &members), &|trial| progress(SimulationProgress::Trial(trial)), &mut watch)
     });
     outcomes.into_iter().collect()
 }
@@ -89,7 +90,7 @@ pub fn records_dofs(scene: &Scene, known: &[SolvedStructure]) -> impl Fn(usize, 
 /// Simulates one case and evaluates its run.
 fn run_case(
     case: &Case,
-    known: &[SolvedStructure],
+    (known, members): (&[SolvedStructure], &SolvedMembers<'_>),
     trial: &dyn Fn(&str),
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<CaseResult, Error> {
@@ -117,7 +118,7 @@ fn run_case(
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
     let mut response = Response::new(&scene, &input, &run.history, &built, &solved, &lines, &mut record)?;
-    let prepared = girders::Prepared::new(&scene, &built, &solved);
+    let prepared = girders::Prepared::new(&scene, &built, &solved, members);
     let mut foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
     for (s, foundation) in foundations.iter_mut().enumerate() {
         foundation.recorded = recorded(s, foundation);

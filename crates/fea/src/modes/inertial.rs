@@ -6,6 +6,7 @@ use splines::Probe;
 
 use crate::assembly::{BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation};
 use crate::error::Error;
+use crate::factor::SparseLoad;
 use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
 use crate::modes::interior::InteriorMotion;
@@ -46,8 +47,8 @@ struct InertiaForces {
 }
 
 impl FactoredFrame {
-    /// Effects of M a, M the consistent mass of the members and the rigid masses, supports included. One solve
-    /// for each effect.
+    /// Effects of M a, M the consistent mass of the members and the rigid masses, supports included. The frame is solved
+    /// once for each effect (its adjoint load) or once for each a, whichever are fewer.
     ///
     /// `m` is the model that the frame was made of; `modes` are modes of the same frame.
     ///
@@ -73,13 +74,27 @@ impl FactoredFrame {
             rigid: DMatrix::zeros(effects.len(), 6),
             modes: DMatrix::zeros(effects.len(), modes.len()),
         };
-        for (e, functional) in functionals.iter().enumerate() {
-            let motions = self.motions(&self.scaled_where_stiffened(&functional.strain));
-            for (k, forces) in rigid.iter().enumerate() {
-                out.rigid[(e, k)] = self.effect_of(m, functional, &motions, forces);
+        let all = [(&mut out.rigid, &rigid), (&mut out.modes, &shapes)];
+        if functionals.len() <= rigid.len() + shapes.len() {
+            let adjoint =
+                |functional: &Functional| self.motions(&self.scaled_where_stiffened(&functional.strain));
+            let adjoints: Vec<_> = functionals.iter().map(adjoint).collect();
+            for (values, forces) in all {
+                for (k, forces) in forces.iter().enumerate() {
+                    for (e, (functional, adjoint)) in functionals.iter().zip(&adjoints).enumerate() {
+                        values[(e, k)] = forces.work(adjoint) + self.held_effect(m, functional, forces);
+                    }
+                }
             }
-            for (k, forces) in shapes.iter().enumerate() {
-                out.modes[(e, k)] = self.effect_of(m, functional, &motions, forces);
+        } else {
+            for (values, forces) in all {
+                for (k, forces) in forces.iter().enumerate() {
+                    let motions = self.motions_under(forces);
+                    for (e, functional) in functionals.iter().enumerate() {
+                        let elastic = functional.strain.evaluate(&motions);
+                        values[(e, k)] = elastic + self.held_effect(m, functional, forces);
+                    }
+                }
             }
         }
         Ok(out)
@@ -105,12 +120,19 @@ impl FactoredFrame {
         let forces = self.inertia_forces(m, &[motion], |motion, body| {
             arm(&Vector3::from(m.points[reference(body)])) * motion
         });
-        let mut load = Combination::default();
-        for (body, force) in forces[0].on_bodies.iter().enumerate() {
-            (0..6).for_each(|k| load.add(6 * body + k, force[k]));
-        }
-        let motions = self.motions(&self.scaled_where_stiffened(&load));
+        let motions = self.motions_under(&forces[0]);
         at.iter().map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions))).collect()
+    }
+
+    /// Motions of the references of all bodies under forces M a.
+    fn motions_under(&self, forces: &InertiaForces) -> Vec<Vector6> {
+        let on_body = |(body, force): (usize, &Vector6)| {
+            let mut load = Combination::default();
+            (0..6).for_each(|k| load.add(6 * body + k, force[k]));
+            self.scaled_where_stiffened(&load)
+        };
+        let load: SparseLoad = forces.on_bodies.iter().enumerate().flat_map(on_body).collect();
+        self.motions(&load)
     }
 
     /// The forces M a for each of `all`; `motion` gives the acceleration of the reference of a body.
@@ -179,18 +201,11 @@ impl FactoredFrame {
         }
     }
 
-    /// An effect of forces M a: the motions of its adjoint solution times the forces, less what acts on it
-    /// directly, plus what the mass of its own member adds between the fixed ends.
-    fn effect_of(
-        &self,
-        m: &Model,
-        functional: &Functional,
-        motions: &[Vector6],
-        forces: &InertiaForces,
-    ) -> f64 {
-        let elastic: f64 = motions.iter().zip(&forces.on_bodies).map(|(u, f)| u.dot(f)).sum();
+    /// The part of an effect of forces M a that does not follow from the motions of the bodies: less what acts on the
+    /// effect directly, plus what the mass of its own member adds between the fixed ends.
+    fn held_effect(&self, m: &Model, functional: &Functional, forces: &InertiaForces) -> f64 {
         let own = functional.section.as_ref().map_or(0.0, |section| self.own_member(m, section, forces));
-        elastic - functional.direct.evaluate(&forces.on_bodies) + own
+        own - functional.direct.evaluate(&forces.on_bodies)
     }
 
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
@@ -226,6 +241,11 @@ impl FactoredFrame {
 }
 
 impl InertiaForces {
+    /// Work of the forces in motions of the bodies.
+    fn work(&self, motions: &[Vector6]) -> f64 {
+        motions.iter().zip(&self.on_bodies).map(|(motion, force)| motion.dot(force)).sum()
+    }
+
     /// Adds the forces on the mass of a member whose flexible ends move by `ends` with its two bodies;
     /// `mass` = ends^T M.
     fn add_member(

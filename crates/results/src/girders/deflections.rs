@@ -101,7 +101,7 @@ impl Refinement<'_> {
         let mut found = from;
         for _ in 0..ROUNDS {
             let state = girders.states.at(found.position);
-            let (signed, x) = largest(near, EVALUATIONS, &mut |x| {
+            let (signed, x) = largest(near, (found.signed, found.x), EVALUATIONS, &mut |x| {
                 girders
                     .deflections(rail, &[x], plane, &state)
                     .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])

@@ -1,14 +1,12 @@
 //! Internal forces due to what is distributed along members: the inertia of the structure and its dead load.
 //!
-//! Both are computed at nodes of each member under a rail by the effects of the frame ([`ColumnInfluence`]). Between the
+//! Both are computed at nodes of each member under a rail by the effects of the frame ([`crate::response::inertia`]). Between the
 //! nodes, shear, normal force and torsion are linear, and a moment is the cubic with the slopes of its shear.
 
-use formats::scene::columns::{Column, Kind};
-use formats::units::Dimension;
 use trains::{GirderResponse, MemberForces};
 
 use super::sections::Sections;
-use crate::response::{ColumnInfluence, ColumnTerm};
+use crate::response::{dead_load, inertia};
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Number of quantities of a section.
@@ -60,20 +58,19 @@ impl DistributedForces {
             node.places.dedup_by(|b, a| *b - *a <= 1e-9 * member.length);
             effects.extend(node.places.iter().flat_map(|place| members.effects(index, *place)));
         }
-        let column =
-            Column { name: String::new(), dimension: Dimension::FORCE, kind: Kind::Section, direction: None };
-        let terms = (0..effects.len()).map(|column| ColumnTerm { column, weight: 1.0 }).collect();
-        let frame = members.structure().frame();
-        let columns = vec![column; effects.len()];
-        let lines = ColumnInfluence::of(frame, solved, built, gravity, columns, &effects, terms)?;
+        let weight = match dead {
+            true => dead_load(members.structure().frame(), &solved.model, gravity, &effects)?,
+            false => vec![0.0; effects.len()],
+        };
+        let inertia = inertia(&effects, built.basis.as_ref(), solved)?;
         let mut first = 0;
         for (index, node) in nodes.iter_mut().enumerate() {
             for _ in 0..node.places.len() {
-                let own = std::array::from_fn(|k| if dead { lines.dead_load()[first + k] } else { 0.0 });
+                let own = std::array::from_fn(|k| weight[first + k]);
                 node.dead.push(members.quantities(index, own));
-                let rows: Vec<Vec<f64>> = (0..FORCES).map(|k| lines.per_acceleration(first + k)).collect();
-                let per_dof = (0..lines.dofs())
-                    .map(|dof| members.quantities(index, std::array::from_fn(|k| 0.0 - rows[k][dof])));
+                let per_dof = (0..inertia.ncols()).map(|dof| {
+                    members.quantities(index, std::array::from_fn(|k| 0.0 - inertia[(first + k, dof)]))
+                });
                 node.inertia.push(per_dof.collect());
                 first += FORCES;
             }

@@ -18,7 +18,7 @@
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
-//! Files, lowest first: peaks, instants, sections, distributed, girder, scan, refine, deflections, spans, structure, rows,
+//! Files, lowest first: solved, peaks, instants, sections, distributed, girder, scan, refine, deflections, spans, structure, rows,
 //! this one.
 
 mod deflections;
@@ -30,10 +30,12 @@ mod refine;
 mod rows;
 mod scan;
 mod sections;
+mod solved;
 mod spans;
 mod structure;
 
 pub(crate) use rows::{Prepared, of_run};
+pub(crate) use solved::SolvedMembers;
 
 use design::{plane_word, quantity_word, side_word};
 use formats::scene::Scene;

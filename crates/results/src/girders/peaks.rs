@@ -69,42 +69,78 @@ impl Peak {
     }
 }
 
-/// Ratio of the golden section.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
+/// The smaller part of the golden section.
+const GOLDEN: f64 = 0.381_966_011_250_105_1;
+/// Distance of two places at which values are compared, relative to the interval: the square of it is the relative error
+/// of a value at a smooth peak.
+const NEAR: f64 = 1e-6;
 
-/// The largest value of `function` between two places by golden section, with its place, after `count` evaluations.
-/// The ends count.
-pub(super) fn largest(ends: [f64; 2], count: usize, function: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
+/// The largest value of `function` between two places, with its place, after at most `count` evaluations between them.
+/// `known` is a place between them with its value, near the largest one as far as known. The ends count as well.
+///
+/// Each next place is the vertex of the parabola through the three best places so far; where that would leave the
+/// interval, or moves by more than half of the step before the last, it divides the larger part by the golden section.
+///
+/// # Source
+/// Brent, Algorithms for Minimization without Derivatives (1973), chapter 5, procedure localmin.
+pub(super) fn largest(
+    ends: [f64; 2],
+    known: (f64, f64),
+    count: usize,
+    function: &mut dyn FnMut(f64) -> f64,
+) -> (f64, f64) {
     let [mut a, mut b] = ends;
-    let mut best = (function(a), a);
-    let offer = |best: &mut (f64, f64), value: f64, place: f64| {
-        if value > best.0 {
-            *best = (value, place);
-        }
-    };
-    let value = function(b);
-    offer(&mut best, value, b);
-    if b - a <= 0.0 {
-        return best;
+    let at_ends = ends.map(|place| (function(place), place));
+    let larger = |one: (f64, f64), other: (f64, f64)| if other.0 > one.0 { other } else { one };
+    // of equal values the known one counts
+    let outside = larger(known, larger(at_ends[0], at_ends[1]));
+    let near = NEAR * (b - a);
+    if near <= 0.0 {
+        return outside;
     }
-    let mut inner = [b - GOLDEN * (b - a), a + GOLDEN * (b - a)];
-    let mut values = inner.map(&mut *function);
-    for _ in 0..count {
-        if values[0] >= values[1] {
-            b = inner[1];
-            (inner[1], values[1]) = (inner[0], values[0]);
-            inner[0] = b - GOLDEN * (b - a);
-            values[0] = function(inner[0]);
+    // the best, the second and the third of the places, as (value, place)
+    let start = a + GOLDEN * (b - a);
+    let is_inside = known.1 > a && known.1 < b;
+    let mut best = [if is_inside { known } else { (function(start), start) }; 3];
+    let (mut step, mut before) = (0.0_f64, 0.0_f64);
+    for _ in 1..count {
+        let x = best[0].1;
+        let middle = 0.5 * (a + b);
+        if (x - middle).abs() <= 2.0 * near - 0.5 * (b - a) {
+            break;
+        }
+        let vertex = vertex(&best).filter(|to| (to - x).abs() < 0.5 * before.abs() && *to > a && *to < b);
+        before = step;
+        step = match vertex {
+            Some(to) if to - a < 2.0 * near || b - to < 2.0 * near => near.copysign(middle - x),
+            Some(to) => to - x,
+            None => {
+                before = if x < middle { b - x } else { a - x };
+                GOLDEN * before
+            }
+        };
+        let place = x + if step.abs() >= near { step } else { near.copysign(step) };
+        let found = (function(place), place);
+        if found.0 >= best[0].0 {
+            *(if place < x { &mut b } else { &mut a }) = x;
+            best = [found, best[0], best[1]];
         } else {
-            a = inner[0];
-            (inner[0], values[0]) = (inner[1], values[1]);
-            inner[1] = a + GOLDEN * (b - a);
-            values[1] = function(inner[1]);
+            *(if place < x { &mut a } else { &mut b }) = place;
+            if found.0 >= best[1].0 || best[1].1 == x {
+                best = [best[0], found, best[1]];
+            } else if found.0 >= best[2].0 || best[2].1 == x || best[2].1 == best[1].1 {
+                best[2] = found;
+            }
         }
     }
-    offer(&mut best, values[0], inner[0]);
-    offer(&mut best, values[1], inner[1]);
-    best
+    larger(outside, best[0])
+}
+
+/// The vertex of the parabola through three values at places; `None` if they lie on a line.
+fn vertex([x, w, v]: &[(f64, f64); 3]) -> Option<f64> {
+    let (to_w, to_v) = ((x.1 - w.1) * (x.0 - v.0), (x.1 - v.1) * (x.0 - w.0));
+    let denominator = 2.0 * (to_v - to_w);
+    (denominator != 0.0).then(|| x.1 - ((x.1 - v.1) * to_v - (x.1 - w.1) * to_w) / denominator)
 }
 
 #[cfg(test)]
@@ -128,8 +164,23 @@ mod tests {
 
     /// Analytic: the vertex of a parabola.
     #[test]
-    fn golden_section_finds_a_vertex() {
-        let (value, place) = largest([0.0, 2.0], 30, &mut |x| 3.0 - (x - 0.7).powi(2));
-        assert!((place - 0.7).abs() < 1e-5 && (value - 3.0).abs() < 1e-10);
+    fn a_vertex_is_found_in_few_evaluations() {
+        let mut count = 0;
+        let (value, place) = largest([0.0, 2.0], (1.31, 2.0), 30, &mut |x| {
+            count += 1;
+            3.0 - (x - 0.7).powi(2)
+        });
+        assert!((place - 0.7).abs() < 1e-5 && (value - 3.0).abs() < 1e-12, "{value} at {place}");
+        assert!(count <= 10, "{count} evaluations");
+    }
+
+    /// Analytic: a quartic that is flat at its top, a corner between the places, and a largest value at an end.
+    #[test]
+    fn flat_tops_corners_and_ends_are_found() {
+        let (flat, at) = largest([-1.0, 2.0], (0.7599, 1.0), 30, &mut |x: f64| 1.0 - (x - 0.3).powi(4));
+        assert!((flat - 1.0).abs() < 1e-9 && (at - 0.3).abs() < 0.02, "{flat} at {at}");
+        let (corner, at) = largest([0.0, 1.0], (-0.13, 0.5), 60, &mut |x: f64| -(x - 0.37).abs());
+        assert!(corner > -1e-5 && (at - 0.37).abs() < 1e-5, "{corner} at {at}");
+        assert_eq!(largest([0.0, 1.0], (0.5, 0.5), 20, &mut |x| x), (1.0, 1.0));
     }
 }

@@ -7,7 +7,7 @@ use super::girder::{LoadedGirders, OwnLoad};
 use super::peaks::{Peak, largest};
 use super::scan::{SIGNS, Scan};
 
-/// Number of evaluations of a golden section.
+/// Largest number of evaluations for the peak between two rows.
 pub(super) const EVALUATIONS: usize = 20;
 /// Rounds of refinement over time and along the girder in turn.
 pub(super) const ROUNDS: usize = 3;
@@ -149,9 +149,7 @@ impl Refinement<'_> {
         if ends[1] <= ends[0] {
             return own;
         }
-        let found = largest(ends, EVALUATIONS, value);
-        // of equal values the row itself counts
-        if found.0 > own.0 { found } else { own }
+        largest(ends, own, EVALUATIONS, value)
     }
 }
 

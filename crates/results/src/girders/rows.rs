@@ -8,6 +8,7 @@ use sim::{Channel, Foundation, History};
 use trains::GirderResponse;
 
 use super::GirderExtremes;
+use super::solved::SolvedMembers;
 use super::spans::SpanValue;
 use super::structure::{PreparedGirders, Rows, SpanExtremes};
 use crate::response::WheelLoadReader;
@@ -28,11 +29,16 @@ pub(crate) struct Prepared<'a> {
 
 impl<'a> Prepared<'a> {
     /// Prepares the girders of every structure with a spec. A structure that cannot be evaluated has a note instead.
-    pub fn new(scene: &'a Scene, built: &[BuiltFoundation], solved: &[Option<&SolvedModel>]) -> Prepared<'a> {
+    pub fn new(
+        scene: &'a Scene,
+        built: &[BuiltFoundation],
+        solved: &[Option<&SolvedModel>],
+        members: &'a SolvedMembers<'_>,
+    ) -> Prepared<'a> {
         let (mut girders, mut notes) = (Vec::new(), Vec::new());
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
             let Some(solved) = solved else { continue };
-            match PreparedGirders::new(scene, s, built, solved) {
+            match PreparedGirders::new(scene, s, built, solved, members) {
                 Ok(prepared) => girders.extend(prepared),
                 Err(error) => notes.push(format!("extremes of girders are missing: {error}")),
             }

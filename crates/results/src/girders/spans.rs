@@ -144,7 +144,8 @@ impl Refinement<'_> {
         };
         let mut found = from;
         for _ in 0..ROUNDS {
-            let (signed, x) = largest(near, EVALUATIONS, &mut |x| value(x, found.position));
+            let (signed, x) =
+                largest(near, (found.signed, found.x), EVALUATIONS, &mut |x| value(x, found.position));
             if signed <= found.signed + 1e-3 * self.accuracy * self.size(quantity) {
                 break;
             }

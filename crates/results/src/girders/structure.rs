@@ -10,6 +10,7 @@ use super::instants::LoadStates;
 use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
+use super::solved::SolvedMembers;
 use super::spans::SpanValue;
 use super::{GirderEnvelope, GirderExtreme};
 use crate::Error;
@@ -25,7 +26,7 @@ const MAX_DEFLECTIONS: usize = 500;
 pub(super) struct PreparedGirders<'a> {
     scene: &'a Scene,
     s: usize,
-    members: MemberForces,
+    members: &'a MemberForces,
     sections: Sections,
     distributed: DistributedForces,
 }
@@ -50,8 +51,7 @@ pub(super) struct SpanExtremes {
 }
 
 impl<'a> PreparedGirders<'a> {
-    /// Prepares structure `s`; `None` where it has no members under rails, or where its degrees of freedom were not
-    /// recorded.
+    /// Prepares structure `s`; `None` where it has no members under rails.
     ///
     /// # Errors
     /// [`Error::Girders`] for a model that cannot be solved.
@@ -60,16 +60,18 @@ impl<'a> PreparedGirders<'a> {
         s: usize,
         built: &BuiltFoundation,
         solved: &SolvedModel,
+        all: &'a SolvedMembers<'_>,
     ) -> Result<Option<PreparedGirders<'a>>, Error> {
         let failed =
             |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };
-        let members = MemberForces::new(&solved.model, &solved.rails).map_err(failed)?;
-        let sections = Sections::new(scene, s, solved, &members);
+        let Some(members) = all.of(solved) else { return Ok(None) };
+        let members = members.map_err(failed)?;
+        let sections = Sections::new(scene, s, solved, members);
         if sections.sections.is_empty() {
             return Ok(None);
         }
         let load = (scene.gravity, scene.output.dead_load);
-        let distributed = DistributedForces::new(solved, built, &members, &sections, load)
+        let distributed = DistributedForces::new(solved, built, members, &sections, load)
             .map_err(|source| failed(source.into()))?;
         Ok(Some(PreparedGirders { scene, s, members, sections, distributed }))
     }
@@ -107,7 +109,7 @@ impl<'a> PreparedGirders<'a> {
         let own = (self.s, foundation.dofs());
         let make = |stride| LoadedGirders {
             foundation,
-            members: &self.members,
+            members: self.members,
             distributed: &self.distributed,
             sections,
             states: LoadStates::new(history, loads, own, &ends, stride),
@@ -148,7 +150,7 @@ impl<'a> PreparedGirders<'a> {
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
-        let sections = self.sections.at(&places, &self.members);
+        let sections = self.sections.at(&places, self.members);
         let (girders, _) = self.loaded(rows, &sections, 1);
         let scan = Scan::new(&girders);
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));

@@ -58,7 +58,7 @@ pub struct ColumnInfluence {
 
 /// An effect as a term of a column.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct ColumnTerm {
+struct ColumnTerm {
     /// Index of the column.
     pub column: usize,
     /// Factor of the effect in the column.
@@ -105,7 +105,7 @@ impl ColumnInfluence {
     ///
     /// # Errors
     /// The errors of the frame solver.
-    pub(crate) fn of(
+    fn of(
         frame: &FactoredFrame,
         solved: &SolvedModel,
         built: &BuiltFoundation,
@@ -114,13 +114,8 @@ impl ColumnInfluence {
         effects: &[Effect],
         terms: Vec<ColumnTerm>,
     ) -> Result<ColumnInfluence, fea::Error> {
-        let model = &solved.model;
-        let weight = frame.inertial(model, effects, &[])?.rigid;
-        let up = Vector3::from(model.up).normalize();
-        let dead: Vec<f64> = (0..effects.len())
-            .map(|e| -gravity * (0..3).map(|k| weight[(e, k)] * up[k]).sum::<f64>())
-            .collect();
-        let lines = frame.influence_lines(model, effects)?;
+        let dead = dead_load(frame, &solved.model, gravity, effects)?;
+        let lines = frame.influence_lines(&solved.model, effects)?;
         let mut out = ColumnInfluence {
             inertia: DMatrix::zeros(columns.len(), 0),
             dead: vec![0.0; columns.len()],
@@ -385,8 +380,27 @@ impl ColumnList {
     }
 }
 
+/// Effects of the weight of a structure under `gravity`.
+///
+/// # Errors
+/// The errors of the frame solver.
+pub(crate) fn dead_load(
+    frame: &FactoredFrame,
+    model: &Model,
+    gravity: f64,
+    effects: &[Effect],
+) -> Result<Vec<f64>, fea::Error> {
+    let weight = frame.inertial(model, effects, &[])?.rigid;
+    let up = Vector3::from(model.up).normalize();
+    let one = |e: usize| -gravity * (0..3).map(|k| weight[(e, k)] * up[k]).sum::<f64>();
+    Ok((0..effects.len()).map(one).collect())
+}
+
 /// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
-fn inertia(
+///
+/// # Errors
+/// The errors of the frame solver.
+pub(crate) fn inertia(
     effects: &[Effect],
     basis: Option<&MotionBasis>,
     solved: &SolvedModel,

@@ -84,6 +84,26 @@ impl<C: Compliance> Compliance for Uncoupled<C> {
         Ok(())
     }
 
+    /// Each group of probes between which couplings are kept, with the loads in it, is evaluated on its own.
+    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        let mut is_done = vec![false; at.len()];
+        for first in 0..at.len() {
+            if is_done[first] {
+                continue;
+            }
+            let kept = |probe: &Probe| self.couplings.keep(&at[first], probe);
+            let group: Vec<usize> = (first..at.len()).filter(|i| kept(&at[*i])).collect();
+            let places: Vec<Probe> = group.iter().map(|i| at[*i]).collect();
+            let on: Vec<(Probe, f64)> = loads.iter().filter(|load| kept(&load.0)).copied().collect();
+            let mut own = vec![0.0; places.len()];
+            self.whole.displacements(&places, &on, &mut own)?;
+            for (i, value) in group.into_iter().zip(own) {
+                (out[i], is_done[i]) = (value, true);
+            }
+        }
+        Ok(())
+    }
+
     fn breaks(&self, rail: usize) -> Vec<f64> {
         self.whole.breaks(rail)
     }
