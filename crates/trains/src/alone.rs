@@ -128,7 +128,7 @@ impl Alone<'_> {
     fn active(&self, found: &mut Found, known: f64) -> Vec<[usize; 2]> {
         let k = self.quantity as usize;
         let middle = 0.5 * (self.window[0] + self.window[1]);
-        let hint = self.over.best(self.plan, k, self.sign, self.carrier.place(middle), None);
+        let hint = self.over.best(self.plan, k, self.sign, self.carrier.place(middle), &[]);
         if let Some(Standing { stance, origin: [piece, _], .. }) = hint.map(|hint| hint.trains[0]) {
             self.evaluate(middle, &Rc::new(vec![[stance, piece]]), f64::NEG_INFINITY, found);
         }

@@ -9,6 +9,7 @@ use crate::effect::{extremes_of_effects, plans};
 use crate::error::Error;
 use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtreme, TrainPosition};
 use crate::follow::{SectionSide, Target};
+use crate::hints::Hint;
 use crate::line::Lines;
 use crate::overrun::Overrun;
 use crate::plan::{Arrangement, CasePlan, TIE};
@@ -211,7 +212,7 @@ impl<'a> Analysis<'a> {
                     let sign = sign_of(is_max);
                     let entry = entry(out, carrier.rail, span, *quantity, is_max);
                     for section in &sections {
-                        let found = section.best(*quantity, sign, None).map(|(governing, _)| governing);
+                        let found = section.best(*quantity, sign, &[]).map(|(governing, _)| governing);
                         offer(&mut entry.governing, found, sign);
                     }
                     let target = Target { k: *quantity as usize, sign, window, dead };
@@ -318,9 +319,9 @@ impl Section<'_> {
         &self,
         quantity: GirderResponse,
         sign: f64,
-        hint: Option<&Arrangement>,
+        hints: &[Hint<'_>],
     ) -> Option<(Governing, Arrangement)> {
-        let found = self.over.best(self.plan, quantity as usize, sign, self.s, hint)?;
+        let found = self.over.best(self.plan, quantity as usize, sign, self.s, hints)?;
         let dead = self.dead.at(quantity, self.s);
         let governing = Governing {
             value: sign * found.signed + dead,
@@ -339,9 +340,10 @@ impl Section<'_> {
         &self,
         quantity: GirderResponse,
         sign: f64,
-        hint: &mut Option<Arrangement>,
+        hint: &mut Option<(f64, Arrangement)>,
     ) -> Option<Governing> {
-        let (mut governing, arrangement) = self.best(quantity, sign, hint.as_ref())?;
+        let before = hint.as_ref().map(|(x, at)| Hint { at, by: self.x - x });
+        let (mut governing, arrangement) = self.best(quantity, sign, before.as_slice())?;
 
         governing.coincident = quantity.coincident().map(|k| {
             if k == quantity {
@@ -350,7 +352,7 @@ impl Section<'_> {
                 self.over.value(k as usize, self.s, &arrangement) + self.dead.at(k, self.s)
             }
         });
-        *hint = Some(arrangement);
+        *hint = Some((self.x, arrangement));
         Some(governing)
     }
 }

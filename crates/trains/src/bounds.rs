@@ -19,6 +19,8 @@ const ROUNDING: f64 = 1e-12;
 #[derive(Clone, Debug)]
 pub(crate) struct Bounds {
     values: Vec<f64>,
+    /// The largest of them over the pieces.
+    most: Vec<f64>,
     /// By direction and piece: bounds of plus and minus the second derivative of a deflection along the member.
     second: [Vec<[f64; 2]>; 2],
     pieces: usize,
@@ -63,7 +65,9 @@ impl Bounds {
                 }
             }
         }
-        Bounds { values, second, pieces, length }
+        let largest = |own: &[f64]| own.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let most = values.chunks(pieces.max(1)).map(largest).collect();
+        Bounds { values, most, second, pieces, length }
     }
 
     /// A bound of minus the second derivative of sign times a deflection in a piece, at least 0: by how much a state can
@@ -74,8 +78,12 @@ impl Bounds {
 
     /// Bounds of sign times response k around place s, by piece.
     pub fn near(&self, k: usize, sign: f64, s: f64) -> &[f64] {
-        let part = (s / self.length * PARTS as f64) as usize;
-        self.of_part(part.min(PARTS - 1), k, sign)
+        self.of_part(self.part(s), k, sign)
+    }
+
+    /// The largest of the bounds of sign times response k around place s.
+    pub fn most_near(&self, k: usize, sign: f64, s: f64) -> f64 {
+        self.most[self.row(self.part(s), k, sign)]
     }
 
     /// The bound of sign times response k over the carrier in a piece.
@@ -84,8 +92,18 @@ impl Bounds {
     }
 
     fn of_part(&self, part: usize, k: usize, sign: f64) -> &[f64] {
-        let first = ((part * GirderResponse::ALL.len() + k) * 2 + usize::from(sign < 0.0)) * self.pieces;
+        let first = self.row(part, k, sign) * self.pieces;
         &self.values[first..first + self.pieces]
+    }
+
+    /// The part in which a place lies.
+    fn part(&self, s: f64) -> usize {
+        ((s / self.length * PARTS as f64) as usize).min(PARTS - 1)
+    }
+
+    /// Number of the list of bounds by piece.
+    fn row(&self, part: usize, k: usize, sign: f64) -> usize {
+        (part * GirderResponse::ALL.len() + k) * 2 + usize::from(sign < 0.0)
     }
 }
 

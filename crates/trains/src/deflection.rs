@@ -14,9 +14,10 @@ use crate::dead::DeadLoad;
 use crate::error::Error;
 use crate::extremes::{Governing, Request, SpanDeflection};
 use crate::follow::SectionSide;
+use crate::hints::Hints;
 use crate::kernel::RailPoint;
 use crate::overrun::Overrun;
-use crate::plan::{Arrangement, CasePlan};
+use crate::plan::CasePlan;
 use crate::rail_deflection::CarrierLines;
 use crate::search::{Bend, Margin, Search};
 use crate::section::Passage;
@@ -70,9 +71,9 @@ impl Deflections<'_> {
                             Some(blocked) => Box::new(|x| blocked.margin(x)),
                             None => Box::new(move |x| bend.margin(x)),
                         };
-                        let mut hint = None;
+                        let mut hints = Hints::default();
                         let value =
-                            |x| Ok(self.best(self.over, Some(self.dead), direction, sign, x, &mut hint));
+                            |x| Ok(self.best(self.over, Some(self.dead), direction, sign, x, &mut hints));
                         let mut search = Search::new(sign, margin, window, value);
                         if several {
                             search.most = MOST_OF_SEVERAL;
@@ -124,7 +125,7 @@ impl Deflections<'_> {
         search.enclosed(under, known)
     }
 
-    /// The governing state for a deflection at x. `hint` is that of a place nearby, and then that of this one.
+    /// The governing state for a deflection at x. `hints` has those of other places, and receives this one.
     fn best(
         &self,
         over: &Overrun,
@@ -132,11 +133,11 @@ impl Deflections<'_> {
         direction: usize,
         sign: f64,
         x: f64,
-        hint: &mut Option<Arrangement>,
+        hints: &mut Hints,
     ) -> Option<Governing> {
         let quantity = DEFLECTIONS[direction];
         let s = self.carrier.place(x);
-        let found = over.best(self.plan, quantity as usize, sign, s, hint.as_ref())?;
+        let found = over.best(self.plan, quantity as usize, sign, s, &hints.beside(x))?;
         let dead = dead.map_or(0.0, |dead| dead.at(quantity, s));
         let governing = Governing {
             value: sign * found.signed + dead,
@@ -146,7 +147,7 @@ impl Deflections<'_> {
             trains: standings(self.plan, &found),
             coincident: [0.0; 3],
         };
-        *hint = Some(found);
+        hints.add(x, found);
         Some(governing)
     }
 
@@ -200,8 +201,8 @@ impl Deflections<'_> {
                         };
                         search.enclosed(None, f64::NEG_INFINITY).0
                     } else {
-                        let mut hint = None;
-                        let value = |x| Ok(self.best(&over, None, direction, sign, x, &mut hint));
+                        let mut hints = Hints::default();
+                        let value = |x| Ok(self.best(&over, None, direction, sign, x, &mut hints));
                         let margin: Margin<'_> = if bend.kinks > 0.0 {
                             let blocked = self.blocked(direction, sign, bend)?;
                             Box::new(move |x| blocked.margin(x))

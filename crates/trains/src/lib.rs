@@ -9,13 +9,14 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
 //! 3. `line`, `structure`: influence lines as cubics; the structure that has them; `kernel`, `rail_deflection`: the
 //!    deflection of a rail over a member as polynomials of the place and of the load's position;
-//! 4. `pieces`, `running`, `plan`: responses to a train as functions of its position, and the best arrangement of trains;
+//! 4. `pieces`, `running`, `plan`, `promising`, `hints`: responses to a train as functions of its position, the best
+//!    arrangement of trains, and where it can be;
 //! 5. `dead`: dead load;
 //! 6. `section`, `bounds`, `instant`, `overrun`, `follow`: responses of a fixed section, along members at one instant, and at
 //!    sections beside wheels and at vertices;
@@ -37,6 +38,7 @@ mod effect;
 mod error;
 mod extremes;
 mod follow;
+mod hints;
 mod instant;
 mod kernel;
 mod line;
@@ -45,6 +47,7 @@ mod overrun;
 mod pieces;
 mod plan;
 mod polynomial;
+mod promising;
 mod rail_deflection;
 mod running;
 mod search;

@@ -28,7 +28,7 @@ pub(crate) struct CasePlan {
     /// By train and stance.
     pub trains: Vec<Vec<PlacedTrain>>,
     /// Groups of trains that share rails, each with its orders.
-    groups: Vec<Group>,
+    pub groups: Vec<Group>,
     /// Least distance from the position of train a in stance i to that of train b in stance j behind it: `[a][i][b][j]`;
     /// minus infinity where they share no rail.
     distances: Vec<Vec<Vec<Vec<f64>>>>,
@@ -38,14 +38,14 @@ pub(crate) struct CasePlan {
 
 /// Trains that hinder each other, in every order.
 #[derive(Clone, Debug)]
-struct Group {
-    orders: Vec<Order>,
+pub(crate) struct Group {
+    pub orders: Vec<Order>,
 }
 
 /// Trains in an order in which each is followed by at most one other.
 #[derive(Clone, Debug)]
-struct Order {
-    trains: Vec<usize>,
+pub(crate) struct Order {
+    pub trains: Vec<usize>,
     /// Places in the order of the trains that each one follows directly.
     before: Vec<Vec<usize>>,
     /// Whether positions are counted backwards.
@@ -387,6 +387,15 @@ impl CasePlan {
 }
 
 impl Order {
+    /// Whether each train follows the one before it, and no other one, by increasing position.
+    pub fn is_queue(&self) -> bool {
+        let follows = |(k, before): (usize, &Vec<usize>)| match k.checked_sub(1) {
+            None => before.is_empty(),
+            Some(last) => *before == [last],
+        };
+        !self.mirrored && self.before.iter().enumerate().all(follows)
+    }
+
     /// Finds for each train which ones it follows directly, forwards or backwards; `None` where neither way each is
     /// followed by at most one.
     fn new(

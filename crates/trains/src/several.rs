@@ -12,6 +12,7 @@ use crate::collect::{offer, standings};
 use crate::error::Error;
 use crate::extremes::Governing;
 use crate::follow::{SectionSide, Target};
+use crate::hints::Hints;
 use crate::overrun::Overrun;
 use crate::plan::{CasePlan, Way};
 use crate::running::PiecewiseFunction;
@@ -44,11 +45,13 @@ pub(crate) fn enclosed(
     let window = target.window.map(|s| carrier.coordinate(s));
     let bounds = Blocked::new(plan, over, carrier, target);
     let margin = Box::new(|x| bounds.margin(x));
-    let mut hint = None;
+    let mut hints = Hints::default();
     let mut search = Search::new(target.sign, margin, window, |x| {
         let s = carrier.place(x);
-        let found = over.best(plan, target.k, target.sign, s, hint.as_ref());
-        hint.clone_from(&found);
+        let found = over.best(plan, target.k, target.sign, s, &hints.beside(x));
+        if let Some(found) = &found {
+            hints.add(x, found.clone());
+        }
         Ok(found.map(|found| {
             let dead = target.dead.at(quantity, s);
             Governing {
