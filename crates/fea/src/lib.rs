@@ -67,7 +67,7 @@ pub use model::{
     RigidLink, Support, Taper,
 };
 pub use modes::{
-    ExcitingForces, InertialEffects, MOST_DENSE_UNKNOWNS, Mode, Modes, RefinedModes, check_full_modes,
-    excited_modes, full_modes, modes, refined_modes, rigid_mass,
+    ExcitingForces, MOST_DENSE_UNKNOWNS, Mode, Modes, RefinedModes, Weight, check_full_modes, excited_modes,
+    full_modes, modes, refined_modes, rigid_mass,
 };
 pub use splines::ForceComponent;

@@ -113,12 +113,10 @@ impl Structure {
         }
         let up = Vector3::from(self.model.up).normalize();
         let effects: Vec<Effect> = carriers.iter().flat_map(end_effects).collect();
-        let rigid = self.frame.inertial(&self.model, &effects, &[])?.rigid;
+        let weight = self.frame.effects_of_weight(&self.model, self.unit_weight(), &effects)?;
         let mut out = Vec::with_capacity(carriers.len());
         for (index, (carrier, lines)) in carriers.iter().zip(lines).enumerate() {
-            let own = std::array::from_fn(|k| {
-                -dead.gravity * (0..3).map(|i| rigid[(6 * index + k, i)] * up[i]).sum::<f64>()
-            });
+            let own = std::array::from_fn(|k| -dead.gravity * weight[QUANTITIES * index + k]);
             let mut start = carrier.quantities(own);
             for (rail, cells) in lines.rails.iter().enumerate() {
                 let load = -dead.line(rail);
@@ -133,7 +131,7 @@ impl Structure {
                 deflections: [[0.0; 5]; 2],
             });
         }
-        self.add_deflections(dead, carriers, &up, &mut out)?;
+        self.add_deflections(dead, carriers, &mut out)?;
         Ok(out)
     }
 
@@ -147,10 +145,8 @@ impl Structure {
         if dead.is_empty() {
             return Ok(0.0);
         }
-        let up = Vector3::from(self.model.up).normalize();
-        let rigid = self.frame.inertial(&self.model, effects, &[])?.rigid;
         let weight: f64 =
-            (0..effects.len()).map(|e| (0..3).map(|k| rigid[(e, k)] * up[k]).sum::<f64>()).sum();
+            self.frame.effects_of_weight(&self.model, self.unit_weight(), effects)?.iter().sum();
         let on_rails: f64 = line
             .rails
             .iter()
@@ -189,20 +185,29 @@ impl Structure {
         &self,
         dead: &DeadLoads,
         carriers: &[Carrier],
-        up: &Vector3<f64>,
         out: &mut [DeadLoad],
     ) -> Result<(), Error> {
+        let resisted = |carrier: &Carrier| {
+            let resists = self.rails[carrier.rail].resists;
+            DEFLECTIONS.map(|quantity| resists[deflection_axis(quantity).0.component()])
+        };
+        let probes = |carrier: &Carrier| {
+            let (rail, ends) = (carrier.rail, carrier.x);
+            let all = DEFLECTIONS.into_iter().zip(resisted(carrier)).filter(|(_, resists)| *resists);
+            all.flat_map(move |(quantity, _)| {
+                ends.map(|x| Probe { rail, x, axis: deflection_axis(quantity).0 })
+            })
+        };
+        let at: Vec<Probe> = carriers.iter().flat_map(probes).collect();
+        let moved = self.frame.displacements_of_weight(self.unit_weight(), &at)?;
+        let mut moved = moved.chunks_exact(2);
         for (carrier, load) in carriers.iter().zip(out) {
             let interior = self.interior_motion(carrier, load)?;
-            for (direction, quantity) in DEFLECTIONS.into_iter().enumerate() {
+            for (direction, (quantity, resists)) in DEFLECTIONS.into_iter().zip(resisted(carrier)).enumerate()
+            {
                 let (axis, sign) = deflection_axis(quantity);
-                if !self.rails[carrier.rail].resists[axis.component()] {
-                    continue;
-                }
-                let at = carrier.x.map(|x| Probe { rail: carrier.rail, x, axis });
-                let down = (up * -dead.gravity).into();
-                let mut ends = self.frame.displacements_of_weight(&self.model, down, &at)?;
-                ends.iter_mut().for_each(|end| *end *= sign);
+                let Some(ends) = (if resists { moved.next() } else { None }) else { continue };
+                let mut ends = [0, 1].map(|end| -dead.gravity * sign * ends[end]);
                 for (end, x) in ends.iter_mut().zip(carrier.x) {
                     if dead.lines.iter().all(|line| *line == 0.0) {
                         break;

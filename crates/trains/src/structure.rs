@@ -2,7 +2,7 @@
 
 use std::sync::OnceLock;
 
-use fea::{Effect, FactoredFrame, ForceComponent, Model, Rail};
+use fea::{Effect, FactoredFrame, ForceComponent, Model, Rail, Weight};
 use nalgebra::Vector3;
 use splines::{Axis, Compliance, ExactSurface, Influence, InfluenceLines, Probe};
 
@@ -191,6 +191,7 @@ pub struct Structure {
     /// Whether every rail has a twin at a distance of one length unit along +z, rail number + number of rails.
     twins: bool,
     surface: OnceLock<Result<ExactSurface, fea::Error>>,
+    unit_weight: OnceLock<Weight>,
 }
 
 impl Structure {
@@ -241,6 +242,7 @@ impl Structure {
             carriers,
             twins: eccentric,
             surface: OnceLock::new(),
+            unit_weight: OnceLock::new(),
         })
     }
 
@@ -315,6 +317,12 @@ impl Structure {
             4 => [zero, axes[2].cross(&axes[1])],
             k => [axes[k], offset.cross(&axes[k])],
         })
+    }
+
+    /// The forces of a unit acceleration upwards.
+    pub(crate) fn unit_weight(&self) -> &Weight {
+        let up = Vector3::from(self.model.up).normalize();
+        self.unit_weight.get_or_init(|| self.frame.weight(&self.model, up.into()))
     }
 
     /// The exact influence surface of the rails and their twins.

@@ -20,26 +20,16 @@ type Vector6 = SVector<f64, 6>;
 const GAUSS: [[f64; 2]; 3] =
     [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
 
-/// Effects of the forces M a, for accelerations a of the whole structure.
-///
-/// A structure that moves with a feels the opposite forces, -M a. The weight under gravity g along -y has the
-/// effects -g `rigid` of y. A structure whose natural modes move with accelerations q'' under rail loads F has
-/// the effects
-///
-/// E = A F - `modes` q''
-///
-/// where A are the static effects of the loads. Forces of damping are internal: they act like its stiffness.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InertialEffects {
-    /// Effects x 6: a is a rigid motion with the supports, three translations along the global axes, three
-    /// rotations about the global origin.
-    pub rigid: DMatrix<f64>,
-    /// Effects x modes: a is the shape of a mode.
-    pub modes: DMatrix<f64>,
+/// The forces M a of a uniform acceleration a of the whole structure, its supports included: with a = -g up its weight.
+/// M is the consistent mass of the members and the rigid masses.
+#[derive(Clone, Debug)]
+pub struct Weight {
+    forces: InertiaForces,
 }
 
 /// Forces M a on the references of the bodies, and the acceleration of each member, local: of its flexible ends, and by
 /// the uniform loads under which it deflects between them.
+#[derive(Clone, Debug)]
 struct InertiaForces {
     on_bodies: Vec<Vector6>,
     end_accelerations: Vec<Vector12>,
@@ -47,8 +37,49 @@ struct InertiaForces {
 }
 
 impl FactoredFrame {
-    /// Effects of M a, M the consistent mass of the members and the rigid masses, supports included. The frame is solved
-    /// once for each effect (its adjoint load) or once for each a, whichever are fewer.
+    /// The forces M a of a uniform acceleration a, global. `m` is the model that the frame was made of.
+    #[must_use]
+    pub fn weight(&self, m: &Model, acceleration: [f64; 3]) -> Weight {
+        let reference = |body: usize| self.bodies.list[body].reference;
+        let [a, b, c] = acceleration;
+        let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
+        let mut forces = self.inertia_forces(m, &[motion], |motion, body| {
+            arm(&Vector3::from(m.points[reference(body)])) * motion
+        });
+        Weight { forces: forces.swap_remove(0) }
+    }
+
+    /// Effects of the forces of a uniform acceleration. The frame is solved once for each effect, for its adjoint load, so
+    /// that forces and reactions are in equilibrium to the rounding of the factor.
+    ///
+    /// `m` is the model that the frame was made of.
+    ///
+    /// # Errors
+    /// [`Error::Invalid`] for an effect of a member or restraint that does not exist, or a place outside 0 to 1.
+    ///
+    /// # Source
+    /// Reciprocity as in [`FactoredFrame::influence_lines`].
+    pub fn effects_of_weight(
+        &self,
+        m: &Model,
+        weight: &Weight,
+        effects: &[Effect],
+    ) -> Result<Vec<f64>, Error> {
+        let one = |functional: &Functional| {
+            let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
+            weight.forces.work(&adjoint) + self.held_effect(m, functional, &weight.forces)
+        };
+        Ok(self.functionals(m, effects)?.iter().map(one).collect())
+    }
+
+    /// Effects of the forces M a where a is the shape of each mode, M being the consistent mass of the members and the rigid
+    /// masses, supports included: effects x modes. A structure whose modes move with accelerations q'' under rail loads F has
+    /// the effects
+    ///
+    /// E = A F - (these) q''
+    ///
+    /// where A are the static effects of the loads. Forces of damping are internal: they act like its stiffness. The frame is
+    /// solved once for each effect (its adjoint load) or once for each mode, whichever are fewer.
     ///
     /// `m` is the model that the frame was made of; `modes` are modes of the same frame.
     ///
@@ -62,65 +93,45 @@ impl FactoredFrame {
     /// # Source
     /// Mode acceleration: Cook, Malkus, Plesha and Witt, Concepts and Applications of Finite Element Analysis
     /// (2002), section 11.8; reciprocity as in [`FactoredFrame::influence_lines`].
-    pub fn inertial(&self, m: &Model, effects: &[Effect], modes: &[Mode]) -> Result<InertialEffects, Error> {
+    pub fn effects_of_modes(
+        &self,
+        m: &Model,
+        effects: &[Effect],
+        modes: &[Mode],
+    ) -> Result<DMatrix<f64>, Error> {
         let functionals = self.functionals(m, effects)?;
         let reference = |body: usize| self.bodies.list[body].reference;
-        let rigid = self.inertia_forces(m, &[0, 1, 2, 3, 4, 5], |&k, body| {
-            arm(&Vector3::from(m.points[reference(body)])).column(k).into_owned()
-        });
         let mut shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
         self.add_interior_motions(m, modes, &mut shapes);
-        let mut out = InertialEffects {
-            rigid: DMatrix::zeros(effects.len(), 6),
-            modes: DMatrix::zeros(effects.len(), modes.len()),
-        };
-        let all = [(&mut out.rigid, &rigid), (&mut out.modes, &shapes)];
-        if functionals.len() <= rigid.len() + shapes.len() {
-            let adjoint =
-                |functional: &Functional| self.motions(&self.scaled_where_stiffened(&functional.strain));
-            let adjoints: Vec<_> = functionals.iter().map(adjoint).collect();
-            for (values, forces) in all {
-                for (k, forces) in forces.iter().enumerate() {
-                    for (e, (functional, adjoint)) in functionals.iter().zip(&adjoints).enumerate() {
-                        values[(e, k)] = forces.work(adjoint) + self.held_effect(m, functional, forces);
-                    }
+        let mut out = DMatrix::zeros(effects.len(), modes.len());
+        if functionals.len() <= shapes.len() {
+            for (e, functional) in functionals.iter().enumerate() {
+                let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
+                for (k, forces) in shapes.iter().enumerate() {
+                    out[(e, k)] = forces.work(&adjoint) + self.held_effect(m, functional, forces);
                 }
             }
         } else {
-            for (values, forces) in all {
-                for (k, forces) in forces.iter().enumerate() {
-                    let motions = self.motions_under(forces);
-                    for (e, functional) in functionals.iter().enumerate() {
-                        let elastic = functional.strain.evaluate(&motions);
-                        values[(e, k)] = elastic + self.held_effect(m, functional, forces);
-                    }
+            for (k, forces) in shapes.iter().enumerate() {
+                let motions = self.motions_under(forces);
+                for (e, functional) in functionals.iter().enumerate() {
+                    let elastic = functional.strain.evaluate(&motions);
+                    out[(e, k)] = elastic + self.held_effect(m, functional, forces);
                 }
             }
         }
         Ok(out)
     }
 
-    /// Displacements at probes under the forces M a of a uniform acceleration a, global, of the whole structure: with
-    /// a = -g up those under its weight.
+    /// Displacements at probes under the forces of a uniform acceleration.
     ///
-    /// `m` is the model that the frame was made of. The result is exact where a rail element ends; between its ends the
-    /// deflection by the mass of the element itself, with both ends held, is left out.
+    /// The result is exact where a rail element ends; between its ends the deflection by the mass of the element itself,
+    /// with both ends held, is left out.
     ///
     /// # Errors
     /// A probe beyond its rail.
-    pub fn displacements_of_weight(
-        &self,
-        m: &Model,
-        acceleration: [f64; 3],
-        at: &[Probe],
-    ) -> Result<Vec<f64>, Error> {
-        let reference = |body: usize| self.bodies.list[body].reference;
-        let [a, b, c] = acceleration;
-        let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
-        let forces = self.inertia_forces(m, &[motion], |motion, body| {
-            arm(&Vector3::from(m.points[reference(body)])) * motion
-        });
-        let motions = self.motions_under(&forces[0]);
+    pub fn displacements_of_weight(&self, weight: &Weight, at: &[Probe]) -> Result<Vec<f64>, Error> {
+        let motions = self.motions_under(&weight.forces);
         at.iter().map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions))).collect()
     }
 

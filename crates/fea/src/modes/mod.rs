@@ -25,7 +25,7 @@ mod shapes;
 
 pub use all::MOST_DENSE_UNKNOWNS;
 pub use decoupled::ExcitingForces;
-pub use inertial::InertialEffects;
+pub use inertial::Weight;
 pub use lowest::modes;
 pub use mass::rigid_mass;
 pub use mode::{Mode, Modes};

@@ -14,7 +14,7 @@
 //! 1. Effects and their columns are listed from the spec ([`ColumnInfluence::new`]).
 //! 2. A: influence lines of the effects, evaluated at the wheels at every output time ([`ColumnInfluence::at`]).
 //! 3. S: effects of the inertia forces M phi_k of each degree of freedom k, by natural modes
-//!    ([`fea::FactoredFrame::inertial`]) or by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit
+//!    ([`fea::FactoredFrame::effects_of_modes`]) or by rigid parts ([`part_inertia`]). E_0: -g times the effects of a unit
 //!    acceleration upwards of the whole mass.
 //! 4. Columns that are zero under every load, weight and inertia force are dropped ([`ColumnInfluence::nonzero`]).
 
@@ -390,10 +390,8 @@ pub(crate) fn dead_load(
     gravity: f64,
     effects: &[Effect],
 ) -> Result<Vec<f64>, fea::Error> {
-    let weight = frame.inertial(model, effects, &[])?.rigid;
-    let up = Vector3::from(model.up).normalize();
-    let one = |e: usize| -gravity * (0..3).map(|k| weight[(e, k)] * up[k]).sum::<f64>();
-    Ok((0..effects.len()).map(one).collect())
+    let down = Vector3::from(model.up).normalize() * -gravity;
+    frame.effects_of_weight(model, &frame.weight(model, down.into()), effects)
 }
 
 /// Effects of the inertia force at unit acceleration of each degree of freedom: effects x degrees of freedom.
@@ -409,7 +407,7 @@ pub(crate) fn inertia(
         None => Ok(DMatrix::zeros(effects.len(), 0)),
         Some(MotionBasis::Modes { refined }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            Ok(refined.frame.inertial(&refined.model, &own, &refined.modes.modes)?.modes)
+            refined.frame.effects_of_modes(&refined.model, &own, &refined.modes.modes)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),
