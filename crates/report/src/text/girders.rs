@@ -1,6 +1,7 @@
 //! Report content on the extremes of girders in the runs.
 
 use crate::figures::design::{digits, unit_of, with_unit};
+use crate::text::girder_stresses;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{plane_word, quantity_word};
 use formats::scene::{Document, Scene};
@@ -47,6 +48,9 @@ pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSec
     let first = &outcomes[0];
     if !first.girders.extremes.is_empty() {
         section = section.table(spans(scene, first));
+    }
+    if let Some((table, method)) = girder_stresses::table(document, outcomes) {
+        section = section.table(table).paragraph(method);
     }
     section.paragraph("Envelopes along the rails are in envelope.csv, all extremes in summary.json.").into()
 }
