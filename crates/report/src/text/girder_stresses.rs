@@ -1,6 +1,6 @@
 //! Report content on the direct stresses of girders in the runs.
 
-use crate::figures::design::{digits, with_unit};
+use crate::figures::design::{digits, side_phrase, with_unit};
 use crate::text::design_stresses::{lateral_words, stress_unit};
 use crate::{ReportTable, TableCell, TableColumn};
 use formats::LateralSection;
@@ -8,7 +8,6 @@ use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
 use results::girders::GirderStress;
-use trains::SectionSide;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
@@ -103,11 +102,6 @@ pub(super) fn table(document: &Document, outcomes: &[CaseResult]) -> Option<(Rep
 fn row(scene: &Scene, label: &str, found: &GirderStress, factor: f64) -> Vec<TableCell> {
     let parts: Vec<String> = found.parts.iter().map(|part| digits(factor * part, 3)).collect();
     let percent = found.utilisation().map(|used| TableCell::from(format!("{:.0} %", 100.0 * used)));
-    let side = match found.side {
-        SectionSide::Before => "just before",
-        SectionSide::At => "",
-        SectionSide::Behind => "just behind",
-    };
     vec![
         TableCell::from(label.to_owned()),
         TableCell::from(scene.rails[found.rail].name.clone()),
@@ -117,7 +111,7 @@ fn row(scene: &Scene, label: &str, found: &GirderStress, factor: f64) -> Vec<Tab
         TableCell::from(parts.join(", ")),
         percent.unwrap_or(TableCell::Empty),
         TableCell::from(digits(found.x, DIGITS)),
-        TableCell::from(side),
+        TableCell::from(side_phrase(found.side)),
         TableCell::from(digits(found.time, DIGITS)),
     ]
 }

@@ -1,6 +1,6 @@
 //! Report content on the extremes of girders in the runs.
 
-use crate::figures::design::{digits, unit_of, with_unit};
+use crate::figures::design::{digits, side_phrase, unit_of, with_unit};
 use crate::text::girder_stresses;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{plane_word, quantity_word};
@@ -8,7 +8,7 @@ use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
 use results::girders::GirderExtreme;
-use trains::{GirderResponse, SectionSide};
+use trains::GirderResponse;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
@@ -129,17 +129,12 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
 fn cells(scene: &Scene, found: &GirderExtreme) -> [TableCell; 6] {
     let (unit, factor) = unit_of(scene.units, found.quantity);
     let value = with_unit(&digits(factor * found.value, DIGITS), &unit);
-    let side = match found.side {
-        SectionSide::Before => "just before",
-        SectionSide::At => "",
-        SectionSide::Behind => "just behind",
-    };
     [
         TableCell::from(value),
         TableCell::from(scene.rails[found.rail].name.clone()),
         TableCell::from(found.span),
         TableCell::from(digits(found.x, DIGITS)),
-        TableCell::from(side),
+        TableCell::from(side_phrase(found.side)),
         TableCell::from(digits(found.time, DIGITS)),
     ]
 }
