@@ -162,6 +162,17 @@ fn stresses_of_dead_load_are_found_between_sections() {
     assert!((value(row, "x") - x).abs() < 1e-2, "{row} and {x}");
 }
 
+/// Analytic: a stress of 96.24 N/mm2 is 120.3 % of a strength of 80 N/mm2; that is a result, not an error.
+#[test]
+fn a_stress_of_a_run_above_its_strength_is_told() {
+    let mut spec = beam();
+    spec["girder"]["fy"] = json!(8e4);
+    let folder = ran(&spec, &scene(&json!({"lateral_section": "whole section"})));
+    assert_eq!(only(&summary(&folder))["within"], json!(false));
+    assert!(page(&folder).contains("120 % of the yield strength of"), "no utilisation on the page");
+    assert!(page(&folder).contains("which is exceeded"));
+}
+
 /// Analytic: without the member there are no stresses, without `fy` no utilisation, and a section without plates is named.
 #[test]
 fn what_stresses_of_a_run_lack_is_named() {

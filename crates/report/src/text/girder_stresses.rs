@@ -55,7 +55,8 @@ pub(super) fn verdict_line(document: &Document, outcomes: &[CaseResult]) -> Opti
 fn used(found: &GirderStress, text: &dyn Fn(f64) -> String) -> String {
     match found.utilisation().zip(found.yield_strength) {
         Some((used, strength)) => {
-            format!("{:.0} % of the yield strength of {}", 100.0 * used, text(strength))
+            let beyond = if used > 1.0 { ", which is exceeded" } else { "" };
+            format!("{:.0} % of the yield strength of {}{beyond}", 100.0 * used, text(strength))
         }
         None => "the spec gives no yield strength `fy`".to_owned(),
     }
