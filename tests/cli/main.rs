@@ -18,6 +18,7 @@ mod sections;
 mod slips;
 mod specs;
 mod stops;
+mod stresses;
 mod tables;
 mod warnings;
 

@@ -1,5 +1,6 @@
 //! Rows of `summary.json` on stresses, end stops and pairs of rails.
 
+use formats::LateralSection;
 use formats::design::Design;
 use serde_json::{Map, Value, json};
 
@@ -47,7 +48,7 @@ fn stress(design: &Design, check: &StressCheck) -> Value {
         out["bound"] = json!(bound);
         out["fibre"] = json!(fibre);
         out["parts"] = Value::Object(named(&check.parts));
-        out["lateral_section"] = json!(check.lateral_section);
+        out["lateral_section"] = json!(check.lateral_section.map(LateralSection::word));
     }
     add_state(&mut out, &train_names(design, check.case - 1), g);
     out

@@ -37,7 +37,7 @@ impl Details {
     ) -> Result<Details, Error> {
         let ranges: Vec<[f64; 2]> = design.spec.rails().iter().map(|rail| rail.range).collect();
         let lines = RailLines::new(rails, &ranges, model.up);
-        let sections = GirderSections::new(design, model, rails, &lines);
+        let sections = GirderSections::new(&design.spec, design.practice.lateral_section, model, rails);
         let basis = StressBasis { design, lines: &lines, sections: &sections, trains, cases };
         let mut left_out = basis.left_out();
         left_out.extend(wheel_stresses::left_out(&basis));

@@ -1,7 +1,7 @@
 //! The section of a member as stresses need it: its extreme fibres in the planes of the rail.
 
 use fea::{CrossSection, Model};
-use formats::design::LateralSection;
+use formats::LateralSection;
 use formats::spec::{OutlineShape, SectionOutline, SectionPlates, Spec};
 
 use crate::placed::unit;
@@ -12,7 +12,7 @@ const UPRIGHT: f64 = 1e-6;
 
 /// A member's section turned into the planes of the rail: heights along up, widths along +z of the rail, both from the centroid.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Fibres {
+pub struct Fibres {
     /// Name of the section.
     pub name: String,
     /// Yield strength, where the spec gives it.
@@ -23,7 +23,7 @@ pub(crate) struct Fibres {
     second: [f64; 2],
     outline: Outline,
     /// The I section with its upper flange listed last, where the web is upright.
-    pub plates: Option<SectionPlates>,
+    pub(crate) plates: Option<SectionPlates>,
     /// Width and thickness of the upper flange, where there is one.
     top_flange: Option<[f64; 2]>,
     lateral: LateralSection,
@@ -41,7 +41,7 @@ enum Outline {
 
 /// The direct stress at a fibre and its parts.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct FibreStress {
+pub struct FibreStress {
     /// Name of the fibre.
     pub fibre: &'static str,
     /// Parts of normal force, of the vertical and of the lateral moment; their sum is the stress, positive in tension.
@@ -50,6 +50,7 @@ pub(crate) struct FibreStress {
 
 impl FibreStress {
     /// The stress.
+    #[must_use]
     pub fn value(&self) -> f64 {
         self.parts.iter().sum()
     }
@@ -60,7 +61,7 @@ impl Fibres {
     ///
     /// # Errors
     /// What is missing, in words.
-    pub fn new(
+    pub(crate) fn new(
         spec: &Spec,
         model: &Model,
         member: usize,
@@ -100,19 +101,32 @@ impl Fibres {
         Ok(fibres)
     }
 
-    /// The stresses at all fibres under a normal force, a vertical and a lateral moment:
+    /// The fibre of largest stress of either sign under a normal force, a vertical and a lateral moment; `None` where it is not
+    /// finite. Stresses are in force over the square of length, positive in tension:
     ///
     /// sigma = N/A - M_v v/I_v + M_l w/I_l at the height v above the centroid and the width w along +z (a positive moment sags
     /// down and towards +z). Where the top flange alone takes lateral moments, M_l w/I_l is M_l/(t b^2/6) at its edges and 0
-    /// elsewhere.
-    pub fn stresses(&self, [normal, vertical, lateral]: [f64; 3]) -> Vec<FibreStress> {
+    /// elsewhere. Shear, torsion and warping are not included.
+    #[must_use]
+    pub fn worst(&self, forces: [f64; 3]) -> Option<FibreStress> {
+        let mut worst: Option<(f64, FibreStress)> = None;
+        self.each(forces, |stress| {
+            let size = stress.value().abs();
+            if worst.is_none_or(|(known, _)| size > known) {
+                worst = Some((size, stress));
+            }
+        });
+        worst.filter(|(size, _)| size.is_finite()).map(|(_, stress)| stress)
+    }
+
+    /// The stresses at all fibres under a normal force, a vertical and a lateral moment.
+    fn each(&self, [normal, vertical, lateral]: [f64; 3], mut take: impl FnMut(FibreStress)) {
         let over = |force: f64, by: f64| if force == 0.0 { 0.0 } else { force / by };
         let axial = over(normal, self.area);
         let [i_vertical, i_lateral] = self.second;
         match &self.outline {
-            Outline::Corners(corners) => corners
-                .iter()
-                .map(|&(fibre, [v, w])| {
+            Outline::Corners(corners) => {
+                for &(fibre, [v, w]) in corners {
                     let sideways = match (self.lateral, self.top_flange) {
                         (LateralSection::TopFlange, Some([width, thickness])) if v > 0.0 => {
                             over(lateral, thickness * width.powi(2) / 6.0) * w.signum()
@@ -120,9 +134,9 @@ impl Fibres {
                         (LateralSection::TopFlange, _) => 0.0,
                         (LateralSection::Whole, _) => over(lateral, i_lateral) * w,
                     };
-                    FibreStress { fibre, parts: [axial, -over(vertical, i_vertical) * v, sideways] }
-                })
-                .collect(),
+                    take(FibreStress { fibre, parts: [axial, -over(vertical, i_vertical) * v, sideways] });
+                }
+            }
             Outline::Round(radius) => {
                 let [a, b] = [over(vertical, i_vertical), over(lateral, i_lateral)];
                 let size = a.hypot(b);
@@ -133,22 +147,14 @@ impl Fibres {
                         [axial, sign * radius * a * a / size, sign * radius * b * b / size]
                     }
                 };
-                vec![
-                    FibreStress { fibre: "tension side", parts: parts(1.0) },
-                    FibreStress { fibre: "compression side", parts: parts(-1.0) },
-                ]
+                take(FibreStress { fibre: "tension side", parts: parts(1.0) });
+                take(FibreStress { fibre: "compression side", parts: parts(-1.0) });
             }
         }
     }
 
-    /// The fibre of largest stress of either sign.
-    pub fn worst(&self, forces: [f64; 3]) -> Option<FibreStress> {
-        let all = self.stresses(forces);
-        all.into_iter().reduce(|best, next| if next.value().abs() > best.value().abs() { next } else { best })
-    }
-
     /// Thickness of the web times the height over the flanges.
-    pub fn web_area(&self) -> Option<f64> {
+    pub(crate) fn web_area(&self) -> Option<f64> {
         self.plates.map(|plates| plates.height * plates.web)
     }
 }

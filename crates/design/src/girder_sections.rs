@@ -1,29 +1,30 @@
 //! The sections under each rail as stresses need them, and what they lack.
 
 use fea::{Model, Rail};
-use formats::design::Design;
+use formats::LateralSection;
+use formats::spec::Spec;
 
 use crate::fibres::Fibres;
-use crate::placed::RailLines;
+use crate::placed::rail_axes;
 
 /// Fibres of the members under the rails.
-pub(crate) struct GirderSections {
+#[derive(Clone, Debug)]
+pub struct GirderSections {
     /// By rail: the members with their fibres, or what they lack.
     rails: Vec<Vec<(usize, Result<Fibres, String>)>>,
 }
 
 impl GirderSections {
-    /// The sections of all rails of a design.
-    pub fn new(design: &Design, model: &Model, rails: &[Rail], lines: &RailLines) -> GirderSections {
-        let spec = &design.spec;
+    /// The sections of all rails of a spec with its model; `lateral` is what resists lateral moments.
+    #[must_use]
+    pub fn new(spec: &Spec, lateral: LateralSection, model: &Model, rails: &[Rail]) -> GirderSections {
         let composite =
             |rail: usize| spec.crane_rails.get(rail).copied().flatten().is_some_and(|own| own.is_composite);
         let holds = |rail: &Rail, member: usize| rail.segments.iter().any(|segment| segment.member == member);
         let fibres = |rail: usize, member: usize| {
             let combined =
                 rails.iter().enumerate().any(|(other, own)| composite(other) && holds(own, member));
-            let lateral = design.practice.lateral_section;
-            Fibres::new(spec, model, member, lines.axes(rail), lateral, combined)
+            Fibres::new(spec, model, member, rail_axes(&rails[rail], model.up), lateral, combined)
         };
         let of_rail = |(index, rail): (usize, &Rail)| {
             let mut members: Vec<usize> = rail.segments.iter().map(|segment| segment.member).collect();
@@ -34,14 +35,15 @@ impl GirderSections {
         GirderSections { rails: rails.iter().enumerate().map(of_rail).collect() }
     }
 
-    /// The fibres of a member under a rail.
+    /// The fibres of a member under a rail; `None` where they are not known.
+    #[must_use]
     pub fn of(&self, rail: usize, member: usize) -> Option<&Fibres> {
         let found = self.rails[rail].iter().find(|(known, _)| *known == member)?;
         found.1.as_ref().ok()
     }
 
     /// The fibres of all members of a rail, each section once.
-    pub fn distinct(&self, rail: usize) -> Vec<&Fibres> {
+    pub(crate) fn distinct(&self, rail: usize) -> Vec<&Fibres> {
         let mut out: Vec<&Fibres> = Vec::new();
         for fibres in self.rails[rail].iter().filter_map(|(_, found)| found.as_ref().ok()) {
             if !out.contains(&fibres) {
@@ -52,36 +54,49 @@ impl GirderSections {
     }
 
     /// Whether any member of any rail has fibres with a strength.
-    pub fn have_strength(&self) -> bool {
+    pub(crate) fn have_strength(&self) -> bool {
         (0..self.rails.len()).any(|rail| {
             self.distinct(rail).iter().any(|own| own.yield_strength.is_some() && !own.is_composite)
         })
     }
 
+    /// What keeps sections of a rail from having direct stresses, each reason once.
+    #[must_use]
+    pub fn lacks_stress(&self, rail: usize) -> Vec<String> {
+        self.reasons(rail, composite)
+    }
+
     /// What keeps sections of a rail from having stresses, each reason once; `needs_strength` for utilisations.
-    pub fn lacks(&self, rail: usize, needs_strength: bool) -> Vec<String> {
+    pub(crate) fn lacks(&self, rail: usize, needs_strength: bool) -> Vec<String> {
+        let weak = |own: &Fibres| {
+            let is_weak = own.yield_strength.is_none();
+            is_weak.then(|| format!("the material of section {} has no yield strength `fy`", own.name))
+        };
+        self.reasons(rail, |own| if needs_strength { composite(own).or_else(|| weak(own)) } else { None })
+    }
+
+    /// Why sections of a rail have no fibres, and what else `missing` finds, each reason once in the order of members.
+    fn reasons(&self, rail: usize, missing: impl Fn(&Fibres) -> Option<String>) -> Vec<String> {
         let mut out: Vec<String> = Vec::new();
         for (_, found) in &self.rails[rail] {
             let why = match found {
-                Err(why) => why.clone(),
-                Ok(own) if needs_strength && own.is_composite => {
-                    format!("the crane rail is a part of section {} (`composite`)", own.name)
-                }
-                Ok(own) if needs_strength && own.yield_strength.is_none() => {
-                    format!("the material of section {} has no yield strength `fy`", own.name)
-                }
-                Ok(_) => continue,
+                Err(why) => Some(why.clone()),
+                Ok(own) => missing(own),
             };
-            if !out.contains(&why) {
-                out.push(why);
-            }
+            out.extend(why.filter(|why| !out.contains(why)));
         }
         out
     }
 }
 
+/// Why the fibres of a section are not those of its plates, where a crane rail is a part of it.
+fn composite(own: &Fibres) -> Option<String> {
+    own.is_composite.then(|| format!("the crane rail is a part of section {} (`composite`)", own.name))
+}
+
 /// Lines of what is left out, where several rails lack the same: `what on rails a, b: why`.
-pub(crate) fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<String> {
+#[must_use]
+pub fn by_reason(what: &str, lacks: &[(String, String)]) -> Vec<String> {
     let mut reasons: Vec<(&str, Vec<&str>)> = Vec::new();
     for (rail, why) in lacks {
         match reasons.iter_mut().find(|(known, _)| known == why) {

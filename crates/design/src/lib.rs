@@ -41,6 +41,8 @@ mod words;
 
 pub use combinations::with_combinations;
 pub use error::DesignError;
+pub use fibres::{FibreStress, Fibres};
+pub use girder_sections::{GirderSections, by_reason};
 pub use governing_lines::{
     GoverningLine, LineSubject, WheelOrdinate, governing_lines, governing_reaction, influence_csv,
 };

@@ -1,5 +1,6 @@
 //! What the calculation of a design gives.
 
+use formats::LateralSection;
 use practice::clause::CodeClause;
 use trains::{CaseEnvelopes, Governing};
 
@@ -127,7 +128,7 @@ pub struct StressCheck {
     /// Coincident forces of the section.
     pub forces: Vec<(&'static str, f64)>,
     /// What resists the lateral moment.
-    pub lateral_section: Option<&'static str>,
+    pub lateral_section: Option<LateralSection>,
     /// The state in which the stress is evaluated.
     pub governing: Governing,
 }

@@ -21,11 +21,10 @@ struct RailLine {
 impl RailLines {
     /// The rails of a model, with the first and last coordinate of each; `up` is its vertical direction.
     pub fn new(rails: &[Rail], ranges: &[[f64; 2]], up: [f64; 3]) -> RailLines {
-        let line = |(rail, range): (&Rail, &[f64; 2])| {
-            let x = unit(rail.axis);
-            let rise = dot(up, x);
-            let y = unit(std::array::from_fn(|k| up[k] - rise * x[k]));
-            RailLine { origin: rail.origin, axes: [x, y, cross(x, y)], range: *range }
+        let line = |(rail, range): (&Rail, &[f64; 2])| RailLine {
+            origin: rail.origin,
+            axes: rail_axes(rail, up),
+            range: *range,
         };
         RailLines { lines: rails.iter().zip(ranges).map(line).collect() }
     }
@@ -85,6 +84,14 @@ impl RailLines {
         }
         out
     }
+}
+
+/// Unit vectors along x, up and along z of a rail; `up` is the vertical direction.
+pub(crate) fn rail_axes(rail: &Rail, up: [f64; 3]) -> [[f64; 3]; 3] {
+    let x = unit(rail.axis);
+    let rise = dot(up, x);
+    let y = unit(std::array::from_fn(|k| up[k] - rise * x[k]));
+    [x, y, cross(x, y)]
 }
 
 /// The rails, and where `eccentric` asks for it their twins one unit of length along +z.

@@ -98,7 +98,7 @@ impl StressBasis<'_> {
                     fibre: Some(worst.fibre),
                     parts: ["normal", "vertical", "lateral"].into_iter().zip(worst.parts).collect(),
                     forces: vec![("normal", normal), ("moment", vertical), ("lateral moment", lateral)],
-                    lateral_section: Some(self.design.practice.lateral_section.word()),
+                    lateral_section: Some(self.design.practice.lateral_section),
                     ..self.row("direct stress", (case, rail), fibres, strength, governing)
                 });
             }

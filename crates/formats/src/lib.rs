@@ -40,3 +40,5 @@ pub mod tables;
 pub mod text;
 pub mod units;
 pub mod vector;
+
+pub use practice_words::LateralSection;

@@ -8,6 +8,42 @@ use practice::limits::ServiceClass;
 use practice::local_stress::RailFixing;
 use practice::skew::Guide;
 
+/// What resists lateral moments in stresses.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum LateralSection {
+    /// The whole section, with its second moment for lateral bending.
+    #[default]
+    Whole,
+    /// The top flange alone, as in hand calculations.
+    TopFlange,
+}
+
+impl LateralSection {
+    /// Its word in files.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            LateralSection::Whole => "whole section",
+            LateralSection::TopFlange => "top flange",
+        }
+    }
+
+    /// What takes lateral moments, in words for a sentence.
+    #[must_use]
+    pub const fn phrase(self) -> &'static str {
+        match self {
+            LateralSection::Whole => "lateral moments on the whole section",
+            LateralSection::TopFlange => "lateral moments on the top flange alone",
+        }
+    }
+}
+
+/// Keywords of what resists lateral moments.
+pub(crate) const LATERAL_SECTIONS: [(&str, LateralSection); 2] = [
+    (LateralSection::Whole.word(), LateralSection::Whole),
+    (LateralSection::TopFlange.word(), LateralSection::TopFlange),
+];
+
 /// Keywords of the hoisting classes.
 pub(crate) const HOISTING: [(&str, HoistingClass); 4] = [
     ("HC1", HoistingClass::Hc1),

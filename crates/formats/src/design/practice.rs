@@ -6,9 +6,11 @@ use practice::factor::DriveOnset;
 use practice::limit_choice::{LIMIT_CODES, code_name, limits_of};
 
 use super::raw::RawDesignPractice;
-use super::values::{DesignPractice, LateralSection};
+use super::values::DesignPractice;
 use crate::check::Check;
-use crate::practice_words::{DRIVES, FASTENINGS, HOISTING, KINDS, OPERATIONS, RELEASE, fatigue_classes};
+use crate::practice_words::{
+    DRIVES, FASTENINGS, HOISTING, KINDS, LATERAL_SECTIONS, OPERATIONS, RELEASE, fatigue_classes,
+};
 use crate::text::fault::Fault;
 use crate::text::names::resolve;
 use crate::text::place::Place;
@@ -16,10 +18,6 @@ use crate::units::{Dimension, Scale, Units};
 
 /// A code that has loads but no limits of deflections.
 const ASCE_7: &str = "ASCE 7";
-
-/// What may resist lateral moments, by its words.
-const LATERAL_SECTIONS: [(&str, LateralSection); 2] =
-    [("whole section", LateralSection::Whole), ("top flange", LateralSection::TopFlange)];
 
 /// Reads the member; `units` are those of the file.
 pub(super) fn read(

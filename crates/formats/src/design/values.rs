@@ -9,6 +9,7 @@ use practice::factor::{DriveOnset, HoistingClass, Release, phi2};
 use practice::limits::DeflectionLimit;
 use practice::local_stress::RailFixing;
 
+use crate::practice_words::LateralSection;
 use crate::spec::Spec;
 use crate::units::Units;
 
@@ -70,27 +71,6 @@ pub struct DesignPractice {
     pub rail_fastening: Option<RailFixing>,
     /// Whether cases without factors of their own are also calculated with the groups of loads of the code.
     pub combinations: bool,
-}
-
-/// What resists lateral moments in stresses.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LateralSection {
-    /// The whole section, with its second moment for lateral bending.
-    #[default]
-    Whole,
-    /// The top flange alone, as in hand calculations.
-    TopFlange,
-}
-
-impl LateralSection {
-    /// Its word in files.
-    #[must_use]
-    pub const fn word(self) -> &'static str {
-        match self {
-            LateralSection::Whole => "whole section",
-            LateralSection::TopFlange => "top flange",
-        }
-    }
 }
 
 impl DesignPractice {

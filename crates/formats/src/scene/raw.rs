@@ -688,8 +688,8 @@ pub(crate) struct RawFatigue {
     pub crossings: Option<f64>,
 }
 
-/// Data for the comparison of the results with crane codes.
-#[derive(Debug, Deserialize, JsonSchema)]
+/// Data for the comparison of the results with crane codes, and for stresses of girders.
+#[derive(Debug, Default, PartialEq, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawPractice {
     /// Name of the body that is the crane; it must run on two rails.
@@ -725,6 +725,8 @@ pub(crate) struct RawPractice {
     pub bumper_stroke: Option<f64>,
     /// Ratio of the mean force of the bumpers to their largest force, at most 1; by default 0.5, a spring.
     pub bumper_efficiency: Option<f64>,
+    /// What resists lateral moments in stresses of girders, "whole section" or "top flange"; requests these stresses.
+    pub lateral_section: Option<String>,
 }
 
 /// A selection of columns: all, none, or those with certain names.

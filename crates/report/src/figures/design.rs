@@ -4,7 +4,7 @@ use crate::chart::{Chart, ChartAxis, Series, Style};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
 use formats::units::{Dimension, Force, Length, Scale, Units};
-use trains::{GirderResponse, Governing};
+use trains::{GirderResponse, Governing, SectionSide};
 
 /// Unit in which engineers read deflections, and its factor from `units`.
 pub(crate) fn deflection_unit(units: Units) -> (&'static str, f64) {
@@ -51,6 +51,15 @@ pub(crate) fn with_unit(value: &str, unit: &str) -> String {
 /// A number in a few significant digits.
 pub(crate) fn digits(value: f64, count: usize) -> String {
     crate::number(value, count).unwrap_or_default()
+}
+
+/// The side of a section in words; nothing where both sides are equal.
+pub(crate) const fn side_phrase(side: SectionSide) -> &'static str {
+    match side {
+        SectionSide::Before => "just before",
+        SectionSide::At => "",
+        SectionSide::Behind => "just behind",
+    }
 }
 
 /// Positions of the trains of a state, turned ones marked.

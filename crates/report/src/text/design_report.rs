@@ -1,6 +1,8 @@
 //! The report of a design: the verdict first, then envelopes, reactions and inputs.
 
-use crate::figures::design::{deflection_unit, digits, envelope_charts, positions, unit_of, with_unit};
+use crate::figures::design::{
+    deflection_unit, digits, envelope_charts, positions, side_phrase, unit_of, with_unit,
+};
 use crate::figures::influence_lines::influence_figure;
 use crate::text::design_basis::basis;
 use crate::text::design_codes::{codes, limits, sources};
@@ -11,7 +13,7 @@ use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{DesignResult, GoverningLine, SolvedCase, load_word, plane_word, quantity_word};
 use formats::design::Design;
 use formats::units::Dimension;
-use trains::{GirderResponse, SectionSide};
+use trains::GirderResponse;
 
 /// Values below this fraction of the largest of their kind are shown as zero.
 const ROUNDING: f64 = 1e-9;
@@ -38,15 +40,6 @@ pub fn design_report(design: &Design, result: &DesignResult, lines: &[GoverningL
         title: format!("Design of {}", design.name),
         subtitle: format!("Static envelopes of wheel trains; structure {}; units {units}", design.spec_file),
         sections,
-    }
-}
-
-/// Side of a section in words; nothing where both sides are the same.
-const fn side(side: SectionSide) -> &'static str {
-    match side {
-        SectionSide::Before => "just before",
-        SectionSide::At => "",
-        SectionSide::Behind => "just behind",
     }
 }
 
@@ -161,7 +154,7 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
             TableCell::from(with_unit(&digits(factor * g.value, DIGITS), &unit)),
             TableCell::from(digits(factor * g.dead, DIGITS)),
             TableCell::from(digits(g.x, DIGITS)),
-            TableCell::from(side(g.side)),
+            TableCell::from(side_phrase(g.side)),
             TableCell::from(positions(g)),
         ]);
     }

@@ -1,7 +1,8 @@
 //! Stresses, end stops and pairs of rails of a design.
 
 use ::design::{DesignResult, StressCheck, WheelStress};
-use formats::design::{Design, LateralSection};
+use formats::LateralSection;
+use formats::design::Design;
 use formats::units::{Dimension, Units};
 
 use crate::figures::design::{deflection_unit, digits, positions, reading_unit};
@@ -11,7 +12,7 @@ use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 const DIGITS: usize = 4;
 
 /// Unit of stresses for reading, and the factor from `units`.
-fn stress_unit(units: Units) -> (String, f64) {
+pub(super) fn stress_unit(units: Units) -> (String, f64) {
     let (unit, factor) = reading_unit(units, Dimension::STRESS);
     (unit.replace("kip/in\u{b2}", "ksi"), factor)
 }
@@ -21,11 +22,7 @@ pub(super) fn utilisation(result: &DesignResult) -> Option<String> {
     let worst =
         result.stresses.iter().reduce(|a, b| if b.utilisation() > a.utilisation() { b } else { a })?;
     let percent = 100.0 * worst.utilisation();
-    let lateral = match worst.lateral_section {
-        Some(word) if word == LateralSection::TopFlange.word() => ", lateral moments on the top flange alone",
-        Some(_) => ", lateral moments on the whole section",
-        None => "",
-    };
+    let lateral = worst.lateral_section.map_or_else(String::new, |own| format!(", {}", own.phrase()));
     Some(format!(
         "The largest utilisation of the yield strength is {percent:.0} %: {} in {}, case {}, rail {}{lateral}.",
         worst.quantity, worst.section, worst.case, worst.rail
@@ -160,14 +157,19 @@ fn place(check: &StressCheck) -> String {
     }
 }
 
-/// How the stresses follow from the forces.
-fn method(design: &Design) -> String {
-    let lateral = match design.practice.lateral_section {
+/// What resists lateral moments, as the end of a sentence.
+pub(super) fn lateral_words(lateral: LateralSection) -> &'static str {
+    match lateral {
         LateralSection::Whole => {
             "the whole section resists lateral moments, and warping by torsion is not included"
         }
         LateralSection::TopFlange => "the top flange alone resists lateral moments, M/(t b\u{b2}/6)",
-    };
+    }
+}
+
+/// How the stresses follow from the forces.
+fn method(design: &Design) -> String {
+    let lateral = lateral_words(design.practice.lateral_section);
     format!(
         "Direct stress is N/A + M z/I + M y/I at the edges of the flanges, from coincident forces of the states that govern \
          normal force and moments; it is not an exact envelope, and the utilisation in brackets is not exceeded by any state. \

@@ -1,13 +1,14 @@
 //! Report content on the extremes of girders in the runs.
 
-use crate::figures::design::{digits, unit_of, with_unit};
+use crate::figures::design::{digits, side_phrase, unit_of, with_unit};
+use crate::text::girder_stresses;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{plane_word, quantity_word};
 use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
 use results::girders::GirderExtreme;
-use trains::{GirderResponse, SectionSide};
+use trains::GirderResponse;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
@@ -47,6 +48,9 @@ pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSec
     let first = &outcomes[0];
     if !first.girders.extremes.is_empty() {
         section = section.table(spans(scene, first));
+    }
+    if let Some((table, method)) = girder_stresses::table(document, outcomes) {
+        section = section.table(table).paragraph(method);
     }
     section.paragraph("Envelopes along the rails are in envelope.csv, all extremes in summary.json.").into()
 }
@@ -125,17 +129,12 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
 fn cells(scene: &Scene, found: &GirderExtreme) -> [TableCell; 6] {
     let (unit, factor) = unit_of(scene.units, found.quantity);
     let value = with_unit(&digits(factor * found.value, DIGITS), &unit);
-    let side = match found.side {
-        SectionSide::Before => "just before",
-        SectionSide::At => "",
-        SectionSide::Behind => "just behind",
-    };
     [
         TableCell::from(value),
         TableCell::from(scene.rails[found.rail].name.clone()),
         TableCell::from(found.span),
         TableCell::from(digits(found.x, DIGITS)),
-        TableCell::from(side),
+        TableCell::from(side_phrase(found.side)),
         TableCell::from(digits(found.time, DIGITS)),
     ]
 }

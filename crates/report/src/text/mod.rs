@@ -8,6 +8,7 @@ pub mod design_report;
 mod design_stresses;
 mod design_verdict;
 pub(crate) mod fatigue;
+mod girder_stresses;
 pub(crate) mod girders;
 pub(crate) mod responses;
 mod run_basis;

@@ -2,6 +2,7 @@
 
 use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, with_unit};
 use crate::figures::responses::ground_reactions;
+use crate::text::design_stresses::stress_unit;
 use crate::text::girders::{GOVERNING, largest};
 use crate::{ReportTable, TableCell, TableColumn};
 use formats::scene::columns::Direction;
@@ -78,6 +79,7 @@ pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportT
     let scene = document.scene();
     let (first, others) = (&outcomes[0], &outcomes[1..]);
     let mut rows = girder_rows(scene, first, others);
+    rows.extend(stress_row(scene, first, others));
     rows.extend(deflection_rows(scene, first, others));
     rows.extend(wheel_rows(scene, first, others));
     rows.extend(reaction_rows(scene, first, others));
@@ -96,8 +98,9 @@ pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportT
         rows.iter_mut().for_each(|row| row.truncate(columns.len()));
     }
     let dead = if scene.output.dead_load { "with" } else { "without" };
+    let stress = if scene.lateral_section.is_some() { ", stresses" } else { "" };
     let caption = format!(
-        "Governing values of the run \"{}\", moments, shear forces and reactions {dead} the dead load of the structure",
+        "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure",
         first.label
     );
     ReportTable { caption, columns, rows }
@@ -117,6 +120,27 @@ fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<
         })
     };
     GOVERNING.iter().filter_map(row).collect()
+}
+
+/// The direct stress that governs, where the scene asks for stresses.
+fn stress_row(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Option<GoverningRow> {
+    let found = first.girders.stresses.governing()?;
+    let (unit, factor) = stress_unit(scene.units);
+    let more = found.utilisation().map_or_else(String::new, |used| format!(" = {:.0} % of fy", 100.0 * used));
+    let same = others.iter().filter_map(|other| other.girders.stresses.governing());
+    Some(GoverningRow {
+        more,
+        span: TableCell::from(found.span),
+        x: TableCell::from(digits(found.x, DIGITS)),
+        others: same.map(|found| found.value).collect(),
+        ..GoverningRow::new(
+            "largest direct stress",
+            (&unit, factor),
+            found.value,
+            &scene.rails[found.rail].name,
+            found.time,
+        )
+    })
 }
 
 /// The deflection from the chord that is the largest part of its span, in each direction.

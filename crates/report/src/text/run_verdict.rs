@@ -4,6 +4,7 @@ use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit, unit_of, with_unit};
 use crate::figures::rail_sketch::RailSketch;
 use crate::figures::responses::supports;
+use crate::text::girder_stresses;
 use crate::text::girders::largest;
 use crate::text::run_governing::governing;
 use formats::scene::{Analysis, Document, Scene};
@@ -24,6 +25,7 @@ pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSec
     let mut section = ReportSection::new("Verdict");
     section.paragraphs.extend(statuses(document, outcomes));
     section.paragraphs.extend(checks(document.scene(), &outcomes[0]));
+    section.paragraphs.extend(girder_stresses::verdict_line(document, outcomes));
     let mut all: Vec<String> = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         let own = warning::case_warnings(&case.scene, outcome).into_iter();

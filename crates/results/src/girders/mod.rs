@@ -18,11 +18,14 @@
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
-//! Files, lowest first: solved, peaks, instants, sections, distributed, girder, scan, refine, deflections, spans, structure, rows,
-//! this one.
+//! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
+//!
+//! Files, lowest first: solved, peaks, instants, fibres, sections, distributed, girder, scan, refine, deflections, spans,
+//! stresses, structure, rows, this one.
 
 mod deflections;
 mod distributed;
+mod fibres;
 mod girder;
 mod instants;
 mod peaks;
@@ -32,10 +35,12 @@ mod scan;
 mod sections;
 mod solved;
 mod spans;
+mod stresses;
 mod structure;
 
 pub(crate) use rows::{Prepared, of_run};
 pub(crate) use solved::SolvedMembers;
+pub use stresses::{GirderStress, GirderStresses};
 
 use design::{plane_word, quantity_word, side_word};
 use formats::scene::Scene;
@@ -93,6 +98,8 @@ pub struct GirderExtremes {
     pub extremes: Vec<GirderExtreme>,
     /// Envelopes by rail, place and quantity, largest first.
     pub envelope: Vec<GirderEnvelope>,
+    /// Largest direct stresses, where the scene asks for them.
+    pub stresses: GirderStresses,
     /// What the user should know.
     pub notes: Vec<String>,
 }

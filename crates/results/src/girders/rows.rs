@@ -96,9 +96,10 @@ pub(crate) fn of_run(
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
         let rows = Rows { history, loads: &loads, foundations };
-        let (extremes, envelope) = girders.results(rows, spans, scene.accuracy);
+        let (extremes, envelope, stresses) = girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
         out.envelope.extend(envelope);
+        out.stresses.extend(stresses);
         if spans.stride > 1 {
             out.notes.push(format!(
                 "{}: extremes of girders are evaluated at one of {} output times, because they are many",

@@ -3,6 +3,7 @@
 use trains::{PassedLoads, SectionSide};
 
 use super::distributed::{FORCES, Quantities};
+use super::fibres::StressRows;
 use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
 use super::peaks::Peak;
@@ -39,6 +40,7 @@ pub(super) struct Scan {
     /// First number of the spans of each rail, and the number of all.
     pub first_span: Vec<usize>,
     pub passages: Vec<Passage>,
+    pub stresses: StressRows,
     /// Largest magnitude of each quantity, and of both deflections.
     pub sizes: [f64; FORCES + 2],
 }
@@ -61,6 +63,7 @@ impl Scan {
             under: vec![Default::default(); loads * spans],
             first_span,
             passages: Vec::new(),
+            stresses: StressRows::new(&sections.stressed, sections.sections.len(), loads),
             sizes: [0.0; FORCES + 2],
         };
         let mut before: Option<LoadState> = None;
@@ -101,10 +104,12 @@ impl Scan {
                 continue;
             };
             girders.members.load(index, &state.loads, &mut passed);
+            let fibres = sections.stressed.of(index);
             for &section in &sections.of_member[index] {
                 let place = sections.sections[section].place;
                 let values = girders.sum(index, place, state, &passed, None);
                 add(&mut self.sections[section], &mut self.sizes, row, &values);
+                self.stresses.add_section(section, fibres, row, &values);
             }
             for (load, place) in passed.places() {
                 let x = girders.members.coordinate(index, place);
@@ -116,6 +121,7 @@ impl Scan {
                     let values = girders.sum(index, place, state, &passed, Some((load, is_behind)));
                     let at = self.wheel(load, is_behind, rail, span);
                     add(&mut self.wheels[at], &mut self.sizes, row, &values);
+                    self.stresses.add_wheel((load, is_behind), fibres, row, &values);
                 }
             }
         }

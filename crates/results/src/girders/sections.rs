@@ -5,6 +5,7 @@ use formats::scene::{Origin, Scene};
 use formats::spec::Spec;
 use trains::{MemberForces, SectionSide};
 
+use super::fibres::StressedSections;
 use foundations::SolvedModel;
 
 /// Parts into which each span is divided.
@@ -95,21 +96,26 @@ pub(super) struct Sections {
     pub sections: Vec<MemberSection>,
     /// Indices of the sections of each member.
     pub of_member: Vec<Vec<usize>>,
+    /// What stresses need; empty where they are not wanted.
+    pub stressed: StressedSections,
 }
 
 impl Sections {
     /// Sections of the rails of structure `s` at stations, ends of members and twentieths of spans.
     pub fn new(scene: &Scene, s: usize, solved: &SolvedModel, members: &MemberForces) -> Sections {
         let mut rails = Vec::new();
+        let mut stressed = StressedSections::default();
         if let Origin::Spec { spec, .. } = &scene.structures[s].origin {
             for index in (0..scene.rails.len()).filter(|rail| scene.rails[*rail].structure == s) {
                 rails.push(rail_spans(scene, index, spec, &solved.model, solved, members));
             }
+            let known: Vec<[usize; 2]> = rails.iter().map(|rail| [rail.scene_rail, rail.rail]).collect();
+            stressed = StressedSections::new(scene, spec, solved, members, &known);
         }
-        Sections::of(rails, members)
+        Sections { stressed, ..Sections::of(rails, members) }
     }
 
-    /// The sections at the places of `rails`.
+    /// The sections at the places of `rails`, without stresses.
     pub fn of(rails: Vec<RailSpans>, members: &MemberForces) -> Sections {
         let (mut points, mut sections) = (Vec::new(), Vec::new());
         let mut of_member = vec![Vec::new(); members.members().len()];
@@ -145,7 +151,7 @@ impl Sections {
                 }
             }
         }
-        Sections { rails, points, sections, of_member }
+        Sections { rails, points, sections, of_member, stressed: StressedSections::default() }
     }
 
     /// Sections of the same rails at those of `places` (index in the list of rails, coordinate) that have none.

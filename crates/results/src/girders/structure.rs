@@ -12,6 +12,7 @@ use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
 use super::solved::SolvedMembers;
 use super::spans::SpanValue;
+use super::stresses::GirderStresses;
 use super::{GirderEnvelope, GirderExtreme};
 use crate::Error;
 use crate::response::WheelLoadReader;
@@ -143,11 +144,12 @@ impl<'a> PreparedGirders<'a> {
         rows: Rows<'_>,
         found: &SpanExtremes,
         accuracy: f64,
-    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>) {
+    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses) {
         let sizes = found.sizes;
         let (girders, _) = self.loaded(rows, &self.sections, 1);
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
+        let stresses = refinement.stresses(&found.values);
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
@@ -156,7 +158,7 @@ impl<'a> PreparedGirders<'a> {
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
         // places in order; quantities keep theirs
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
-        (extremes, all)
+        (extremes, all, stresses)
     }
 }
 

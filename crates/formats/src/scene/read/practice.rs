@@ -7,11 +7,14 @@ use practice::limits::ServiceClass;
 use practice::skew::Guide;
 
 use crate::check::Check;
-use crate::practice_words::{BUILDINGS, CLASSES, DRIVES, GUIDE, HOISTING, KINDS, RELEASE, fatigue_classes};
+use crate::practice_words::{
+    BUILDINGS, CLASSES, DRIVES, GUIDE, HOISTING, KINDS, LATERAL_SECTIONS, LateralSection, RELEASE,
+    fatigue_classes,
+};
 use crate::scene::raw::RawPractice;
 use crate::scene::values::practice::Practice;
 use crate::scene::values::scene::{Scene, mean_lateral_position, root_body};
-use crate::text::fault::{Fault, number};
+use crate::text::fault::{Fault, Faults, number};
 use crate::text::names::{names, resolve};
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -60,7 +63,24 @@ fn efficiency(raw: &RawPractice, at: &Place<'_>, check: &mut Check<'_>) -> f64 {
     efficiency
 }
 
-/// Reads the member of a scene whose bodies, trucks and ropes have already been read.
+/// What resists lateral moments in stresses of girders.
+pub(super) fn lateral_section(
+    raw: &Option<RawPractice>,
+    root: &Place<'_>,
+    check: &mut Check<'_>,
+) -> Option<LateralSection> {
+    let word = raw.as_ref()?.lateral_section.as_ref()?;
+    check.faults.one_of(word, &root.key("practice").key("lateral_section"), &LATERAL_SECTIONS)
+}
+
+/// Whether the member requests stresses and says nothing else. They need no crane on two rails, which codes need.
+fn is_for_stresses(raw: &RawPractice) -> bool {
+    let alone = RawPractice { lateral_section: raw.lateral_section.clone(), ..RawPractice::default() };
+    raw.lateral_section.is_some() && *raw == alone
+}
+
+/// Reads the member of a scene whose bodies, trucks and ropes have already been read. A member with `lateral_section` alone gives
+/// nothing, without a fault, where the scene has no crane to which codes apply.
 pub(super) fn read(
     raw: &Option<RawPractice>,
     scene: &Scene,
@@ -69,6 +89,9 @@ pub(super) fn read(
 ) -> Option<Practice> {
     let raw = raw.as_ref()?;
     let at = root.key("practice");
+    let mut unheeded = Faults::default();
+    let faults = if is_for_stresses(raw) { &mut unheeded } else { &mut *check.faults };
+    let check = &mut Check { faults, scale: check.scale };
     let classes = Classes::read(raw, &at, check);
     let bumper_efficiency = efficiency(raw, &at, check);
     let kind = raw.kind.as_ref().and_then(|word| check.faults.one_of(word, &at.key("kind"), &KINDS));

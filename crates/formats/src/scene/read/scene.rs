@@ -79,6 +79,7 @@ pub(in crate::scene) fn read(
         stops: Vec::new(),
         events: Vec::new(),
         practice: None,
+        lateral_section: practice::lateral_section(&raw.practice, &root, check),
         end,
         dt: read_interval(raw, end, &root, check),
         accuracy: check.positive(

@@ -9,6 +9,7 @@ use super::practice::Practice;
 use super::structure::Structure;
 use super::truck::Truck;
 use super::wheel::WheelKind;
+use crate::practice_words::LateralSection;
 use crate::units::Units;
 
 /// Value of the member `format`: name and version of the format.
@@ -67,6 +68,8 @@ pub struct Scene {
     pub output: Output,
     /// Input of the crane design codes; none if the codes are not applied.
     pub practice: Option<Practice>,
+    /// What resists lateral moments in stresses of girders; none if stresses are not requested.
+    pub lateral_section: Option<LateralSection>,
     /// Relative error tolerance of the time steps.
     pub accuracy: f64,
     /// Method of time integration.
