@@ -132,9 +132,9 @@ impl<'a> LoadStates<'a> {
 
     /// First rows of the polynomials for a position behind `row`, best first: four rows without a corner between them.
     fn starts(&self, row: usize, position: f64) -> [Option<usize>; 3] {
-        let own = self.corners.iter().find(|corner| (row as f64..=(row + 1) as f64).contains(*corner));
+        let own = self.corner_from(row as f64).filter(|corner| *corner <= (row + 1) as f64);
         let wanted = match own {
-            Some(corner) if position <= *corner => [row.checked_sub(3), None, None],
+            Some(corner) if position <= corner => [row.checked_sub(3), None, None],
             Some(_) => [Some(row + 1), None, None],
             None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
         };
@@ -143,15 +143,20 @@ impl<'a> LoadStates<'a> {
 
     /// Whether there are four rows without a corner from `start`.
     fn is_clear(&self, start: usize) -> bool {
-        let range = start as f64..=(start + 3) as f64;
-        start + 3 < self.len() && !self.corners.iter().any(|corner| range.contains(corner))
+        let is_inside = |corner: f64| corner <= (start + 3) as f64;
+        start + 3 < self.len() && !self.corner_from(start as f64).is_some_and(is_inside)
+    }
+
+    /// The first corner that is not before a position.
+    fn corner_from(&self, position: f64) -> Option<f64> {
+        self.corners.get(self.corners.partition_point(|corner| *corner < position)).copied()
     }
 
     /// The state just before or just after a corner; the state at the time itself if it is none. Where another corner is too
     /// near for a polynomial, forces are those of the next row on this side, and loads stand where they are at the corner.
     pub fn limit(&self, position: f64, is_after: bool) -> LoadState {
-        let corner = self.corners.iter().find(|corner| (**corner - position).abs() < 1e-6);
-        let Some(&corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
+        let corner = self.corner_from(position - 1e-6).filter(|corner| corner - position < 1e-6);
+        let Some(corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
         let (row, start) = if is_after {
             let row = corner.floor() as usize + 1;
             (row, Some(row))
