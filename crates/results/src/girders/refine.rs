@@ -4,6 +4,7 @@ use trains::{GirderResponse, SectionSide};
 
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
+use super::instants::LoadState;
 use super::peaks::{Peak, largest};
 use super::scan::{SIGNS, Scan};
 
@@ -119,6 +120,17 @@ impl Refinement<'_> {
             self.over_time((peak, self.girders.deflection_stride), FORCES + plane, &mut value);
         let side = SectionSide::At;
         Some(GirderValue { signed, position, x: point.x, section: None, own: None, is_after: None, side })
+    }
+
+    /// The state in which a value was found.
+    pub fn state_of(&self, found: &GirderValue) -> LoadState {
+        let states = &self.girders.states;
+        let Some(is_after) = found.is_after else { return states.at(found.position) };
+        let mut state = states.limit(found.position, is_after);
+        if let Some((load, _)) = found.own {
+            state.loads[load].x = found.x;
+        }
+        state
     }
 
     /// The largest value in the two intervals beside the row of a peak; the value at the row where the values beside it

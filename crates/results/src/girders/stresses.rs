@@ -13,7 +13,6 @@ use trains::{PassedLoads, SectionSide};
 
 use super::distributed::Quantities;
 use super::fibres::DIRECT;
-use super::instants::LoadState;
 use super::peaks::largest;
 use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, offer};
 use super::spans::SpanValue;
@@ -217,17 +216,6 @@ impl Refinement<'_> {
 
     fn stress_size(&self, member: usize, values: &Quantities) -> f64 {
         self.stress(member, values).map_or(0.0, |(worst, _)| worst.value().abs())
-    }
-
-    /// The state in which a value was found.
-    fn state_of(&self, found: &GirderValue) -> LoadState {
-        let states = &self.girders.states;
-        let Some(is_after) = found.is_after else { return states.at(found.position) };
-        let mut state = states.limit(found.position, is_after);
-        if let Some((load, _)) = found.own {
-            state.loads[load].x = found.x;
-        }
-        state
     }
 
     fn stress_at(&self, found: &GirderValue) -> Option<(FibreStress, [f64; 3])> {

@@ -208,7 +208,13 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
                     is_max: kind == 0,
                     value: refinement.without_rounding(quantity, sign * found.signed),
                     time: girders.states.at(found.position).time,
-                    coincident: coincident(girders, point.rail, sections.first().copied(), quantity, &found),
+                    coincident: coincident(
+                        refinement,
+                        point.rail,
+                        sections.first().copied(),
+                        quantity,
+                        &found,
+                    ),
                 });
             }
         }
@@ -219,27 +225,22 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
 /// Moment, shear and deflection in the plane of a quantity, of the same section at the same time. Those of a deflection
 /// are of the first section of its point.
 fn coincident(
-    girders: &LoadedGirders<'_>,
+    refinement: &Refinement<'_>,
     rail: usize,
     first: Option<usize>,
     quantity: usize,
     found: &GirderValue,
 ) -> [f64; 3] {
+    let girders = refinement.girders;
     let is_lateral = [
         GirderResponse::LateralShear as usize,
         GirderResponse::LateralMoment as usize,
         GirderResponse::LateralDeflection as usize,
     ]
     .contains(&quantity);
-    let mut state = match found.is_after {
-        Some(is_after) => girders.states.limit(found.position, is_after),
-        None => girders.states.at(found.position),
-    };
+    let state = refinement.state_of(found);
     let deflection =
         girders.deflections(rail, &[found.x], usize::from(is_lateral), &state).map_or(0.0, |all| all[0]);
-    if let (Some((load, _)), Some(_)) = (found.own, found.is_after) {
-        state.loads[load].x = found.x;
-    }
     let section = found.section.or_else(|| {
         let section = girders.sections.sections[first?];
         Some((section.member, section.place))
