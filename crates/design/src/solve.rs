@@ -1,9 +1,11 @@
 //! The calculation of a design.
 
+use std::collections::BTreeMap;
+
 use fea::{Effect, Model};
 use formats::design::{Design, DesignCase};
 use formats::text::inputs::Inputs;
-use trains::{DeadLoads, GirderResponse, Governing, Request, Structure, TrainCase};
+use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
 use crate::combinations::groups_left_out;
 use crate::details::Details;
@@ -154,14 +156,14 @@ fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
     }
     for (number, case) in cases.iter().enumerate() {
         // Relative to the largest of their kind: forces, moments, deflections.
-        let kind = |quantity: GirderResponse| quantity_word(quantity);
-        let size = |quantity: GirderResponse| {
-            let same = case.envelopes.extremes.iter().filter(|other| kind(other.quantity) == kind(quantity));
-            same.map(|other| other.governing.value.abs()).fold(0.0, f64::max)
-        };
+        let mut sizes: BTreeMap<&str, f64> = BTreeMap::new();
+        for extreme in &case.envelopes.extremes {
+            let size = sizes.entry(quantity_word(extreme.quantity)).or_default();
+            *size = size.max(extreme.governing.value.abs());
+        }
         let open = case.envelopes.extremes.iter().filter(|extreme| {
             let gap = (extreme.bound - extreme.governing.value).abs();
-            gap > 1.001e-9 * size(extreme.quantity)
+            gap > 1.001e-9 * sizes[quantity_word(extreme.quantity)]
         });
         let count = open.count();
         if count > 0 {

@@ -64,8 +64,8 @@ pub use probe::{Axis, Probe};
 pub use quality::{StationSearch, StationSet, fewest_stations};
 pub use rail::{ElementFunctions, ElementMember, Flexibility, RailElement, Rails, RoundingSizes, ShapeRow};
 pub use surface::{
-    Couplings, ElementResidual, ExactSurface, ForceComponent, InfluenceLines, InternalForce, RailShapes,
-    ResidualFlexibility, Uncoupled,
+    Couplings, DisplacementLines, ElementResidual, ExactSurface, ForceComponent, InfluenceLines,
+    InternalForce, RailShapes, ResidualFlexibility, Uncoupled,
 };
 pub use table::{
     BeamFit, FactorCurves, FactoredTable, InfluenceBlock, Rank, ReadingMethod, SplineTable, TableFactor,

@@ -148,6 +148,7 @@ impl<'a> Analysis<'a> {
     ) -> Result<Prepared<'a>, Error> {
         let deflections = |direction| self.structure.deflection_lines(carrier, direction, None, self.used);
         let lines = CarrierLines { forces, deflections: [deflections(0)?, deflections(1)?] };
+        let lines = lines.joined(self.structure, carrier);
         let case = |plan: &CasePlan| {
             Ok((Overrun::new(self.structure, plan, carrier, &lines)?, load.times(plan.dead)))
         };

@@ -7,10 +7,14 @@ use crate::dead::DeadLoads;
 use crate::error::Error;
 use crate::extremes::Governing;
 use crate::follow::SectionSide;
+use crate::line::Lines;
 use crate::pieces::Pieces;
 use crate::plan::{CasePlan, Responses};
-use crate::structure::Structure;
+use crate::structure::{Structure, section_of};
 use crate::train::{COMPONENTS, TrainCase};
+
+/// Effects whose influence lines are solved at once.
+const BATCH: usize = 32;
 
 /// Largest and smallest value of sums of effects, by case and sum: reactions, internal forces of sections.
 ///
@@ -76,27 +80,36 @@ pub(crate) fn extremes_of_effects(
     used: [bool; COMPONENTS],
 ) -> Result<Vec<Vec<[Governing; 2]>>, Error> {
     let mut out = vec![Vec::with_capacity(effects.len()); plans.len()];
-    for sum in effects {
-        let line = structure.effect_line(sum, used)?;
-        let of_dead = structure.dead_effect(sum, &line, dead)?;
-        for (plan, out) in plans.iter().zip(&mut out) {
-            let own = plan.dead * of_dead;
-            let slack = structure.slack();
-            let of = |(stance, train)| (stance, Pieces::sum(&line, train, slack).responses());
-            let responses: Responses =
-                plan.trains.iter().map(|stances| stances.iter().enumerate().map(of).collect()).collect();
-            out.push([1.0, -1.0].map(|sign| {
-                let found = plan.best(&responses, sign, f64::NEG_INFINITY).unwrap_or_default();
-                Governing {
-                    value: sign * found.signed + own,
-                    dead: own,
-                    x: 0.0,
-                    side: SectionSide::At,
-                    trains: standings(plan, &found),
-                    coincident: [0.0; 3],
-                }
-            }));
+    let of_one_section = effects.chunk_by(|a, b| section_of(a) == section_of(b));
+    for sums in of_one_section.flat_map(|sums| sums.chunks(BATCH)) {
+        let lines = structure.effect_lines_of(sums, used)?;
+        for (sum, line) in sums.iter().zip(lines) {
+            let of_dead = structure.dead_effect(sum, &line, dead)?;
+            let line = line.joined();
+            for (plan, out) in plans.iter().zip(&mut out) {
+                out.push(governing(structure, plan, &line, plan.dead * of_dead));
+            }
         }
     }
     Ok(out)
+}
+
+/// The states of a case with the largest and the smallest value of an effect, whose influence line is given, and its value
+/// under dead load.
+fn governing(structure: &Structure, plan: &CasePlan, line: &Lines<1>, dead: f64) -> [Governing; 2] {
+    let slack = structure.slack();
+    let of = |(stance, train)| (stance, Pieces::sum(line, train, slack).responses());
+    let responses: Responses =
+        plan.trains.iter().map(|stances| stances.iter().enumerate().map(of).collect()).collect();
+    [1.0, -1.0].map(|sign| {
+        let found = plan.best(&responses, sign, f64::NEG_INFINITY).unwrap_or_default();
+        Governing {
+            value: sign * found.signed + dead,
+            dead,
+            x: 0.0,
+            side: SectionSide::At,
+            trains: standings(plan, &found),
+            coincident: [0.0; 3],
+        }
+    })
 }

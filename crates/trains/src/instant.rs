@@ -6,6 +6,7 @@
 
 use crate::error::Error;
 use crate::line::{LineCell, value_of_cubic};
+use crate::rail_deflection::CarrierLines;
 use crate::section::slope_index;
 use crate::structure::{Carrier, OnMember, QUANTITIES, Structure};
 use fea::{Effect, Model, Rail};
@@ -113,8 +114,9 @@ impl MemberForces {
             };
             let of_rail = |cells: Vec<LineCell<QUANTITIES>>| cells.into_iter().map(cell).collect();
             let solved = structure.end_lines(carriers, [true, true, true, false, false])?;
-            lines.extend(solved.into_iter().map(|lines| lines.rails.into_iter().map(of_rail).collect()));
-            for carrier in carriers {
+            for (carrier, forces) in carriers.iter().zip(solved) {
+                let joined = CarrierLines { forces, deflections: [None, None] }.joined(&structure, carrier);
+                lines.push(joined.forces.rails.into_iter().map(of_rail).collect());
                 elements.push(loaded_elements(&structure, carrier)?);
             }
         }

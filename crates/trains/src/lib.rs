@@ -9,12 +9,12 @@
 //!
 //! Everything is of first order. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, joining, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
 //! 3. `line`, `structure`: influence lines as cubics; the structure that has them; `kernel`, `rail_deflection`: the
-//!    deflection of a rail over a member as polynomials of the place and of the load's position;
+//!    deflection of a rail over a member as polynomials of the place and of the load's position; `joining`: far cells as one;
 //! 4. `pieces`, `running`, `plan`, `promising`, `hints`: responses to a train as functions of its position, the best
 //!    arrangement of trains, and where it can be;
 //! 5. `dead`: dead load;
@@ -40,6 +40,7 @@ mod extremes;
 mod follow;
 mod hints;
 mod instant;
+mod joining;
 mod kernel;
 mod line;
 mod ordinates;

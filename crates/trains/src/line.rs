@@ -12,8 +12,8 @@ pub(crate) const NODES: [f64; 4] =
 pub(crate) struct LineCell<const N: usize> {
     /// First and last coordinate.
     pub x: [f64; 2],
-    /// The rail element.
-    pub element: usize,
+    /// The rail element; `None` where several have been joined.
+    pub element: Option<usize>,
     /// By component of the load and response: the cubic in the distance from `x[0]`.
     pub cubics: [[[f64; 4]; N]; COMPONENTS],
 }

@@ -66,7 +66,7 @@ impl Overrun {
         let Some(forces) = deflections.iter().flatten().next().map(Lines::zeros_like) else {
             return Ok(None);
         };
-        let lines = CarrierLines { forces, deflections };
+        let lines = CarrierLines { forces, deflections }.joined(structure, carrier);
         Overrun::from_response(structure, plan, carrier, &lines, QUANTITIES).map(Some)
     }
 

@@ -125,7 +125,7 @@ impl<const N: usize> Pieces<N> {
             for (wheel, kind) in train.wheels.iter().zip(&kind_of) {
                 let cells = &lines.rails[wheel.rail];
                 let found = cell_at(cells, middle + wheel.offset);
-                elements.push(found.map(|k| cells[k].element));
+                elements.push(found.and_then(|k| cells[k].element));
                 if let Some(k) = found {
                     let t = ends[0] + wheel.offset - cells[k].x[0];
                     for (sum, cubic) in cubics.iter_mut().zip(&loaded[*kind][k]) {

@@ -9,7 +9,7 @@
 //! The e_j follow from four places, from whose influence lines the kernels are subtracted. The deflection from a chord
 //! differs by a linear function of u.
 
-use splines::{Compliance, Influence, Probe};
+use splines::Probe;
 
 use crate::error::Error;
 use crate::kernel::{Kernel, RailPoint};
@@ -46,15 +46,13 @@ impl Structure {
         let loads = self.unit_kernels(carrier, direction)?;
         let places = NODES.map(|node| carrier.x[0] + node * (carrier.x[1] - carrier.x[0]));
         let ends = chord.as_ref().map_or(&[][..], |chord| &chord[..]);
-        let mut probes: Vec<Probe> =
+        let probes: Vec<Probe> =
             places.iter().chain(ends).map(|&x| Probe { rail: carrier.rail, x, axis }).collect();
-        let count = probes.len();
-        let mut influence = Influence::zeros(count + 1);
+        let displacements = surface.displacement_lines(&probes)?;
+        let mut moved = vec![0.0; probes.len()];
         let value = |probe: Probe, out: &mut [f64]| {
-            probes.truncate(count);
-            probes.push(probe);
-            surface.fill(&probes, &mut influence)?;
-            let at = |k: usize| sign * influence.value[(k, count)];
+            displacements.fill(probe, &mut moved)?;
+            let at = |k: usize| sign * moved[k];
             for (node, out) in out.iter_mut().enumerate() {
                 let passed = self.passed(&loads, probe, carrier.place(places[node]));
                 let below = chord.map_or(0.0, |[from, to]| {

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 
 use fea::{Effect, FactoredFrame, ForceComponent, Model, Rail, Weight};
 use nalgebra::Vector3;
-use splines::{Axis, Compliance, ExactSurface, Influence, InfluenceLines, Probe};
+use splines::{Axis, ExactSurface, InfluenceLines, Probe};
 
 use crate::error::Error;
 use crate::line::{LineCell, Lines, Stretch, cubics};
@@ -347,7 +347,8 @@ impl Structure {
                 (0..COMPONENTS).filter(|&k| used[k] && self.resists(index, k)).collect();
             for stretch in &rail.stretches {
                 for x in parts(stretch.x, split(stretch), self.slack()) {
-                    let empty = LineCell { x, element: stretch.element, cubics: [[[0.0; 4]; N]; COMPONENTS] };
+                    let empty =
+                        LineCell { x, element: Some(stretch.element), cubics: [[[0.0; 4]; N]; COMPONENTS] };
                     out.iter_mut().for_each(|lines| lines.rails[index].push(empty.clone()));
                     for &component in &components {
                         let found = cubics(x, groups * N, |x, out| {
@@ -393,18 +394,19 @@ impl Structure {
         Ok(all)
     }
 
-    /// Influence line of a sum of effects; it may jump at the sections of internal forces.
-    pub(crate) fn effect_line(
+    /// Influence lines of sums of effects, which may jump at the sections of internal forces; all of these are the same
+    /// [`section_of`].
+    pub(crate) fn effect_lines_of(
         &self,
-        effects: &[Effect],
+        sums: &[Vec<Effect>],
         used: [bool; COMPONENTS],
-    ) -> Result<Lines<1>, Error> {
-        let lines: InfluenceLines = self.frame.influence_lines(&self.model, effects)?;
-        let cut = effects.iter().find_map(|effect| match *effect {
-            Effect::InternalForce { member, place, .. } => Some((member, place)),
-            Effect::Reaction(_) => None,
-        });
-        let mut parts = vec![0.0; effects.len()];
+    ) -> Result<Vec<Lines<1>>, Error> {
+        if used == [false; COMPONENTS] {
+            return self.lines(used, sums.len(), |_| Vec::new(), |_, _| Ok(()));
+        }
+        let lines: InfluenceLines = self.frame.influence_lines(&self.model, &sums.concat())?;
+        let cut = sums.first().and_then(|sum| section_of(sum));
+        let mut parts = vec![0.0; lines.len()];
         let split = |stretch: &Stretch| {
             let carrier = self.carriers.iter().find(|c| c.element == stretch.element);
             let here = carrier.zip(cut).filter(|(carrier, (member, _))| carrier.member == *member);
@@ -416,10 +418,23 @@ impl Structure {
         };
         let value = |probe: Probe, out: &mut [f64]| {
             lines.fill(probe, &mut parts)?;
-            out[0] = parts.iter().sum();
+            let mut rest = &parts[..];
+            for (sum, out) in sums.iter().zip(out) {
+                let (own, others) = rest.split_at(sum.len());
+                (*out, rest) = (own.iter().sum(), others);
+            }
             Ok(())
         };
-        Ok(self.lines(used, 1, split, value)?.remove(0))
+        self.lines(used, sums.len(), split, value)
+    }
+
+    /// Influence line of a sum of effects.
+    pub(crate) fn effect_line(
+        &self,
+        effects: &[Effect],
+        used: [bool; COMPONENTS],
+    ) -> Result<Lines<1>, Error> {
+        Ok(self.effect_lines_of(&[effects.to_vec()], used)?.remove(0))
     }
 
     /// Influence line of the deflection of a rail at x, downwards or along +z.
@@ -432,10 +447,10 @@ impl Structure {
     ) -> Result<Lines<1>, Error> {
         let surface = self.surface()?;
         let (axis, sign) = deflection_axis(quantity);
-        let mut influence = Influence::zeros(2);
+        let displacement = surface.displacement_lines(&[Probe { rail, x, axis }])?;
         let value = |probe: Probe, out: &mut [f64]| {
-            surface.fill(&[Probe { rail, x, axis }, probe], &mut influence)?;
-            out[0] = sign * influence.value[(0, 1)];
+            displacement.fill(probe, out)?;
+            out[0] *= sign;
             Ok(())
         };
         Ok(self.lines(used, 1, |stretch| self.opposite(rail, &[x], stretch), value)?.remove(0))
@@ -462,6 +477,14 @@ impl Structure {
 /// Axis of a deflection, and the sign with which it counts.
 pub(crate) fn deflection_axis(quantity: GirderResponse) -> (Axis, f64) {
     if quantity == GirderResponse::LateralDeflection { (Axis::Lateral, 1.0) } else { (Axis::Vertical, -1.0) }
+}
+
+/// The section of the internal forces in a sum of effects: its member and place.
+pub(crate) fn section_of(effects: &[Effect]) -> Option<(usize, f64)> {
+    effects.iter().find_map(|effect| match *effect {
+        Effect::InternalForce { member, place, .. } => Some((member, place)),
+        Effect::Reaction(_) => None,
+    })
 }
 
 /// The six components of the internal force just inside the end of a carrier at its smaller coordinate.

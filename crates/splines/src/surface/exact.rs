@@ -191,7 +191,7 @@ impl ExactSurface {
     }
 
     /// The shape row of a probe in whose direction the structure has stiffness.
-    fn restrained_row(&self, at: Probe) -> Result<ShapeRow, Error> {
+    pub(super) fn restrained_row(&self, at: Probe) -> Result<ShapeRow, Error> {
         let mut row = ShapeRow::EMPTY;
         self.rails.row_into(at, &mut row)?;
         let is_free =

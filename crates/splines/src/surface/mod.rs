@@ -1,11 +1,13 @@
 //! Compliance surfaces that follow from the elements of rails and the compliance of their node states: exact
 //! influence coefficients, and what is derived from them.
 //!
-//! Order: `planar` (the fast path of the exact surface), `exact`, `effects` (reactions and internal forces),
+//! Order: `planar` (the fast path of the exact surface), `exact`, `displacement_lines` (displacements of
+//! fixed places under loads anywhere), `effects` (reactions and internal forces),
 //! `shapes` (given motions of the rails), `residual` (a surface less what such motions account for),
 //! `element_residual` (the same for deflections of single members),
 //! `uncoupled` (a compliance without some of its couplings).
 
+mod displacement_lines;
 mod effects;
 mod element_residual;
 mod exact;
@@ -14,6 +16,7 @@ mod residual;
 mod shapes;
 mod uncoupled;
 
+pub use displacement_lines::DisplacementLines;
 pub use effects::{ForceComponent, InfluenceLines, InternalForce};
 pub use element_residual::ElementResidual;
 pub use exact::ExactSurface;
