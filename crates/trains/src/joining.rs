@@ -76,26 +76,24 @@ impl<const N: usize> Run<N> {
     fn with(&self, cell: &LineCell<N>, limits: &Limits<N>) -> Option<Run<N>> {
         let mut run = self.clone();
         let h = cell.x[1] - cell.x[0];
-        for component in 0..COMPONENTS {
-            for k in 0..N {
-                let (cubic, limit) = (&cell.cubics[component][k], limits[component][k]);
-                // The cubic less its chord is t (t - h) (c + d (t + h)).
-                let [_, _, c, d] = *cubic;
-                let bend = 0.25 * h * h * (c + d * h).abs().max((c + 2.0 * d * h).abs());
-                if bend > 0.5 * limit {
-                    return None;
+        let cubics = cell.cubics.iter().flatten().zip(limits.iter().flatten());
+        let lines = run.values.iter().flatten().zip(run.slopes.iter_mut().flatten());
+        for ((cubic, limit), (first, [least, most])) in cubics.zip(lines) {
+            // The cubic less its chord is t (t - h) (c + d (t + h)).
+            let [_, _, c, d] = *cubic;
+            let bend = 0.25 * h * h * (c + d * h).abs().max((c + 2.0 * d * h).abs());
+            if bend > 0.5 * limit {
+                return None;
+            }
+            for (x, value) in [(cell.x[0], cubic[0]), (cell.x[1], value_of_cubic(cubic, h))] {
+                let (d, rise) = (x - run.start, value - first);
+                if d > 0.0 {
+                    *least = least.max((rise - 0.5 * limit) / d);
+                    *most = most.min((rise + 0.5 * limit) / d);
                 }
-                let [least, most] = &mut run.slopes[component][k];
-                for (x, value) in [(cell.x[0], cubic[0]), (cell.x[1], value_of_cubic(cubic, h))] {
-                    let (d, rise) = (x - run.start, value - run.values[component][k]);
-                    if d > 0.0 {
-                        *least = least.max((rise - 0.5 * limit) / d);
-                        *most = most.min((rise + 0.5 * limit) / d);
-                    }
-                }
-                if *least > *most {
-                    return None;
-                }
+            }
+            if *least > *most {
+                return None;
             }
         }
         Some(run)

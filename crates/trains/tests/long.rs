@@ -41,12 +41,11 @@ fn found(spans: usize, middle: usize, trains: usize) -> CaseEnvelopes {
     envelopes(&structure, &DeadLoads::default(), &[case], &request).expect("envelopes").remove(0)
 }
 
-/// Physical identity: a girder feels nothing of supports forty spans away. 31 spans are too few for anything to be joined,
-/// of 101 most are. Normal forces do not die out and are left out.
+/// Physical identity: a girder feels nothing of supports many spans away. 31 spans are too few for anything to be joined. Normal forces do not die out and are left out.
 #[test]
 fn a_span_in_the_middle_does_not_feel_how_long_the_girder_is() {
     for trains in [1, 2] {
-        let [short, long] = [(31, 15), (101, 50)].map(|(spans, middle)| found(spans, middle, trains));
+        let [short, long] = [(31, 15), (63, 31)].map(|(spans, middle)| found(spans, middle, trains));
         assert_eq!(short.extremes.len(), long.extremes.len());
         let mut compared = 0;
         for (a, b) in short.extremes.iter().zip(&long.extremes) {
@@ -66,9 +65,8 @@ fn a_span_in_the_middle_does_not_feel_how_long_the_girder_is() {
                 a.governing.value,
                 b.governing.value
             );
-            assert!(
-                b.bound.abs() >= b.governing.value.abs() * (1.0 - 1e-12) || b.governing.value * b.bound < 0.0
-            );
+            let beyond = if b.is_max { b.governing.value - b.bound } else { b.bound - b.governing.value };
+            assert!(beyond <= 1e-12 * size, "{:?} of span {} is beyond its bound", b.quantity, b.span);
             compared += 1;
         }
         assert!(compared >= 28, "{compared}");
