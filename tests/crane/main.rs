@@ -15,6 +15,7 @@ mod drift;
 mod drop;
 mod emergency;
 mod event;
+mod extremes;
 mod film;
 #[path = "../history.rs"]
 mod history;

@@ -95,13 +95,14 @@ fn run_case(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<CaseResult, Error> {
     let mut scene = case.scene.clone();
-    let input = simulation_input(&scene)?;
+    let mut input = simulation_input(&scene)?;
+    input.scene.records_steps = true;
     let recorded = records_dofs(&scene, known);
     let mut observer = ColumnObserver::new(&case.scene, &input, known, trial);
     let chosen =
         foundations::select_and_run(&mut scene, &input.scene, known, &recorded, &mut observer, watch);
     let label = case.label.clone().unwrap_or_else(|| foundation_label(&scene));
-    let foundations::AutoRun { choices, run, built } = chosen.map_err(|error| match error {
+    let foundations::AutoRun { choices, mut run, built } = chosen.map_err(|error| match error {
         foundations::Error::Simulation(error) => {
             let why = crate::run_error::in_scene_names(&error, &case.scene);
             let at_fault = match error {
@@ -129,7 +130,9 @@ fn run_case(
         left = left.checked_sub(1)?;
         repeated(&scene, &input, &run, &foundations, rows)
     };
-    let girders = girders::of_run(&prepared, (&scene, &input), &run.history, &foundations, &mut repeat);
+    let girders =
+        girders::of_run(&prepared, (&scene, &input), [&run.history, &run.steps], &foundations, &mut repeat);
+    run.steps = History::default();
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let spans = SpanResponse { history: &run.history, solved: &solved, deflections: &response.deflections };
     let codes = CodeCheck::new(&scene, &input, &record, &spans)?;

@@ -86,6 +86,10 @@ pub struct Run {
     pub status: Status,
     /// Samples over time.
     pub history: History,
+    /// Samples at the output times and at the ends of steps, where [`Scene::records_steps`] asks for them: steps end where
+    /// contacts open and close, so that forces are smooth between these samples. Empty for a quasi-static sweep, a crossing
+    /// by [`Method::Series`], and where they would be more than 1e7 values.
+    pub steps: History,
     /// Rules that acted, in order of time.
     pub fired: Vec<Fired>,
     /// The energy audit; zeros for a quasi-static sweep.
@@ -188,6 +192,7 @@ fn attempt(
             return Ok(Run {
                 status: if crossed.is_stopped { Status::Stopped } else { Status::Done },
                 history: crossed.history,
+                steps: History::default(),
                 fired: Vec::new(),
                 audit: crossed.audit,
                 counts: crossed.counts,
@@ -281,9 +286,11 @@ fn integrate(
     let mut stepper = Stepper::new(solver, state, stepping, LOCAL_PER_GLOBAL * scene.accuracy, first)?;
     let mut fired = Vec::new();
     let status = advance(scene, &mut stepper, &mut samples, &mut fired, watch)?;
+    let [history, steps] = samples.histories();
     Ok(Run {
         status,
-        history: samples.history(),
+        history,
+        steps,
         fired,
         audit: stepper.audit(),
         counts: stepper.counts(),
@@ -404,6 +411,7 @@ fn sweep(
     Ok(Run {
         status,
         history,
+        steps: History::default(),
         fired: Vec::new(),
         audit,
         counts,

@@ -22,7 +22,7 @@ pub(super) struct LoadState {
     pub accelerations: Vec<f64>,
 }
 
-/// The states of a structure over time: rows of the history `stride` apart, and between them cubic polynomials through
+/// The states of a structure over time: rows of a history, and between them cubic polynomials through
 /// four rows, channel by channel.
 ///
 /// Forces have corners, and with dampers jumps, where wheels pass the ends of members. No polynomial extends to these
@@ -42,24 +42,20 @@ pub(super) struct LoadStates<'a> {
 }
 
 impl<'a> LoadStates<'a> {
-    /// The states of structure `s` with `dofs` recorded degrees of freedom. `ends` are the ends of members by rail.
+    /// The states of structure `s` with `dofs` recorded degrees of freedom, by increasing rows of a history. `ends` are the
+    /// ends of members by rail.
     pub fn new(
         history: &'a History,
         loads: &'a WheelLoadReader,
         (s, dofs): (usize, usize),
         ends: &[(usize, f64)],
-        stride: usize,
+        rows: Vec<usize>,
     ) -> LoadStates<'a> {
         let channel = |wanted| history.position(wanted);
         let first = channel(Channel::Coordinate(s, 0)).zip(channel(Channel::Acceleration(s, 0)));
         let dofs = first.map(|(q, a)| (q, a, dofs));
         let mut channels = loads.channels();
         channels.extend(dofs.iter().flat_map(|(q, a, n)| (*q..q + n).chain(*a..a + n)));
-        let last = history.len().saturating_sub(1);
-        let mut rows: Vec<usize> = (0..history.len()).step_by(stride.max(1)).collect();
-        if rows.last().is_some_and(|row| *row != last) {
-            rows.push(last);
-        }
         let mut out = LoadStates { history, loads, s, dofs, rows, channels, corners: Vec::new() };
         out.corners = out.all_corners(ends);
         out

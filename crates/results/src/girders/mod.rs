@@ -12,15 +12,16 @@
 //!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
-//! 4. The result is compared with that of every second row. Where they differ by more than the accuracy of the scene, the
-//!    run is repeated with more rows (`rows`).
+//! 4. The same is done at the ends of steps, which the run records beside its output times, with ever more of them
+//!    (`kept_rows`), until the extremes change by no more than the accuracy of the scene (`rows`). Runs without steps, such as
+//!    quasi-static ones, are repeated with more rows.
 //!
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
 //! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
 //!
-//! Files, lowest first: solved, peaks, instants, fibres, sections, distributed, girder, scan, refine, deflections, spans,
+//! Files, lowest first: solved, peaks, kept_rows, instants, fibres, sections, distributed, girder, scan, refine, deflections, spans,
 //! stresses, structure, rows, this one.
 
 mod deflections;
@@ -28,6 +29,7 @@ mod distributed;
 mod fibres;
 mod girder;
 mod instants;
+mod kept_rows;
 mod peaks;
 mod refine;
 mod rows;

@@ -16,6 +16,8 @@ use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of rows, and of values of a history, to which a repetition is raised.
 const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
+/// Differences from straight lines up to which rows are left out, one after the other, relative to the largest load.
+const TOLERANCES: [f64; 3] = [1e-3, 1e-4, 1e-6];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.
@@ -52,7 +54,11 @@ pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 
 /// The extremes and envelopes of all girders of a scene.
 ///
-/// The extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
+/// Where the ends of `steps` were recorded, the extremes are those at the ends of steps and between them: first of those
+/// between which loads and motions are straight lines to 1e-3 of the largest, then to 1e-4 and 1e-6, until the extremes change by
+/// no more than `accuracy` times the largest value of their kind.
+///
+/// Otherwise the extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
 /// `accuracy` times the largest value of its kind, the run is repeated with as many rows as this rate suggests, at most
 /// twice. The change after a repetition is the smaller one of that from every second row and that from the history
@@ -60,7 +66,7 @@ pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 pub(crate) fn of_run(
     prepared: &Prepared<'_>,
     (scene, input): (&Scene, &SimulationInput),
-    history: &History,
+    [history, steps]: [&History; 2],
     foundations: &[Foundation],
     repeat: &mut Repetition<'_>,
 ) -> GirderExtremes {
@@ -75,34 +81,21 @@ pub(crate) fn of_run(
         return out;
     }
     let all = Evaluation { scene, input, foundations, girders: &girders };
-    let mut found = all.attempt(history);
-    let (mut rows, mut finer) = (1, None);
-    for _ in 0..REPETITIONS {
-        let own = finer.as_ref().unwrap_or(history);
-        let Some(more) = more_rows(scene, own, found.most_rows, found.change.fraction) else { break };
-        let more = more * rows;
-        let Some(repeated) = repeat(more) else { break };
-        let before = found.change.fraction;
-        let last = std::mem::replace(&mut found, all.attempt(&repeated));
-        let from_last = found.change_from(&last);
-        found.change = found.change.smaller(from_last);
-        (rows, finer) = (more, Some(repeated));
-        // where forces jump, more rows do not help
-        if found.change.fraction > WORTHWHILE * before {
-            break;
-        }
-    }
-    let history = finer.as_ref().unwrap_or(history);
+    let (found, finer) = match steps.is_empty() {
+        true => all.by_repetition(history, repeat),
+        false => (all.by_steps(steps), None),
+    };
+    let history = if steps.is_empty() { finer.as_ref().unwrap_or(history) } else { steps };
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
-        let rows = Rows { history, loads: &loads, foundations };
+        let rows = Rows { history, loads: &loads, foundations, tolerance: found.tolerance };
         let (extremes, envelope, stresses) = girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
         out.envelope.extend(envelope);
         out.stresses.extend(stresses);
         if spans.stride > 1 {
             out.notes.push(format!(
-                "{}: extremes of girders are evaluated at one of {} output times, because they are many",
+                "{}: extremes of girders are evaluated at one of {} times, because they are many",
                 girders.name(),
                 spans.stride
             ));
@@ -113,7 +106,7 @@ pub(crate) fn of_run(
             "extremes of girders still change by {} of the largest value of their kind with the number of times at which \
              they are evaluated, {}{}",
             number(rounded(found.change.fraction, 2)),
-            history.len(),
+            found.spans.iter().map(|spans| spans.rows).max().unwrap_or_default(),
             found.change.place()
         ));
     }
@@ -128,15 +121,8 @@ struct Attempt {
     change: Change,
     /// Largest number of rows that are all evaluated.
     most_rows: usize,
-}
-
-impl Attempt {
-    /// Largest change from the extremes of another history of the same run, relative to the largest value of its kind.
-    fn change_from(&self, other: &Attempt) -> Change {
-        let pairs = self.spans.iter().zip(&other.spans);
-        let all = pairs.map(|(own, other)| difference(own, other)).fold(Change::default(), Change::larger);
-        Change { structure: self.change.structure.clone(), ..all }
-    }
+    /// The tolerance by which rows were left out.
+    tolerance: Option<f64>,
 }
 
 /// A change of extremes, relative to the largest value of their kind.
@@ -177,9 +163,72 @@ struct Evaluation<'a> {
 }
 
 impl Evaluation<'_> {
+    /// The extremes from the ends of steps, with ever more of them, until they change by no more than the accuracy.
+    fn by_steps(&self, steps: &History) -> Attempt {
+        let mut found = self.attempt_at(steps, TOLERANCES[0]);
+        for tolerance in TOLERANCES.into_iter().skip(1) {
+            let next = self.attempt_at(steps, tolerance);
+            let change = self.change(&next, &found);
+            found = Attempt { change, ..next };
+            if found.change.fraction <= self.scene.accuracy {
+                break;
+            }
+        }
+        found
+    }
+
+    /// The extremes at the rows of a history, and if needed at those of repetitions of the run, the last of which is returned
+    /// as well.
+    fn by_repetition(&self, history: &History, repeat: &mut Repetition<'_>) -> (Attempt, Option<History>) {
+        let mut found = self.attempt(history);
+        let (mut rows, mut finer) = (1, None);
+        for _ in 0..REPETITIONS {
+            let own = finer.as_ref().unwrap_or(history);
+            let Some(more) = more_rows(self.scene, own, found.most_rows, found.change.fraction) else {
+                break;
+            };
+            let more = more * rows;
+            let Some(repeated) = repeat(more) else { break };
+            let before = found.change.fraction;
+            let last = std::mem::replace(&mut found, self.attempt(&repeated));
+            let from_last = self.change(&found, &last);
+            found.change = found.change.smaller(from_last);
+            (rows, finer) = (more, Some(repeated));
+            // where forces jump, more rows do not help
+            if found.change.fraction > WORTHWHILE * before {
+                break;
+            }
+        }
+        (found, finer)
+    }
+
+    /// Largest change of the extremes from one evaluation to the next, relative to the largest value of its kind.
+    fn change(&self, next: &Attempt, before: &Attempt) -> Change {
+        let each = self.girders.iter().zip(next.spans.iter().zip(&before.spans));
+        let of = |(girders, (next, before)): (&&PreparedGirders<'_>, _)| Change {
+            structure: girders.name().to_owned(),
+            ..difference(next, before)
+        };
+        each.map(of).fold(Change::default(), Change::larger)
+    }
+
+    /// The extremes at the rows that a tolerance leaves of a history; their change is not known.
+    fn attempt_at(&self, history: &History, tolerance: f64) -> Attempt {
+        let loads = WheelLoadReader::new(self.scene, self.input, history);
+        let rows = Rows { history, loads: &loads, foundations: self.foundations, tolerance: Some(tolerance) };
+        let spans = self.girders.iter().map(|girders| girders.spans(rows, 1, self.scene.accuracy));
+        Attempt {
+            spans: spans.collect(),
+            change: Change::default(),
+            most_rows: 0,
+            tolerance: Some(tolerance),
+        }
+    }
+
+    /// The extremes at all rows of a history, and by how much they change from every second row.
     fn attempt(&self, history: &History) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations };
+        let rows = Rows { history, loads: &loads, foundations: self.foundations, tolerance: None };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {
@@ -191,7 +240,7 @@ impl Evaluation<'_> {
         }
         let most_rows =
             self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
-        Attempt { spans: all, change, most_rows }
+        Attempt { spans: all, change, most_rows, tolerance: None }
     }
 }
 

@@ -7,6 +7,7 @@ use trains::{GirderResponse, MemberForces};
 use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
 use super::instants::LoadStates;
+use super::kept_rows::kept_rows;
 use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
@@ -19,9 +20,9 @@ use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
-const MAX_VALUES: usize = 2_000_000;
+const MAX_VALUES: usize = 16_000_000;
 /// Number of rows above which deflections are evaluated at fewer rows.
-const MAX_DEFLECTIONS: usize = 500;
+const MAX_DEFLECTIONS: usize = 4_000;
 
 /// A structure prepared for any number of runs.
 pub(super) struct PreparedGirders<'a> {
@@ -39,6 +40,9 @@ pub(super) struct Rows<'a> {
     pub loads: &'a WheelLoadReader,
     /// One for each structure.
     pub foundations: &'a [Foundation],
+    /// Difference of loads from straight lines between rows up to which rows are left out, relative to the largest load;
+    /// `None` for all rows.
+    pub tolerance: Option<f64>,
 }
 
 /// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
@@ -49,6 +53,8 @@ pub(super) struct SpanExtremes {
     pub sizes: [f64; FORCES + 2],
     /// Every how many rows were evaluated.
     pub stride: usize,
+    /// Number of rows that were evaluated.
+    pub rows: usize,
 }
 
 impl<'a> PreparedGirders<'a> {
@@ -100,7 +106,7 @@ impl<'a> PreparedGirders<'a> {
 
     fn loaded<'b>(
         &'b self,
-        Rows { history, loads, foundations }: Rows<'b>,
+        Rows { history, loads, foundations, tolerance }: Rows<'b>,
         sections: &'b Sections,
         factor: usize,
     ) -> (LoadedGirders<'b>, usize) {
@@ -108,19 +114,26 @@ impl<'a> PreparedGirders<'a> {
         let ends: Vec<(usize, f64)> =
             self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
         let own = (self.s, foundation.dofs());
-        let make = |stride| LoadedGirders {
+        let all = match tolerance {
+            Some(tolerance) => kept_rows(history, loads, own, tolerance),
+            None => (0..history.len()).collect(),
+        };
+        let stride = factor * (all.len() * self.width(history, loads)).div_ceil(MAX_VALUES).max(1);
+        let mut rows: Vec<usize> = all.iter().copied().step_by(stride).collect();
+        if rows.last() != all.last() {
+            rows.extend(all.last());
+        }
+        let mut girders = LoadedGirders {
             foundation,
             members: self.members,
             distributed: &self.distributed,
             sections,
-            states: LoadStates::new(history, loads, own, &ends, stride),
+            states: LoadStates::new(history, loads, own, &ends, rows),
             deflects: [foundation.parts.is_none()
                 && (foundation.structure.is_some() || foundation.compliance.is_some());
                 2],
             deflection_stride: 1,
         };
-        let stride = factor * (history.len() * self.width(history, loads)).div_ceil(MAX_VALUES).max(1);
-        let mut girders: LoadedGirders<'b> = make(stride);
         girders.deflection_stride = (girders.states.len() / MAX_DEFLECTIONS).max(1);
         if girders.deflects[1] {
             girders.deflects[1] = girders.has_deflections(1);
@@ -135,7 +148,7 @@ impl<'a> PreparedGirders<'a> {
         let sizes = scan.sizes;
         let refinement = Refinement { girders: &girders, scan: &scan, sizes, accuracy };
         let values = refinement.spans();
-        SpanExtremes { values, scan, sizes, stride }
+        SpanExtremes { values, scan, sizes, stride, rows: girders.states.len() }
     }
 
     /// The extremes as results, and the envelopes at all places and at those of the extremes.

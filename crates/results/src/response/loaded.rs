@@ -78,6 +78,14 @@ impl WheelLoadReader {
         wheels.chain(self.stops.iter().map(|stop| stop.channel)).collect()
     }
 
+    /// The channels that the loads on a structure are read from: those of positions, and those of forces.
+    pub(crate) fn channels_on(&self, structure: usize) -> [Vec<usize>; 2] {
+        let wheels = self.wheels.iter().filter(|wheel| wheel.structure == structure);
+        let stops = self.stops.iter().filter(|stop| stop.structure == structure);
+        let forces = wheels.clone().flat_map(|wheel| wheel.first + 1..wheel.first + 4);
+        [wheels.map(|wheel| wheel.first).collect(), forces.chain(stops.map(|stop| stop.channel)).collect()]
+    }
+
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
     #[must_use]
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {

@@ -65,6 +65,8 @@ pub struct Scene {
     pub output_dt: f64,
     /// Number of samples of the history in each output interval, at least 1.
     pub output_parts: usize,
+    /// Whether [`crate::Run::steps`] has a sample at the end of every step.
+    pub records_steps: bool,
     /// Required relative accuracy of displacements and forces.
     pub accuracy: f64,
 }
@@ -82,6 +84,7 @@ impl Default for Scene {
             end: 1.0,
             output_dt: 0.01,
             output_parts: 1,
+            records_steps: false,
             accuracy: 1e-6,
         }
     }

@@ -1,4 +1,4 @@
-//! Samples of a run at its output times, which generally lie inside steps.
+//! Samples of a run at its output times, which generally lie inside steps, and at the ends of steps.
 
 use super::stepper::Stepper;
 use crate::contact::active::ActiveSet;
@@ -8,9 +8,14 @@ use crate::mechanics::state::State;
 use crate::record::recorder::Recorder;
 use crate::{Error, History};
 
-/// Recorder of the history at the output times.
+/// Largest number of values of the history with the ends of steps.
+const MOST_VALUES: usize = 10_000_000;
+
+/// Recorder of the history at the output times, and of that with the ends of steps.
 pub(crate) struct Samples {
     recorder: Recorder,
+    /// The history with the ends of steps, and the sample at the end of the last one; `None` where it is not wanted.
+    steps: Option<(History, Vec<f64>)>,
     /// Index of the next output time.
     next: u64,
     sample: State,
@@ -50,8 +55,9 @@ impl Samples {
     pub fn new(solver: &Solver, start: &State) -> Result<Self, Error> {
         let mut recorder = Recorder::new(solver.system());
         recorder.record(solver.system(), solver.geometry(), start)?;
+        let steps = solver.system().scene.records_steps.then(|| (recorder.history().clone(), Vec::new()));
         let begun = Acting::of(solver);
-        Ok(Samples { recorder, next: 1, sample: start.clone(), after: begun.clone(), begun })
+        Ok(Samples { recorder, steps, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }
 
     /// Stores the active elements at the start of the next step; samples inside the step are computed with them.
@@ -68,6 +74,11 @@ impl Samples {
         let system = step.system();
         let (from, to) = (step.from.t, step.to.t);
         self.after.take(step.solver);
+        if let Some((_, end)) = &mut self.steps {
+            end.clear();
+            self.recorder.row(system, step.solver.geometry(), &step.to, end)?;
+        }
+        let known = self.recorder.history().len();
         while system.scene.output_time(self.next) <= to {
             let t = system.scene.output_time(self.next);
             let is_end = t >= to * (1.0 - 1e-14);
@@ -84,7 +95,25 @@ impl Samples {
             self.after.restore(step.solver);
             self.next += 1;
         }
+        self.add_step(known);
         Ok(())
+    }
+
+    /// Adds the samples at output times from number `known` on to those of the steps, and the one at the end of the step
+    /// just taken, unless it is an output time.
+    fn add_step(&mut self, known: usize) {
+        let Some((steps, end)) = &mut self.steps else { return };
+        let mut values = steps.take_values();
+        let history = self.recorder.history();
+        (known..history.len()).for_each(|k| values.extend(history.sample(k)));
+        if history.sample(history.len() - 1)[0] < end[0] {
+            values.append(end);
+        }
+        let is_too_long = values.len() > MOST_VALUES;
+        steps.put_values(values);
+        if is_too_long {
+            self.steps = None;
+        }
     }
 
     /// Records the end of the step just taken if it is not an output time.
@@ -100,8 +129,8 @@ impl Samples {
         Ok(())
     }
 
-    /// Returns the recorded samples.
-    pub fn history(self) -> History {
-        self.recorder.into_history()
+    /// Returns the samples at the output times, and those with the ends of steps.
+    pub fn histories(self) -> [History; 2] {
+        [self.recorder.into_history(), self.steps.map_or_else(History::default, |(steps, _)| steps)]
     }
 }

@@ -190,6 +190,7 @@ pub(super) fn crossing(
         end,
         output_dt: end,
         output_parts: 1,
+        records_steps: false,
         accuracy: 1e-6,
     })
 }
