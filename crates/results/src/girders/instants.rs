@@ -9,6 +9,10 @@ use crate::response::{WheelLoad, WheelLoadReader};
 /// linearly: a force jumps there or has a corner.
 const CORNER: f64 = 0.25;
 
+/// How far a value between rows may lie beyond their range, relative to it: the vertex of a parabola through four even rows
+/// is beyond it by at most an eighth, and values just beside the rows are extrapolated.
+const OVERSHOOT: f64 = 0.5;
+
 /// State of a structure at one time.
 #[derive(Clone, Debug, Default)]
 pub(super) struct LoadState {
@@ -240,8 +244,8 @@ impl<'a> Cubic<'a> {
         Cubic { rows, weights: std::array::from_fn(weight), rates }
     }
 
-    /// The value of channel `c`; `None` where it has a jump or a corner. A value that is exactly zero is a force of a
-    /// contact that is open, and there is a corner beside it.
+    /// The value of channel `c`; `None` where it has a jump or a corner, or where the rows are so uneven that the polynomial
+    /// leaves their range. A value that is exactly zero is a force of a contact that is open, and there is a corner beside it.
     fn value(&self, c: usize) -> Option<f64> {
         if self.rows.iter().any(|row| row[c] == 0.0) {
             return None;
@@ -249,6 +253,10 @@ impl<'a> Cubic<'a> {
         let slope = |i: usize| (self.rows[i + 1][c] - self.rows[i][c]) * self.rates[i];
         let [a, b, d] = [slope(0), slope(1), slope(2)];
         let is_smooth = (d - 2.0 * b + a).abs() <= CORNER * (a.abs() + d.abs());
-        is_smooth.then(|| self.rows.iter().zip(self.weights).map(|(row, weight)| weight * row[c]).sum())
+        let values = self.rows.map(|row| row[c]);
+        let value: f64 = values.iter().zip(self.weights).map(|(value, weight)| weight * value).sum();
+        let [low, high] = [f64::min, f64::max].map(|of| values.into_iter().reduce(of).unwrap_or(value));
+        let beyond = OVERSHOOT * (high - low);
+        (is_smooth && low - beyond <= value && value <= high + beyond).then_some(value)
     }
 }

@@ -12,9 +12,9 @@
 //!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
-//! 4. The same is done at the ends of steps, which the run records beside its output times, with ever more of them
-//!    (`kept_rows`), until the extremes change by no more than the accuracy of the scene (`rows`). Runs without steps, such as
-//!    quasi-static ones, are repeated with more rows.
+//! 4. The same is done at the ends of steps, which the run records beside its output times, as many of
+//!    them as loads and motions need (`kept_rows`), and the extremes are compared with those from fewer steps (`rows`). Runs
+//!    without steps, such as quasi-static ones, are repeated with more rows.
 //!
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.

@@ -10,14 +10,15 @@ use trains::GirderResponse;
 use super::GirderExtremes;
 use super::solved::SolvedMembers;
 use super::spans::SpanValue;
-use super::structure::{PreparedGirders, Rows, SpanExtremes};
+use super::structure::{MAX_VALUES, PreparedGirders, RowChoice, Rows, SpanExtremes};
 use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of rows, and of values of a history, to which a repetition is raised.
 const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
-/// Differences from straight lines up to which rows are left out, one after the other, relative to the largest load.
-const TOLERANCES: [f64; 3] = [1e-3, 1e-4, 1e-6];
+/// Choices of the ends of steps, one after the other. Also where the number of values decides, the second has more.
+const CHOICES: [RowChoice; 2] =
+    [RowChoice { tolerance: 1e-4, most: MAX_VALUES / 3 }, RowChoice { tolerance: 1e-5, most: MAX_VALUES }];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.
@@ -54,9 +55,9 @@ pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 
 /// The extremes and envelopes of all girders of a scene.
 ///
-/// Where the ends of `steps` were recorded, the extremes are those at the ends of steps and between them: first of those
-/// between which loads and motions are straight lines to 1e-3 of the largest, then to 1e-4 and 1e-6, until the extremes change by
-/// no more than `accuracy` times the largest value of their kind.
+/// Where the ends of `steps` were recorded, the extremes are those at the ends of steps and between them: those
+/// between which loads and motions are straight lines to 1e-5 of the largest. By how much they change from those of a tolerance
+/// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run.
 ///
 /// Otherwise the extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
@@ -88,7 +89,7 @@ pub(crate) fn of_run(
     let history = if steps.is_empty() { finer.as_ref().unwrap_or(history) } else { steps };
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
-        let rows = Rows { history, loads: &loads, foundations, tolerance: found.tolerance };
+        let rows = Rows { history, loads: &loads, foundations, choice: found.choice };
         let (extremes, envelope, stresses) = girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
         out.envelope.extend(envelope);
@@ -121,8 +122,8 @@ struct Attempt {
     change: Change,
     /// Largest number of rows that are all evaluated.
     most_rows: usize,
-    /// The tolerance by which rows were left out.
-    tolerance: Option<f64>,
+    /// How rows were left out.
+    choice: Option<RowChoice>,
 }
 
 /// A change of extremes, relative to the largest value of their kind.
@@ -163,18 +164,10 @@ struct Evaluation<'a> {
 }
 
 impl Evaluation<'_> {
-    /// The extremes from the ends of steps, with ever more of them, until they change by no more than the accuracy.
+    /// The extremes from the ends of steps, and by how much they change from fewer to more of them.
     fn by_steps(&self, steps: &History) -> Attempt {
-        let mut found = self.attempt_at(steps, TOLERANCES[0]);
-        for tolerance in TOLERANCES.into_iter().skip(1) {
-            let next = self.attempt_at(steps, tolerance);
-            let change = self.change(&next, &found);
-            found = Attempt { change, ..next };
-            if found.change.fraction <= self.scene.accuracy {
-                break;
-            }
-        }
-        found
+        let [few, more] = CHOICES.map(|choice| self.attempt_at(steps, choice));
+        Attempt { change: self.change(&more, &few), ..more }
     }
 
     /// The extremes at the rows of a history, and if needed at those of repetitions of the run, the last of which is returned
@@ -212,23 +205,18 @@ impl Evaluation<'_> {
         each.map(of).fold(Change::default(), Change::larger)
     }
 
-    /// The extremes at the rows that a tolerance leaves of a history; their change is not known.
-    fn attempt_at(&self, history: &History, tolerance: f64) -> Attempt {
+    /// The extremes at some rows of a history; their change is not known.
+    fn attempt_at(&self, history: &History, choice: RowChoice) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations, tolerance: Some(tolerance) };
+        let rows = Rows { history, loads: &loads, foundations: self.foundations, choice: Some(choice) };
         let spans = self.girders.iter().map(|girders| girders.spans(rows, 1, self.scene.accuracy));
-        Attempt {
-            spans: spans.collect(),
-            change: Change::default(),
-            most_rows: 0,
-            tolerance: Some(tolerance),
-        }
+        Attempt { spans: spans.collect(), change: Change::default(), most_rows: 0, choice: Some(choice) }
     }
 
     /// The extremes at all rows of a history, and by how much they change from every second row.
     fn attempt(&self, history: &History) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations, tolerance: None };
+        let rows = Rows { history, loads: &loads, foundations: self.foundations, choice: None };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {
@@ -240,7 +228,7 @@ impl Evaluation<'_> {
         }
         let most_rows =
             self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
-        Attempt { spans: all, change, most_rows, tolerance: None }
+        Attempt { spans: all, change, most_rows, choice: None }
     }
 }
 

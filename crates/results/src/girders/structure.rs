@@ -20,7 +20,9 @@ use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
-const MAX_VALUES: usize = 16_000_000;
+pub(super) const MAX_VALUES: usize = 12_000_000;
+/// Factor by which the tolerance of a choice is raised.
+const RAISED: f64 = 2.0;
 /// Number of rows above which deflections are evaluated at fewer rows.
 const MAX_DEFLECTIONS: usize = 4_000;
 
@@ -40,9 +42,17 @@ pub(super) struct Rows<'a> {
     pub loads: &'a WheelLoadReader,
     /// One for each structure.
     pub foundations: &'a [Foundation],
-    /// Difference of loads from straight lines between rows up to which rows are left out, relative to the largest load;
-    /// `None` for all rows.
-    pub tolerance: Option<f64>,
+    /// How rows are left out; `None` for all rows.
+    pub choice: Option<RowChoice>,
+}
+
+/// A choice among the rows of a history.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct RowChoice {
+    /// Difference of loads from straight lines between rows up to which rows are left out, relative to the largest load. It
+    /// is raised until there are no more than `most` values of all rows.
+    pub tolerance: f64,
+    pub most: usize,
 }
 
 /// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
@@ -106,7 +116,7 @@ impl<'a> PreparedGirders<'a> {
 
     fn loaded<'b>(
         &'b self,
-        Rows { history, loads, foundations, tolerance }: Rows<'b>,
+        Rows { history, loads, foundations, choice }: Rows<'b>,
         sections: &'b Sections,
         factor: usize,
     ) -> (LoadedGirders<'b>, usize) {
@@ -114,11 +124,18 @@ impl<'a> PreparedGirders<'a> {
         let ends: Vec<(usize, f64)> =
             self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
         let own = (self.s, foundation.dofs());
-        let all = match tolerance {
-            Some(tolerance) => kept_rows(history, loads, own, tolerance),
+        let width = self.width(history, loads);
+        let all = match choice {
+            Some(RowChoice { tolerance, most }) => {
+                let mut tolerances =
+                    std::iter::successors(Some(tolerance), |t| (*t < 1.0).then_some(RAISED * t));
+                let kept = |tolerance: f64| kept_rows(history, loads, own, tolerance);
+                let fits = |rows: &Vec<usize>| rows.len() * width <= most;
+                tolerances.find_map(|t| Some(kept(t)).filter(fits)).unwrap_or_else(|| kept(1.0))
+            }
             None => (0..history.len()).collect(),
         };
-        let stride = factor * (all.len() * self.width(history, loads)).div_ceil(MAX_VALUES).max(1);
+        let stride = factor * (all.len() * width).div_ceil(MAX_VALUES).max(1);
         let mut rows: Vec<usize> = all.iter().copied().step_by(stride).collect();
         if rows.last() != all.last() {
             rows.extend(all.last());
