@@ -48,14 +48,14 @@ impl Acting {
 }
 
 impl Samples {
-    /// Creates the recorder and records the start of the run.
+    /// Creates the recorder and records the start of the run; the ends of steps are recorded as well if they are `wanted`.
     ///
     /// # Errors
     /// Any error from evaluating the rails at the gauges.
-    pub fn new(solver: &Solver, start: &State) -> Result<Self, Error> {
+    pub fn new(solver: &Solver, start: &State, wanted: bool) -> Result<Self, Error> {
         let mut recorder = Recorder::new(solver.system());
         recorder.record(solver.system(), solver.geometry(), start)?;
-        let steps = solver.system().scene.records_steps.then(|| (recorder.history().clone(), Vec::new()));
+        let steps = wanted.then(|| (recorder.history().clone(), Vec::new()));
         let begun = Acting::of(solver);
         Ok(Samples { recorder, steps, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }
