@@ -18,7 +18,7 @@ use foundations::{BuiltFoundation, SolvedModel};
 const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
 /// Choices of the ends of steps, one after the other. Also where the number of values decides, the second has more.
 const CHOICES: [RowChoice; 2] =
-    [RowChoice { tolerance: 1e-4, most: MAX_VALUES / 3 }, RowChoice { tolerance: 1e-5, most: MAX_VALUES }];
+    [RowChoice { tolerance: 1e-4, most: MAX_VALUES }, RowChoice { tolerance: 1e-5, most: 3 * MAX_VALUES }];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.

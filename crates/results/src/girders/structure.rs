@@ -20,11 +20,13 @@ use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
-pub(super) const MAX_VALUES: usize = 12_000_000;
+pub(super) const MAX_VALUES: usize = 2_000_000;
 /// Factor by which the tolerance of a choice is raised.
 const RAISED: f64 = 2.0;
 /// Number of rows above which deflections are evaluated at fewer rows.
-const MAX_DEFLECTIONS: usize = 4_000;
+const MAX_DEFLECTIONS: usize = 500;
+/// The same for the ends of steps, between which deflections are less even.
+const MAX_STEPS: usize = 4_000;
 
 /// A structure prepared for any number of runs.
 pub(super) struct PreparedGirders<'a> {
@@ -135,7 +137,10 @@ impl<'a> PreparedGirders<'a> {
             }
             None => (0..history.len()).collect(),
         };
-        let stride = factor * (all.len() * width).div_ceil(MAX_VALUES).max(1);
+        let (stride, most_deflections) = match choice {
+            Some(_) => (factor, MAX_STEPS),
+            None => (factor * (all.len() * width).div_ceil(MAX_VALUES).max(1), MAX_DEFLECTIONS),
+        };
         let mut rows: Vec<usize> = all.iter().copied().step_by(stride).collect();
         if rows.last() != all.last() {
             rows.extend(all.last());
@@ -151,7 +156,7 @@ impl<'a> PreparedGirders<'a> {
                 2],
             deflection_stride: 1,
         };
-        girders.deflection_stride = (girders.states.len() / MAX_DEFLECTIONS).max(1);
+        girders.deflection_stride = (girders.states.len() / most_deflections).max(1);
         if girders.deflects[1] {
             girders.deflects[1] = girders.has_deflections(1);
         }
