@@ -172,16 +172,18 @@ impl CarrierLines {
             let forces = &self.forces.rails[rail];
             let deflections: Vec<_> =
                 self.deflections.iter().flatten().zip(of_deflections.iter().flatten()).collect();
+            let other = |i: usize| {
+                let cell = &forces[i];
+                (!cell.element.is_some_and(|element| own.contains(&element))).then_some(cell)
+            };
             let begin = |i: usize| {
-                let is_own = forces[i].element.is_some_and(|element| own.contains(&element));
-                let first = Run::from(&forces[i], &limits).filter(|_| !is_own)?;
+                let first = Run::from(other(i)?, &limits)?;
                 let others =
                     deflections.iter().map(|(lines, limits)| Run::from(&lines.rails[rail][i], limits));
                 Some((first, others.collect::<Option<Vec<_>>>()?))
             };
             let extend = |(first, others): &(Run<QUANTITIES>, Vec<Run<POWERS>>), i: usize| {
-                let is_own = forces[i].element.is_some_and(|element| own.contains(&element));
-                let first = first.with(&forces[i], &limits).filter(|_| !is_own)?;
+                let first = first.with(other(i)?, &limits)?;
                 let others = others.iter().zip(&deflections);
                 let others = others.map(|(run, (lines, limits))| run.with(&lines.rails[rail][i], limits));
                 Some((first, others.collect::<Option<Vec<_>>>()?))

@@ -252,11 +252,13 @@ impl<'a> Cubic<'a> {
         }
         let slope = |i: usize| (self.rows[i + 1][c] - self.rows[i][c]) * self.rates[i];
         let [a, b, d] = [slope(0), slope(1), slope(2)];
-        let is_smooth = (d - 2.0 * b + a).abs() <= CORNER * (a.abs() + d.abs());
+        if (d - 2.0 * b + a).abs() > CORNER * (a.abs() + d.abs()) {
+            return None;
+        }
         let values = self.rows.map(|row| row[c]);
         let value: f64 = values.iter().zip(self.weights).map(|(value, weight)| weight * value).sum();
         let [low, high] = [f64::min, f64::max].map(|of| values.into_iter().reduce(of).unwrap_or(value));
         let beyond = OVERSHOOT * (high - low);
-        (is_smooth && low - beyond <= value && value <= high + beyond).then_some(value)
+        (low - beyond <= value && value <= high + beyond).then_some(value)
     }
 }

@@ -4,15 +4,18 @@ use sim::{Channel, History};
 
 use crate::response::WheelLoadReader;
 
+/// Factor by which the tolerance is raised.
+const RAISED: f64 = 2.0;
+
 /// Channels of one kind, compared with the largest magnitude of any of them.
 struct Kind {
     channels: Vec<usize>,
-    allowed: f64,
+    size: f64,
 }
 
 /// Rows of a history, the first and the last included, between which the loads on structure `s` and the motions of its
 /// `dofs` degrees of freedom differ from straight lines by no more than `tolerance` times the largest force, displacement
-/// or acceleration.
+/// or acceleration. The tolerance is raised until there are no more than `most` rows.
 ///
 /// From each row that is kept the cone of straight lines that pass near all rows behind it is narrowed row by row; the last
 /// row whose values lie in the cone is kept next.
@@ -24,20 +27,32 @@ pub(super) fn kept_rows(
     history: &History,
     loads: &WheelLoadReader,
     (s, dofs): (usize, usize),
-    tolerance: f64,
+    mut tolerance: f64,
+    most: usize,
 ) -> Vec<usize> {
-    let kinds = kinds(history, loads, (s, dofs), tolerance);
+    let kinds = kinds(history, loads, (s, dofs));
+    loop {
+        let kept = within(history, &kinds, tolerance);
+        if kept.len() <= most || tolerance >= 1.0 {
+            return kept;
+        }
+        tolerance *= RAISED;
+    }
+}
+
+/// The rows that a tolerance keeps.
+fn within(history: &History, kinds: &[Kind], tolerance: f64) -> Vec<usize> {
     let mut kept = vec![0];
-    let mut cone = Cone::new(&kinds);
+    let mut cone = Cone::new(kinds);
     let mut row = 1;
     while row < history.len() {
         let first = kept[kept.len() - 1];
-        if row == first + 1 || cone.contains(&kinds, history.sample(first), history.sample(row)) {
-            cone.narrow(&kinds, history.sample(first), history.sample(row));
+        if row == first + 1 || cone.contains(kinds, history.sample(first), history.sample(row)) {
+            cone.narrow(kinds, tolerance, history.sample(first), history.sample(row));
             row += 1;
         } else {
             kept.push(row - 1);
-            cone = Cone::new(&kinds);
+            cone = Cone::new(kinds);
         }
     }
     if history.len() > 1 {
@@ -46,7 +61,7 @@ pub(super) fn kept_rows(
     kept
 }
 
-fn kinds(history: &History, loads: &WheelLoadReader, (s, dofs): (usize, usize), tolerance: f64) -> Vec<Kind> {
+fn kinds(history: &History, loads: &WheelLoadReader, (s, dofs): (usize, usize)) -> Vec<Kind> {
     let [places, forces] = loads.channels_on(s);
     let mut groups = vec![places, forces];
     for first in [Channel::Coordinate(s, 0), Channel::Acceleration(s, 0)] {
@@ -54,8 +69,8 @@ fn kinds(history: &History, loads: &WheelLoadReader, (s, dofs): (usize, usize), 
     }
     let kind = |channels: Vec<usize>| {
         let size = |row: &[f64]| channels.iter().fold(0.0, |most: f64, c| most.max(row[*c].abs()));
-        let allowed = tolerance * history.samples().map(size).fold(0.0, f64::max);
-        Kind { channels, allowed }
+        let size = history.samples().map(size).fold(0.0, f64::max);
+        Kind { channels, size }
     };
     groups.into_iter().map(kind).collect()
 }
@@ -81,8 +96,9 @@ impl Cone {
     }
 
     /// Leaves out the lines from row `a` that pass too far from row `b`.
-    fn narrow(&mut self, kinds: &[Kind], a: &[f64], b: &[f64]) {
-        let channels = kinds.iter().flat_map(|kind| kind.channels.iter().map(|c| (*c, kind.allowed)));
+    fn narrow(&mut self, kinds: &[Kind], tolerance: f64, a: &[f64], b: &[f64]) {
+        let channels =
+            kinds.iter().flat_map(|kind| kind.channels.iter().map(|c| (*c, tolerance * kind.size)));
         for ((c, allowed), [least, most]) in channels.zip(&mut self.slopes) {
             let duration = b[0] - a[0];
             *least = least.max((b[c] - a[c] - allowed) / duration);

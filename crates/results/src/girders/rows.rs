@@ -17,8 +17,10 @@ use foundations::{BuiltFoundation, SolvedModel};
 /// Largest number of rows, and of values of a history, to which a repetition is raised.
 const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
 /// Choices of the ends of steps, one after the other. Also where the number of values decides, the second has more.
-const CHOICES: [RowChoice; 2] =
-    [RowChoice { tolerance: 1e-4, most: MAX_VALUES }, RowChoice { tolerance: 1e-5, most: 3 * MAX_VALUES }];
+const CHOICES: [RowChoice; 2] = [
+    RowChoice::Needed { tolerance: 1e-4, most: MAX_VALUES },
+    RowChoice::Needed { tolerance: 1e-5, most: 3 * MAX_VALUES },
+];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.
@@ -89,16 +91,16 @@ pub(crate) fn of_run(
     let history = if steps.is_empty() { finer.as_ref().unwrap_or(history) } else { steps };
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
-        let rows = Rows { history, loads: &loads, foundations, choice: found.choice };
+        let rows = Rows { history, loads: &loads, foundations };
         let (extremes, envelope, stresses) = girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
         out.envelope.extend(envelope);
         out.stresses.extend(stresses);
-        if spans.stride > 1 {
+        if spans.chosen.stride > 1 {
             out.notes.push(format!(
                 "{}: extremes of girders are evaluated at one of {} times, because they are many",
                 girders.name(),
-                spans.stride
+                spans.chosen.stride
             ));
         }
     }
@@ -107,7 +109,7 @@ pub(crate) fn of_run(
             "extremes of girders still change by {} of the largest value of their kind with the number of times at which \
              they are evaluated, {}{}",
             number(rounded(found.change.fraction, 2)),
-            found.spans.iter().map(|spans| spans.rows).max().unwrap_or_default(),
+            found.spans.iter().map(|spans| spans.chosen.rows.len()).max().unwrap_or_default(),
             found.change.place()
         ));
     }
@@ -122,8 +124,6 @@ struct Attempt {
     change: Change,
     /// Largest number of rows that are all evaluated.
     most_rows: usize,
-    /// How rows were left out.
-    choice: Option<RowChoice>,
 }
 
 /// A change of extremes, relative to the largest value of their kind.
@@ -208,27 +208,27 @@ impl Evaluation<'_> {
     /// The extremes at some rows of a history; their change is not known.
     fn attempt_at(&self, history: &History, choice: RowChoice) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations, choice: Some(choice) };
-        let spans = self.girders.iter().map(|girders| girders.spans(rows, 1, self.scene.accuracy));
-        Attempt { spans: spans.collect(), change: Change::default(), most_rows: 0, choice: Some(choice) }
+        let rows = Rows { history, loads: &loads, foundations: self.foundations };
+        let spans = self.girders.iter().map(|girders| girders.spans(rows, choice, self.scene.accuracy));
+        Attempt { spans: spans.collect(), change: Change::default(), most_rows: 0 }
     }
 
     /// The extremes at all rows of a history, and by how much they change from every second row.
     fn attempt(&self, history: &History) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations, choice: None };
+        let rows = Rows { history, loads: &loads, foundations: self.foundations };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {
-            let fine = girders.spans(rows, 1, self.scene.accuracy);
-            let coarse = girders.spans(rows, 2, self.scene.accuracy);
+            let fine = girders.spans(rows, RowChoice::Every(1), self.scene.accuracy);
+            let coarse = girders.spans(rows, RowChoice::Every(2), self.scene.accuracy);
             let structure = girders.name().to_owned();
             change = change.larger(Change { structure, ..difference(&fine, &coarse) });
             all.push(fine);
         }
         let most_rows =
             self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
-        Attempt { spans: all, change, most_rows, choice: None }
+        Attempt { spans: all, change, most_rows }
     }
 }
 

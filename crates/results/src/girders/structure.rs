@@ -21,8 +21,6 @@ use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
 pub(super) const MAX_VALUES: usize = 2_000_000;
-/// Factor by which the tolerance of a choice is raised.
-const RAISED: f64 = 2.0;
 /// Number of rows above which deflections are evaluated at fewer rows.
 const MAX_DEFLECTIONS: usize = 500;
 /// The same for the ends of steps, between which deflections are less even.
@@ -44,17 +42,26 @@ pub(super) struct Rows<'a> {
     pub loads: &'a WheelLoadReader,
     /// One for each structure.
     pub foundations: &'a [Foundation],
-    /// How rows are left out; `None` for all rows.
-    pub choice: Option<RowChoice>,
 }
 
 /// A choice among the rows of a history.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct RowChoice {
-    /// Difference of loads from straight lines between rows up to which rows are left out, relative to the largest load. It
-    /// is raised until there are no more than `most` values of all rows.
-    pub tolerance: f64,
-    pub most: usize,
+pub(super) enum RowChoice {
+    /// Every row, every second one and so on; fewer where there are too many values.
+    Every(usize),
+    /// Those between which loads differ from straight lines by more than a tolerance, relative to the largest load. It is
+    /// raised until there are no more than `most` values of all rows.
+    Needed { tolerance: f64, most: usize },
+}
+
+/// Rows of a history that are evaluated.
+#[derive(Clone, Debug)]
+pub(super) struct ChosenRows {
+    pub rows: Vec<usize>,
+    /// Every how many rows of the history were taken, where they were not chosen by need.
+    pub stride: usize,
+    /// Every how many of these rows deflections are evaluated.
+    deflection_stride: usize,
 }
 
 /// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
@@ -63,10 +70,8 @@ pub(super) struct SpanExtremes {
     /// The scan from which they follow.
     scan: Scan,
     pub sizes: [f64; FORCES + 2],
-    /// Every how many rows were evaluated.
-    pub stride: usize,
-    /// Number of rows that were evaluated.
-    pub rows: usize,
+    /// The rows that were evaluated.
+    pub chosen: ChosenRows,
 }
 
 impl<'a> PreparedGirders<'a> {
@@ -116,61 +121,63 @@ impl<'a> PreparedGirders<'a> {
         MAX_VALUES / self.width(history, loads).max(1)
     }
 
+    fn chosen(&self, Rows { history, loads, foundations }: Rows<'_>, choice: RowChoice) -> ChosenRows {
+        let width = self.width(history, loads);
+        let (rows, stride, most) = match choice {
+            RowChoice::Needed { tolerance, most } => {
+                let own = (self.s, foundations[self.s].dofs());
+                (kept_rows(history, loads, own, tolerance, most / width.max(1)), 1, MAX_STEPS)
+            }
+            RowChoice::Every(factor) => {
+                let stride = factor * (history.len() * width).div_ceil(MAX_VALUES).max(1);
+                let mut rows: Vec<usize> = (0..history.len()).step_by(stride).collect();
+                let last = history.len().saturating_sub(1);
+                if rows.last().is_some_and(|row| *row != last) {
+                    rows.push(last);
+                }
+                (rows, stride, MAX_DEFLECTIONS)
+            }
+        };
+        let deflection_stride = (rows.len() / most).max(1);
+        ChosenRows { rows, stride, deflection_stride }
+    }
+
     fn loaded<'b>(
         &'b self,
-        Rows { history, loads, foundations, choice }: Rows<'b>,
+        Rows { history, loads, foundations }: Rows<'b>,
         sections: &'b Sections,
-        factor: usize,
-    ) -> (LoadedGirders<'b>, usize) {
+        chosen: &ChosenRows,
+    ) -> LoadedGirders<'b> {
         let foundation = &foundations[self.s];
         let ends: Vec<(usize, f64)> =
             self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
         let own = (self.s, foundation.dofs());
-        let width = self.width(history, loads);
-        let all = match choice {
-            Some(RowChoice { tolerance, most }) => {
-                let mut tolerances =
-                    std::iter::successors(Some(tolerance), |t| (*t < 1.0).then_some(RAISED * t));
-                let kept = |tolerance: f64| kept_rows(history, loads, own, tolerance);
-                let fits = |rows: &Vec<usize>| rows.len() * width <= most;
-                tolerances.find_map(|t| Some(kept(t)).filter(fits)).unwrap_or_else(|| kept(1.0))
-            }
-            None => (0..history.len()).collect(),
-        };
-        let (stride, most_deflections) = match choice {
-            Some(_) => (factor, MAX_STEPS),
-            None => (factor * (all.len() * width).div_ceil(MAX_VALUES).max(1), MAX_DEFLECTIONS),
-        };
-        let mut rows: Vec<usize> = all.iter().copied().step_by(stride).collect();
-        if rows.last() != all.last() {
-            rows.extend(all.last());
-        }
         let mut girders = LoadedGirders {
             foundation,
             members: self.members,
             distributed: &self.distributed,
             sections,
-            states: LoadStates::new(history, loads, own, &ends, rows),
+            states: LoadStates::new(history, loads, own, &ends, chosen.rows.clone()),
             deflects: [foundation.parts.is_none()
                 && (foundation.structure.is_some() || foundation.compliance.is_some());
                 2],
-            deflection_stride: 1,
+            deflection_stride: chosen.deflection_stride,
         };
-        girders.deflection_stride = (girders.states.len() / most_deflections).max(1);
         if girders.deflects[1] {
             girders.deflects[1] = girders.has_deflections(1);
         }
-        (girders, stride)
+        girders
     }
 
-    /// Extremes of all spans, at every row (`factor` 1) or every second one (2).
-    pub fn spans(&self, rows: Rows<'_>, factor: usize, accuracy: f64) -> SpanExtremes {
-        let (girders, stride) = self.loaded(rows, &self.sections, factor);
+    /// Extremes of all spans, at some of the rows.
+    pub fn spans(&self, rows: Rows<'_>, choice: RowChoice, accuracy: f64) -> SpanExtremes {
+        let chosen = self.chosen(rows, choice);
+        let girders = self.loaded(rows, &self.sections, &chosen);
         let scan = Scan::new(&girders);
         let sizes = scan.sizes;
         let refinement = Refinement { girders: &girders, scan: &scan, sizes, accuracy };
         let values = refinement.spans();
-        SpanExtremes { values, scan, sizes, stride, rows: girders.states.len() }
+        SpanExtremes { values, scan, sizes, chosen }
     }
 
     /// The extremes as results, and the envelopes at all places and at those of the extremes.
@@ -181,14 +188,14 @@ impl<'a> PreparedGirders<'a> {
         accuracy: f64,
     ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses) {
         let sizes = found.sizes;
-        let (girders, _) = self.loaded(rows, &self.sections, 1);
+        let girders = self.loaded(rows, &self.sections, &found.chosen);
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let stresses = refinement.stresses(&found.values);
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
-        let (girders, _) = self.loaded(rows, &sections, 1);
+        let girders = self.loaded(rows, &sections, &found.chosen);
         let scan = Scan::new(&girders);
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
         // places in order; quantities keep theirs

@@ -78,7 +78,7 @@ impl Samples {
             end.clear();
             self.recorder.row(system, step.solver.geometry(), &step.to, end)?;
         }
-        let (known, first) = (self.recorder.history().len(), self.next);
+        let known = self.recorder.history().len();
         while system.scene.output_time(self.next) <= to {
             let t = system.scene.output_time(self.next);
             let is_end = t >= to * (1.0 - 1e-14);
@@ -95,19 +95,18 @@ impl Samples {
             self.after.restore(step.solver);
             self.next += 1;
         }
-        self.add_step(known, first, system.scene.output_parts.max(1) as u64);
+        self.add_step(known, system.scene.output_parts.max(1));
         Ok(())
     }
 
     /// Adds the samples at the ends of output intervals to those of the steps, and the one at the end of the step just taken,
-    /// unless it is among them. Samples from number `known` on are new, the first of them that of output time `first`; every
-    /// `parts`-th one ends an interval.
-    fn add_step(&mut self, known: usize, first: u64, parts: u64) {
+    /// unless it is among them. Samples from number `known` on are new; every `parts`-th one ends an interval.
+    fn add_step(&mut self, known: usize, parts: usize) {
         let Some((steps, end)) = &mut self.steps else { return };
         let mut values = steps.take_values();
         let history = self.recorder.history();
-        let ends = (known..history.len()).zip(first..).filter(|(_, time)| time % parts == 0);
-        ends.for_each(|(k, _)| values.extend(history.sample(k)));
+        let ends = (known..history.len()).filter(|k| k.is_multiple_of(parts));
+        ends.for_each(|k| values.extend(history.sample(k)));
         if values[values.len() - end.len()] < end[0] {
             values.append(end);
         }
