@@ -80,6 +80,29 @@ pub enum Command {
     /// Write starter files that run as they are: a crane runway, a bogie on a girder, a girder of a mill building, a bridge crane
     #[command(after_help = "Example:\n  girderway init bogie mine")]
     Init(InitArgs),
+    /// Print the completions of a shell
+    #[command(
+        after_help = "Example:\n  girderway completions bash > ~/.local/share/bash-completion/completions/girderway"
+    )]
+    Completions(CompletionsArgs),
+    /// Write the manual pages of the program and its commands
+    #[command(after_help = "Example:\n  girderway man ~/.local/share/man/man1")]
+    Man(ManArgs),
+}
+
+/// Arguments of `completions`.
+#[derive(Clone, Copy, Debug, Args)]
+pub struct CompletionsArgs {
+    /// Shell that reads them
+    pub shell: clap_complete::Shell,
+}
+
+/// Arguments of `man`.
+#[derive(Clone, Debug, Args)]
+pub struct ManArgs {
+    /// Folder of the pages, created if it does not exist [default: the program's page to standard output]
+    #[arg(value_name = "DIR")]
+    pub folder: Option<PathBuf>,
 }
 
 /// Arguments of `design`.
@@ -127,6 +150,8 @@ pub enum SchemaArg {
     Scene,
     /// Design
     Design,
+    /// Summary of a run
+    Summary,
 }
 
 /// Arguments of `init`.

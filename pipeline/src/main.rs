@@ -43,6 +43,8 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Sections(args) => commands::sections::run(&args, cli.global),
         Command::Schema(args) => commands::schema::run(&args, cli.global),
         Command::Init(args) => commands::init::run(&args, cli.global),
+        Command::Completions(args) => commands::shell::completions(&args),
+        Command::Man(args) => commands::shell::man(&args, cli.global),
     }
 }
 

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use formats::text::inputs::Inputs;
 use study::{Observer, Steps};
 
 use crate::cli::Global;
@@ -29,6 +30,13 @@ impl Progress {
         if self.speaks {
             // an error of writing is ignored: standard error may be closed
             let _ = writeln!(std::io::stderr(), "{message}");
+        }
+    }
+
+    /// Writes a line for each number of the input files that was probably meant with a decimal comma.
+    pub fn warn_of_commas(&self, inputs: &Inputs) {
+        for found in inputs.decimal_commas() {
+            self.say(&format!("warning: {found}"));
         }
     }
 

@@ -16,13 +16,28 @@ fn starter_files_are_those_of_the_examples() {
         let told = json(&run.stdout);
         assert_eq!(told["scene"], "deep/mine/scene.json");
         let files = told["files"].as_array().expect("a list of files");
-        let there = fs::read_dir(folder.path().join("deep/mine")).expect("a folder").count();
-        assert_eq!(there, files.len(), "{word}");
+        let count = |path: &str| fs::read_dir(folder.path().join(path)).expect("a folder").count();
+        // the schemas stand in a folder of their own
+        assert_eq!(count("deep/mine") - 1 + count("deep/mine/schema"), files.len(), "{word}");
         for file in files {
             let file = file.as_str().expect("a name");
             let name = file.strip_prefix("deep/mine/").expect("in the folder");
             let own = fs::read(folder.path().join(file)).expect("written");
-            assert_eq!(own, fs::read(example(origin).join(name)).expect("an example"), "{file}");
+            if let Some(schema) = name.strip_prefix("schema/") {
+                let format = schema.strip_suffix(".json").expect("a JSON file");
+                assert_eq!(own, girderway(&folder, &["schema", format]).stdout, "{file}");
+                continue;
+            }
+            let example = fs::read(example(origin).join(name)).expect("an example");
+            if !name.ends_with(".json") {
+                assert_eq!(own, example, "{file}");
+                continue;
+            }
+            let mut own = json(&own);
+            let schema = own.as_object_mut().and_then(|own| own.remove("$schema")).expect("its schema");
+            let schema = schema.as_str().expect("a path");
+            assert!(folder.path().join("deep/mine").join(schema).exists(), "{schema}");
+            assert_eq!(own, json(&example), "{file}");
         }
         // with the static design of the example, where it has one
         let has_design = files.iter().any(|file| file == "deep/mine/design.json");

@@ -46,6 +46,7 @@ fn fits(value: &Value, schema: &Value, root: &Value) -> bool {
             value.as_array().is_none_or(|list| list.len() as u64 <= asked.as_u64().expect("a number"))
         }
         "minimum" => value.as_f64().is_none_or(|value| value >= asked.as_f64().expect("a number")),
+        "exclusiveMinimum" => value.as_f64().is_none_or(|value| value > asked.as_f64().expect("a number")),
         "$schema" | "$defs" | "title" | "description" | "default" | "format" => true,
         other => panic!("the schema says {other}"),
     })
@@ -72,7 +73,7 @@ fn schema(format: &str) -> Value {
 
 #[test]
 fn examples_have_the_form_of_their_schemas() {
-    let (beam, scene) = (schema("beam"), schema("scene"));
+    let [beam, scene, design] = ["beam", "scene", "design"].map(schema);
     let mut checked = 0;
     for folder in fs::read_dir(example("")).expect("the examples") {
         for file in fs::read_dir(folder.expect("a folder").path()).expect("a folder") {
@@ -84,6 +85,7 @@ fn examples_have_the_form_of_their_schemas() {
             let schema = match value["format"].as_str() {
                 Some("girderway-beam/1") => &beam,
                 Some("girderway-scene/1") => &scene,
+                Some("girderway-design/1") => &design,
                 _ => continue,
             };
             assert!(fits(&value, schema, schema), "{}", path.display());
@@ -129,6 +131,140 @@ fn what_is_mistyped_does_not_fit() {
         let bad = json(good.replace(old, new).as_bytes());
         assert!(!fits(&bad, &scene, &scene), "{old} => {new}");
     }
+}
+
+/// Every keyword of the schema of scenes in a scene that uses them, and only these, are those that the reader accepts.
+#[test]
+fn keywords_are_those_of_the_readers() {
+    let schemas = [("beam", "spec"), ("scene", "scene"), ("design", "design")];
+    let mut compared = 0;
+    for (format, name) in schemas {
+        let schema = schema(format);
+        for origin in ["bogie", "runway", "bridge_crane", "ties", "mill_girderway", "wheel"] {
+            let path = example(origin).join(format!("{name}.json"));
+            let Ok(text) = fs::read(path) else { continue };
+            let value = json(&text);
+            let mut found = Vec::new();
+            keywords(&value, &schema, &schema, String::new(), &mut found);
+            for (pointer, words) in found {
+                let folder = folder();
+                for file in fs::read_dir(example(origin)).expect("a folder") {
+                    let file = file.expect("a file").path();
+                    fs::copy(&file, folder.path().join(file.file_name().expect("a name"))).ok();
+                }
+                let mut changed = value.clone();
+                *changed.pointer_mut(&pointer).expect("a value") = Value::from("qzqzq");
+                fs::write(folder.path().join("changed.json"), changed.to_string()).expect("written");
+                let command = if format == "beam" {
+                    "fea"
+                } else if format == "scene" {
+                    "run"
+                } else {
+                    "design"
+                };
+                let run = girderway(&folder, &[command, "changed.json", "--json"]);
+                assert_eq!(run.status.code(), Some(2), "{pointer}");
+                let errors = json(&run.stderr);
+                let asked = errors["errors"].as_array().expect("a list").iter();
+                let asked: Vec<&str> = asked.filter_map(|error| error["expected"].as_str()).collect();
+                let all = |asked: &&str| {
+                    let quoted: Vec<&str> = asked.split('"').skip(1).step_by(2).collect();
+                    quoted == words
+                        || quoted.iter().all(|word| words.iter().any(|known| known == word))
+                            && quoted.len() > 1
+                };
+                assert!(asked.iter().any(all), "{origin} {pointer}: {asked:?} {words:?}");
+                compared += 1;
+            }
+        }
+    }
+    assert!(compared > 60, "{compared}");
+}
+
+/// Pointers to the values whose schema lists keywords, with these.
+fn keywords(value: &Value, schema: &Value, root: &Value, at: String, found: &mut Vec<(String, Vec<String>)>) {
+    let place = schema["$ref"].as_str().and_then(|path| path.strip_prefix('#'));
+    let schema = place.map_or(schema, |path| root.pointer(path).expect("a definition"));
+    for one in schema["anyOf"].as_array().into_iter().flatten() {
+        keywords(value, one, root, at.clone(), found);
+    }
+    if let (Some(words), true) = (schema["enum"].as_array(), value.is_string()) {
+        let words: Vec<String> = words.iter().filter_map(|word| word.as_str().map(str::to_owned)).collect();
+        // one keyword is that of a unit of time or a type of cell
+        if words.len() > 1 && found.iter().all(|(_, known)| *known != words) {
+            found.push((at.clone(), words));
+        }
+    }
+    for (key, member) in value.as_object().into_iter().flatten() {
+        let own = schema["properties"].get(key).or_else(|| schema.get("additionalProperties"));
+        if let Some(own) = own.filter(|_| key != "compare") {
+            keywords(member, own, root, format!("{at}/{key}"), found);
+        }
+    }
+    for (index, item) in value.as_array().into_iter().flatten().enumerate() {
+        keywords(item, &schema["items"], root, format!("{at}/{index}"), found);
+    }
+}
+
+#[test]
+fn variants_of_a_scene_are_typed() {
+    let scene = schema("scene");
+    let good = fs::read_to_string(example("bogie/scene.json")).expect("an example");
+    let mut value = json(good.as_bytes());
+    for (variant, is_valid) in [
+        (serde_json::json!({ "label": "x", "accuracy": 1e-5 }), true),
+        (
+            serde_json::json!({ "label": "x", "structures": { "girder": { "foundation": "rigid" }, "other": null } }),
+            true,
+        ),
+        (serde_json::json!({ "label": "x", "acuracy": 1e-5 }), false),
+        (serde_json::json!({ "label": "x", "structures": { "girder": { "foundation": "rigit" } } }), false),
+        (serde_json::json!({ "label": "x", "units": {} }), false),
+        (serde_json::json!({ "accuracy": 1e-5 }), false),
+    ] {
+        value["compare"] = serde_json::json!([variant]);
+        assert_eq!(fits(&value, &scene, &scene), is_valid, "{variant}");
+    }
+}
+
+#[test]
+fn summaries_have_the_form_of_their_schema() {
+    let folder = folder();
+    let summary = schema("summary");
+    for scene in ["bogie/fast.json", "runway/scene.json", "ties/scene.json"] {
+        let scene = example(scene);
+        let run = girderway(&folder, &["run", scene.to_str().expect("UTF-8"), "-o", "out", "--quiet"]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let value = json(&fs::read(folder.path().join("out/summary.json")).expect("written"));
+        assert!(fits(&value, &summary, &summary), "{}", scene.display());
+    }
+}
+
+#[test]
+fn every_property_is_described() {
+    fn check(schema: &Value, what: &str) -> usize {
+        let mut count = 0;
+        for (key, property) in schema["properties"].as_object().into_iter().flatten() {
+            assert!(property["description"].is_string(), "{what}: {key}");
+            count += 1;
+        }
+        let below = schema.as_object().into_iter().flatten().map(|(_, value)| value);
+        let below = below.chain(schema.as_array().into_iter().flatten());
+        count + below.map(|value| check(value, what)).sum::<usize>()
+    }
+    for format in ["beam", "grid", "scene", "design", "summary"] {
+        assert!(check(&schema(format), format) > 40, "{format}");
+    }
+}
+
+#[test]
+fn the_path_of_a_schema_is_ignored() {
+    let folder = folder();
+    let spec = fs::read_to_string(example("bogie/spec.json")).expect("an example");
+    fs::write(folder.path().join("spec.json"), spec.replacen('{', "{\"$schema\": \"beam.json\",", 1))
+        .expect("written");
+    let run = girderway(&folder, &["fea", "spec.json"]);
+    assert!(run.status.success(), "{}", text(&run.stderr));
 }
 
 #[test]

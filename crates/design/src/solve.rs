@@ -147,7 +147,12 @@ fn places(design: &Design, structure: &Structure) -> Vec<Vec<f64>> {
 }
 
 fn warnings(design: &Design, cases: &[SolvedCase]) -> Vec<String> {
-    let mut out = Vec::new();
+    let mut out: Vec<String> = design
+        .spec
+        .warnings()
+        .into_iter()
+        .map(|warning| format!("{}: {warning}", design.spec_file))
+        .collect();
     if design.dead.gravity > 0.0 && !design.spec.has_mass() {
         out.push(format!(
             "{}: nothing of the structure has mass, so that its weight is 0; give `mass_per_length` or densities",

@@ -142,6 +142,42 @@ pub struct RawUnits {
     time: Option<String>,
 }
 
+/// Units that are not available, and what to write in their place.
+const OTHER_UNITS: [(&str, &str); 22] = [
+    ("cm", "write lengths in m or mm: 1 cm = 0.01 m, 1 cm^4 = 1e-8 m^4"),
+    ("dm", "write lengths in m or mm: 1 dm = 0.1 m"),
+    ("km", "write lengths in m"),
+    ("meter", "write \"m\""),
+    ("metre", "write \"m\""),
+    ("foot", "write \"ft\""),
+    ("feet", "write \"ft\""),
+    ("inch", "write \"in\""),
+    ("inches", "write \"in\""),
+    ("t", "tonnes are masses; forces in kN: 1 t weighs 9.81 kN"),
+    ("to", "tonnes are masses; forces in kN: 1 t weighs 9.81 kN"),
+    ("tf", "write forces in kN: 1 tf = 9.80665 kN"),
+    ("kg", "kilograms are masses; forces in N: 1 kg weighs 9.81 N"),
+    ("kgf", "write forces in N: 1 kgf = 9.80665 N"),
+    ("daN", "write forces in N: 1 daN = 10 N"),
+    ("MN", "write forces in kN: 1 MN = 1000 kN"),
+    ("lb", "write \"lbf\""),
+    ("lbs", "write \"lbf\""),
+    ("kips", "write \"kip\""),
+    ("ton", "write forces in kip: 1 short ton = 2 kip"),
+    ("ms", "write times in s: 1 ms = 0.001 s"),
+    ("min", "write times in s"),
+];
+
+/// The value of the keyword of a unit; a fault with what to write instead if it is unknown.
+fn unit<T: Copy>(word: &str, place: &Place<'_>, words: &[(&str, T)], faults: &mut Faults) -> Option<T> {
+    let value = faults.one_of(word, place, words);
+    let other = OTHER_UNITS.iter().find(|(other, _)| *other == word);
+    if let (None, Some((_, hint)), Some(fault)) = (value, other, faults.0.last_mut()) {
+        fault.hint = Some((*hint).to_owned());
+    }
+    value
+}
+
 impl Units {
     /// Metre and newton.
     pub const SI: Units = Units { length: Length::Metre, force: Force::Newton };
@@ -157,12 +193,13 @@ impl Units {
         let at = place.key("units");
         let length = faults
             .require(&raw.length, &at, "length")
-            .and_then(|word| faults.one_of(word, &at.key("length"), &Length::WORDS));
+            .and_then(|word| unit(word, &at.key("length"), &Length::WORDS, faults));
         let force = faults
             .require(&raw.force, &at, "force")
-            .and_then(|word| faults.one_of(word, &at.key("force"), &Force::WORDS));
-        if let Some(word) = faults.require(&raw.time, &at, "time") {
-            faults.one_of(word, &at.key("time"), &[("s", ())]);
+            .and_then(|word| unit(word, &at.key("force"), &Force::WORDS, faults));
+        match &raw.time {
+            Some(word) => drop(unit(word, &at.key("time"), &[("s", ())], faults)),
+            None => faults.add(Fault::new(&at, "missing key `time`").hint("\"time\": \"s\"").of_value()),
         }
         Some(Units { length: length?, force: force? })
     }

@@ -25,6 +25,7 @@ const FILES: [&str; 5] = ["envelope.csv", "reactions.csv", "influence.csv", "sum
 pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
     let (read, inputs) = Design::open(&args.design)?;
+    progress.warn_of_commas(&inputs);
     let folder = || PathBuf::from("girderway-out").join(format!("{}-design", read.name));
     let path = args.output.clone().unwrap_or_else(folder);
     let planned =

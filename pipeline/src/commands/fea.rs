@@ -12,7 +12,6 @@ use formats::text::fault::{Fault, Faults};
 use formats::text::inputs::Inputs;
 use formats::text::place::Place;
 use formats::text::source::Source;
-use results::warning;
 
 /// Number of unknowns from which the size of the system is reported.
 const LARGE: usize = 1000;
@@ -23,8 +22,9 @@ const LARGE: usize = 1000;
 /// The spec is invalid, the structure is a mechanism, or the file cannot be written.
 pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    let (_, source) = Inputs::open(&args.spec)?;
+    let (inputs, source) = Inputs::open(&args.spec)?;
     let mut spec = Spec::read(&source, None)?;
+    progress.warn_of_commas(&inputs);
     if let Some(theory) = args.theory {
         spec = spec.with_theory(theory.into());
     }
@@ -40,7 +40,7 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
     if let Some(size) = solved.size.filter(|size| size.unknowns >= LARGE) {
         progress.say(&format!("solved {size}"));
     }
-    for warning in warning::spec_warnings(&spec) {
+    for warning in spec.warnings() {
         progress.say(&format!("warning: {warning}"));
     }
     for note in spec.notes.iter().chain(&solved.grid.notes) {

@@ -1,4 +1,4 @@
-//! `girderway init`: starter files that run as they are.
+//! `girderway init`: starter files that run as they are, with the schemas by which editors complete and check them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,11 @@ use crate::exit::{Exit, Failure};
 use crate::folder::check_path;
 use crate::output;
 use crate::progress::Progress;
+use formats::schema;
 use formats::text::diagnostic::Diagnostic;
+
+/// Folder of the schemas, in that of the files.
+const SCHEMAS: &str = "schema";
 
 /// Names and contents of files; the scene is the first.
 type Files = &'static [(&'static str, &'static str)];
@@ -48,8 +52,10 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     let folder = args.folder.clone().unwrap_or_else(|| PathBuf::from("."));
     // a folder that cannot be created is reported before any file is written
     check_path(&folder)?;
-    let files: Vec<(PathBuf, &str)> =
-        files(args.what).iter().map(|(name, text)| (place(&folder, name), *text)).collect();
+    let files: Vec<(PathBuf, String)> = (files(args.what).iter())
+        .map(|(name, text)| (place(&folder, name), with_schema(text)))
+        .chain(schemas().into_iter().map(|(name, text)| (place(&folder, &format!("{SCHEMAS}/{name}")), text)))
+        .collect();
     let taken: Vec<Diagnostic> = files
         .iter()
         .filter(|(path, _)| path.symlink_metadata().is_ok())
@@ -61,7 +67,7 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     if !taken.is_empty() {
         return Err(taken.into());
     }
-    output::make(&folder)?;
+    output::make(&folder.join(SCHEMAS))?;
     for (path, text) in &files {
         output::write_new(path, text.as_bytes())?;
         progress.say(&format!("wrote {}", path.display()));
@@ -73,6 +79,28 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
         output::print(&output::json(&json!({ "scene": scene, "files": names })))?;
     }
     Ok(Exit::Done)
+}
+
+/// Names and contents of the schemas.
+fn schemas() -> Vec<(&'static str, String)> {
+    let all =
+        [("beam.json", schema::beam()), ("scene.json", schema::scene()), ("design.json", schema::design())];
+    all.into_iter().map(|(name, schema)| (name, output::json(&schema))).collect()
+}
+
+/// A file with the path of its schema as its first member; a file without a schema as it is.
+fn with_schema(text: &str) -> String {
+    let formats =
+        [("girderway-beam/", "beam"), ("girderway-scene/", "scene"), ("girderway-design/", "design")];
+    let own = formats.iter().find(|(format, _)| text.contains(&format!("\"{format}")));
+    match (own, text.strip_prefix('{')) {
+        (Some((_, name)), Some(rest)) => {
+            let space = if rest.starts_with('\n') { "\n  " } else { "" };
+            let next = if rest.starts_with('\n') { "," } else { ",\n " };
+            format!("{{{space}\"$schema\": \"{SCHEMAS}/{name}.json\"{next}{rest}")
+        }
+        _ => text.to_owned(),
+    }
 }
 
 /// Path of a file in a folder, without a leading `./`.

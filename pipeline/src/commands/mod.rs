@@ -13,6 +13,7 @@ mod planned;
 pub mod run;
 pub mod schema;
 pub mod sections;
+pub mod shell;
 pub mod sim;
 pub mod splines;
 pub mod study;

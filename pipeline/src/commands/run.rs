@@ -48,6 +48,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     let mut clock = StageClock::new();
     let document = Document::open(&args.scene)?;
     before::check(&document)?;
+    progress.warn_of_commas(&document.inputs);
     let scene = document.scene();
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&scene.name));
     check_names(&document, &path)?;
@@ -151,17 +152,14 @@ fn finish(
             progress.say(&format!("{}: {} sinks by at most {deepest:.6} {unit}", outcome.label, body.name));
         }
     }
-    for (outcome, case) in outcomes.iter().zip(&document.cases) {
+    for outcome in outcomes {
         for choice in &outcome.choices {
             let name = &scene.structures[choice.structure].name;
             progress.say(&format!("{}: {name}: {}", outcome.label, foundations::selection_reason(choice)));
         }
-        for warning in warning::case_warnings(&case.scene, outcome) {
-            progress.say(&format!("warning: {}: {warning}", outcome.label));
-        }
-        for note in warning::case_notes(&case.scene, outcome) {
-            progress.say(&format!("note: {}: {note}", outcome.label));
-        }
+    }
+    for message in warning::messages(outcomes, document) {
+        progress.say(&message.to_string());
     }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {

@@ -47,7 +47,7 @@ pub(super) fn read(
         check.faults.add(fault.hint("kA_vertical and kA_lateral have no effect without it"));
     }
     let girder = Girder {
-        stations: read_stations(stations, raw_range, root, check),
+        stations: read_stations(stations, (&spans, overhangs), raw_range, root, check),
         spans,
         overhangs,
         e,
@@ -100,14 +100,41 @@ fn range_of(raw: &RawGirder) -> [f64; 2] {
     [-before, raw.spans.iter().flatten().sum::<f64>() + after]
 }
 
-/// Reads the stations. `range` is the range of the rail in the units of the file, if its lengths are valid.
+/// Most parts between the supports at whose ends stations lie by default.
+const PARTS: usize = 200;
+
+/// The stations of a spec that has none: both ends, the supports and the tenths of the spans; on girders of many spans
+/// fewer.
+fn default_stations(spans: &[f64], overhangs: [f64; 2]) -> Vec<f64> {
+    let parts = (PARTS / spans.len().max(1)).clamp(1, 10);
+    let stride = (spans.len() * parts).div_ceil(5 * PARTS).max(1);
+    let mut stations = Vec::new();
+    let mut support = 0.0;
+    for span in spans {
+        stations.extend((0..parts).map(|part| support + span * part as f64 / parts as f64));
+        support += span;
+    }
+    let mut stations: Vec<f64> = stations.into_iter().step_by(stride).collect();
+    stations.push(support);
+    if overhangs[0] > 0.0 {
+        stations.insert(0, -overhangs[0]);
+    }
+    if overhangs[1] > 0.0 {
+        stations.push(support + overhangs[1]);
+    }
+    stations
+}
+
+/// Reads the stations of a girder of given spans. `range` is the range of the rail in the units of the file, if its
+/// lengths are valid.
 fn read_stations(
     stations: &Option<Vec<f64>>,
+    (spans, overhangs): (&[f64], [f64; 2]),
     range: Option<[f64; 2]>,
     root: &Place<'_>,
     check: &mut Check<'_>,
 ) -> Vec<f64> {
-    let Some(given) = check.faults.require(stations, root, "stations") else { return Vec::new() };
+    let Some(given) = stations else { return default_stations(spans, overhangs) };
     let place = root.key("stations");
     if given.is_empty() {
         check

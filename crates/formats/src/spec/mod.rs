@@ -4,7 +4,7 @@
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
 //! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
 //! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), places of
-//! solver errors (`locate`) and rails on ties ([`ties`]).
+//! solver errors (`locate`), values that are probably wrong (`plausibility`) and rails on ties ([`ties`]).
 
 mod block;
 mod column;
@@ -18,6 +18,7 @@ mod locate;
 mod members;
 mod notes;
 mod outline;
+mod plausibility;
 mod rails;
 mod raw;
 mod read;

@@ -44,7 +44,8 @@ pub(crate) struct RawSpec {
     pub theory: Option<String>,
     /// Short form: a straight uniform girder, continuous over its supports.
     pub girder: Option<RawGirder>,
-    /// Short form: coordinates along the girder at which grids and tables have values, length.
+    /// Short form: coordinates along the girder at which grids and tables have values, length; by default its ends, the
+    /// supports and tenths of the spans.
     pub stations: Option<Vec<f64>>,
     /// General form: vector that points vertically upwards; by default [0, 1, 0].
     pub up: Option<[f64; 3]>,

@@ -218,3 +218,20 @@ fn rails_lie_on_every_part_of_a_tapered_member() {
     }
     assert!(bare[0].iz < bare[3].iz);
 }
+
+#[test]
+fn stations_are_tenths_of_the_spans_by_default() {
+    let text = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
+        "girder": {"spans": [6, 10], "overhangs": [1.5, 0], "section": "HEB 400"}}"#;
+    let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
+    let spec = Spec::read(&source, None).expect("a spec of a section and its spans");
+    let stations = &spec.rails()[0].stations;
+    assert_eq!(stations.len(), 1 + 10 + 10 + 1);
+    assert_eq!((stations[0], stations[1], stations[2]), (-1.5, 0.0, 0.6));
+    assert_eq!((stations[11], stations[12], stations[21]), (6.0, 7.0, 16.0));
+    let spans = vec!["6"; 3000].join(", ");
+    let many = Source { text: text.replace("6, 10", &spans), ..source };
+    let spec = Spec::read(&many, None).expect("a long runway");
+    let stations = &spec.rails()[0].stations;
+    assert!((500..=1100).contains(&stations.len()) && stations.windows(2).all(|pair| pair[0] < pair[1]));
+}

@@ -95,6 +95,14 @@ impl Inputs {
         self.read.iter().find(|input| input.name == name)
     }
 
+    /// Numbers of JSON files that were probably meant with a decimal comma ([`Source::decimal_commas`]).
+    #[must_use]
+    pub fn decimal_commas(&self) -> Vec<String> {
+        let is_json = |input: &&Input| input.name.ends_with(".json");
+        let sources = self.read.iter().filter(is_json).filter_map(|input| input.source().ok());
+        sources.flat_map(|source| source.decimal_commas()).collect()
+    }
+
     /// All files read, in the order in which they were read.
     #[must_use]
     pub fn all(&self) -> &[Input] {

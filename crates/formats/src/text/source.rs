@@ -63,8 +63,52 @@ impl Source {
     /// The text as a tree.
     #[must_use]
     pub fn tree(&self) -> Tree<'_> {
-        let json::Reading { root, error } = json::read(&self.text);
+        let json::Reading { mut root, error } = json::read(&self.text);
+        if let Value::Object(members) = &mut root.value {
+            // the path of a schema concerns editors alone
+            members.retain(|member| member.key != "$schema");
+        }
         Tree { source: self, root, error }
+    }
+
+    /// Numbers in lists that were probably meant with a decimal comma, which JSON reads as two numbers: digits on both
+    /// sides of a comma without a blank, in a list whose other commas are followed by one.
+    ///
+    /// ```
+    /// use formats::text::source::Source;
+    ///
+    /// let text = r#"{"spans": [6, 7,5, 6]}"#;
+    /// let source = Source { name: "girder.json".to_owned(), text: text.to_owned() };
+    /// let found = source.decimal_commas();
+    /// assert!(found[0].starts_with("girder.json:1:15: spans: 7,5 is read as two numbers"), "{}", found[0]);
+    /// ```
+    #[must_use]
+    pub fn decimal_commas(&self) -> Vec<String> {
+        let mut found = Vec::new();
+        self.tree().root.for_each_list(&mut Path::default(), &mut |path, items| {
+            let between = |pair: &[TreeNode<'_>]| &self.text[pair[0].end..pair[1].start];
+            let is_apart = |pair: &[TreeNode<'_>]| between(pair) != ",";
+            let is_number = |node: &TreeNode<'_>| {
+                let kind = matches!(node.value, Value::Unsigned(_) | Value::Signed(_) | Value::Float(_));
+                kind && node.is_whole()
+            };
+            if !items.iter().all(is_number) || !items.windows(2).any(is_apart) {
+                return;
+            }
+            for pair in items.windows(2).filter(|pair| !is_apart(pair)) {
+                let written = &self.text[pair[0].start..pair[1].end];
+                let is_negative = matches!(pair[1].value, Value::Signed(_));
+                if !written.contains('.') && !is_negative {
+                    let (line, column) = line_and_column(&self.text, pair[0].start);
+                    found.push(format!(
+                        "{}:{line}:{column}: {path}: {written} is read as two numbers; a decimal point makes it one: {}",
+                        self.name,
+                        written.replace(',', ".")
+                    ));
+                }
+            }
+        });
+        found
     }
 
     /// Converts the text to `T`, the contents of a file of this format, and checks it.
@@ -158,7 +202,7 @@ impl<'s> Tree<'s> {
 
     fn not_json(&self, message: &str, offset: usize, path: &Path) -> Diagnostic {
         let (line, column) = line_and_column(&self.source.text, offset);
-        let (expected, hint) = syntax(message, &self.source.text);
+        let (expected, hint) = syntax(message, &self.source.text, offset);
         let is_deep = message == "recursion limit exceeded";
         Diagnostic {
             line: Some(line),

@@ -110,6 +110,28 @@ impl<'t> TreeNode<'t> {
         node
     }
 
+    /// Calls `each` with the path and the items of every list in the value; `path` is that of the value itself.
+    pub(super) fn for_each_list(&self, path: &mut Path, each: &mut impl FnMut(&Path, &[TreeNode<'t>])) {
+        match &self.value {
+            Value::List(items) => {
+                each(path, items);
+                for (index, item) in items.iter().enumerate() {
+                    path.0.push(Step::Index(index));
+                    item.for_each_list(path, each);
+                    path.0.pop();
+                }
+            }
+            Value::Object(members) => {
+                for member in members {
+                    path.0.push(Step::Key(member.key.clone().into_owned()));
+                    member.value.for_each_list(path, each);
+                    path.0.pop();
+                }
+            }
+            _ => {}
+        }
+    }
+
     /// Follows a path as far as it exists in the tree.
     pub(super) fn find(&self, path: &Path) -> Hit<'_, 't> {
         let mut hit = Hit { node: self, key: self.start, is_whole: true };

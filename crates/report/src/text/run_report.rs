@@ -231,13 +231,11 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
 /// All warnings and notes of the runs; `None` where there are none.
 fn warnings(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
     let mut section = ReportSection::new("Warnings and notes");
-    for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for warning in warning::case_warnings(&case.scene, outcome) {
-            section = section.paragraph(format!("Warning, {}: {warning}.", outcome.label));
-        }
-        for note in warning::case_notes(&case.scene, outcome) {
-            section = section.paragraph(format!("Note, {}: {note}.", outcome.label));
-        }
+    for message in warning::messages(outcomes, document) {
+        let kind = if message.is_warning { "Warning" } else { "Note" };
+        let runs =
+            if message.runs.is_empty() { String::new() } else { format!(", {}", message.runs.join(", ")) };
+        section = section.paragraph(format!("{kind}{runs}: {}.", message.text));
     }
     (!section.paragraphs.is_empty()).then_some(section)
 }

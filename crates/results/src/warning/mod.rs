@@ -1,15 +1,12 @@
 //! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
-//! Files, lowest first: tension, spec, scene, scope, this one.
+//! Files, lowest first: tension, scene, scope, this one.
 
 mod scene;
 mod scope;
-mod spec;
 mod tension;
 
 use std::f64::consts::PI;
-
-pub use spec::spec_warnings;
 
 use sim::{GapCause, Run};
 
@@ -17,8 +14,11 @@ use crate::case_result::CaseResult;
 use crate::columns::NamedColumns;
 use formats::scene::motion::SimulationInput;
 use formats::scene::stepper_word;
-use formats::scene::{Analysis, Foundation, Origin, Scene, SceneRail, TableInterpolation, root_body};
+use formats::scene::{
+    Analysis, Document, Foundation, Origin, Scene, SceneRail, TableInterpolation, root_body,
+};
 use formats::spec::Form;
+use formats::text::number::{number, rounded};
 
 /// Residual of the energy audit above which a warning is issued.
 pub const RESIDUAL: f64 = 1e-3;
@@ -56,6 +56,52 @@ pub fn case_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     all
 }
 
+/// A warning or a note, with the labels of the runs that it concerns.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Message {
+    /// Whether it is a warning.
+    pub is_warning: bool,
+    /// Labels of the runs; empty where it concerns all of several.
+    pub runs: Vec<String>,
+    /// What is to be known.
+    pub text: String,
+}
+
+impl std::fmt::Display for Message {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(if self.is_warning { "warning: " } else { "note: " })?;
+        if !self.runs.is_empty() {
+            write!(f, "{}: ", self.runs.join(", "))?;
+        }
+        f.write_str(&self.text)
+    }
+}
+
+/// The warnings of all runs of a document, then their notes. Those that several runs share are one.
+#[must_use]
+pub fn messages(outcomes: &[CaseResult], document: &Document) -> Vec<Message> {
+    let mut all: Vec<Message> = Vec::new();
+    let mut add = |is_warning: bool, label: &str, text: String| {
+        let same = all.iter_mut().find(|known| known.is_warning == is_warning && known.text == text);
+        match same {
+            Some(known) => known.runs.push(label.to_owned()),
+            None => all.push(Message { is_warning, runs: vec![label.to_owned()], text }),
+        }
+    };
+    for is_warning in [true, false] {
+        for (outcome, case) in outcomes.iter().zip(&document.cases) {
+            let of_case = if is_warning { case_warnings } else { case_notes };
+            of_case(&case.scene, outcome).into_iter().for_each(|text| add(is_warning, &outcome.label, text));
+        }
+    }
+    for message in &mut all {
+        if message.runs.len() == outcomes.len() && outcomes.len() > 1 {
+            message.runs.clear();
+        }
+    }
+    all
+}
+
 fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: &Run) -> Vec<String> {
     let mut all = Vec::new();
     if let (Some((abandoned, t)), Some(method)) = (run.abandoned, run.method) {
@@ -75,7 +121,7 @@ fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: 
     }
     for structure in &scene.structures {
         if let Origin::Spec { spec, .. } = &structure.origin {
-            let of_spec = spec_warnings(spec).into_iter();
+            let of_spec = spec.warnings().into_iter();
             all.extend(of_spec.map(|warning| format!("{}: {warning}", structure.name)));
         }
     }
@@ -247,20 +293,23 @@ fn unsymmetric_table(scene: &Scene, rail: &SceneRail, wheels: &Wheels) -> Option
     ))
 }
 
-/// Warnings about wheels that are off their rails at some output times.
-fn lift_off(input: &SimulationInput, record: &NamedColumns) -> Vec<String> {
-    let mut all = Vec::new();
-    for wheel in &input.wheels {
-        let forces = record.part(&wheel.name, "vertical");
-        if let Some(first) = forces.iter().position(|force| *force == 0.0) {
-            let off = forces.iter().filter(|force| **force == 0.0).count();
-            all.push(format!(
-                "{} is off its rail at {off} of {} output times, first at {} s",
-                wheel.name,
-                forces.len(),
-                record.values("time").get(first).copied().unwrap_or_default()
-            ));
+/// Wheels that are off their rails at some output times; the one that is off most often is named.
+fn lift_off(input: &SimulationInput, record: &NamedColumns) -> Option<String> {
+    let off = |name: &str| record.part(name, "vertical").iter().filter(|force| **force == 0.0).count();
+    let lifted: Vec<(&str, usize)> =
+        (input.wheels.iter().map(|wheel| (wheel.name.as_str(), off(&wheel.name))))
+            .filter(|(_, count)| *count > 0)
+            .collect();
+    let (name, most) = lifted.iter().copied().reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    let forces = record.part(name, "vertical");
+    let first =
+        forces.iter().position(|force| *force == 0.0).and_then(|first| record.values("time").get(first));
+    let first = number(rounded(first.copied().unwrap_or_default(), 6));
+    let times = format!("at {most} of {} output times, first at {first} s", forces.len());
+    Some(match lifted.len() {
+        1 => format!("{name} is off its rail {times}"),
+        count => {
+            format!("{count} wheels are off their rails at some output times, most often {name}, {times}")
         }
-    }
-    all
+    })
 }

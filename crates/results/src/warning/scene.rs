@@ -1,7 +1,8 @@
-//! Warnings about values of a scene that are probably wrong: weights entered as masses, bodies that rotate without
-//! moment of inertia, structures that extend beyond the body below them, ropes beyond their strength.
+//! Warnings about values of a scene that are probably wrong: numbers in other units than those of the file, weights
+//! entered as masses, bodies that rotate without moment of inertia, structures that extend beyond the body below them, ropes beyond their strength.
 
 use crate::columns::NamedColumns;
+use formats::scene::motion::{NamedWheel, wheels};
 use formats::scene::{Analysis, Body, Origin, Scene, root_body};
 use formats::text::number::number;
 use formats::text::number::rounded;
@@ -18,10 +19,39 @@ const OVERHANG: f64 = 0.1;
 /// Strain beyond which a rope breaks, for strands of 2000 N/mm2.
 const BREAKING_STRAIN: f64 = 0.03;
 
+/// Plausible range of the acceleration of gravity, m/s2: from that of the moon to three times that of the earth.
+const GRAVITIES: [f64; 2] = [1.0, 30.0];
+
+/// Plausible range of radii of wheels, m.
+const RADII: [f64; 2] = [0.01, 2.0];
+
+/// Penetration of wheels at the start, relative to their radius, above which their stiffness is implausible.
+const PENETRATION: f64 = 0.25;
+
 /// Warnings about values of a scene that are probably wrong.
 #[must_use]
 pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String> {
     let mut all = Vec::new();
+    all.extend(implausible(
+        "`gravity`",
+        scene.gravity,
+        Dimension::ACCELERATION,
+        GRAVITIES,
+        "9.81 m/s^2 on earth",
+        scene,
+    ));
+    for wheel in &scene.wheels {
+        let what = format!("`radius` of wheel \"{}\"", wheel.name);
+        all.extend(implausible(
+            &what,
+            wheel.radius,
+            Dimension::LENGTH,
+            RADII,
+            "crane wheels have 0.1 to 0.6 m",
+            scene,
+        ));
+    }
+    all.extend(soft_wheels(scene, record));
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
         all.extend(without_inertia(scene, body));
@@ -29,6 +59,50 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
     all.extend((0..scene.structures.len()).filter_map(|s| overhanging(scene, s)));
     all.extend(overstretched(scene, record));
     all
+}
+
+/// A number other than zero outside a plausible range, which is in SI units.
+fn implausible(
+    what: &str,
+    value: f64,
+    dimension: Dimension,
+    [low, high]: [f64; 2],
+    usual: &str,
+    scene: &Scene,
+) -> Option<String> {
+    let si = value * Scale { from: scene.units, to: Units::SI }.factor(dimension);
+    (value != 0.0 && !(low..=high).contains(&si)).then(|| {
+        format!(
+            "{what} is {} {}, {} {}: check its unit; {usual}",
+            number(rounded(value, 6)),
+            scene.units.label(dimension),
+            number(rounded(si, 3)),
+            Units::SI.label(dimension)
+        )
+    })
+}
+
+/// Wheels that sink deep into their rails at the start; the deepest is named.
+fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
+    let ratio = |wheel: &NamedWheel| {
+        let first = record.part(&wheel.name, "penetration").first().copied().unwrap_or_default();
+        first / scene.wheels[wheel.kind].radius
+    };
+    let wheels = wheels(scene);
+    let soft: Vec<&NamedWheel> = wheels.iter().filter(|wheel| ratio(wheel) > PENETRATION).collect();
+    let deepest = soft.iter().max_by(|a, b| ratio(a).total_cmp(&ratio(b)))?;
+    let others = match soft.len() - 1 {
+        0 => String::new(),
+        1 => " and another wheel".to_owned(),
+        count => format!(" and {count} other wheels"),
+    };
+    Some(format!(
+        "{}{others} sink into the rail at the start by {} {}, {} of the radius: check `k` of the contact, force / length",
+        deepest.name,
+        number(rounded(ratio(deepest) * scene.wheels[deepest.kind].radius, 3)),
+        scene.units.label(Dimension::LENGTH),
+        number(rounded(ratio(deepest), 2))
+    ))
 }
 
 /// A mass that is too heavy for its wheels, probably a weight entered as a mass.

@@ -1,7 +1,9 @@
 //! JSON Schemas of the formats, generated from the types that the readers deserialize.
 //!
-//! The schemas describe keys and types. Ranges of numbers and dependencies between keys are checked by the readers
-//! only.
+//! The schemas describe keys, types, keywords and ranges of single numbers. Dependencies between keys are checked by the
+//! readers only.
+
+mod restrictions;
 
 use std::borrow::Cow;
 
@@ -18,28 +20,57 @@ use crate::text::entries::Entries;
 /// The schema of beam specs.
 #[must_use]
 pub fn beam() -> Value {
-    of::<RawSpec>(crate::spec::FORMAT, "Beam spec of girderway")
+    of::<RawSpec>("Spec", crate::spec::FORMAT, "Beam spec of girderway")
 }
 
 /// The schema of grids.
 #[must_use]
 pub fn grid() -> Value {
-    of::<RawGrid>(crate::grid::file::FORMAT, "Influence grid of girderway")
+    of::<RawGrid>("Grid", crate::grid::file::FORMAT, "Influence grid of girderway")
 }
 
 /// The schema of scenes.
 #[must_use]
 pub fn scene() -> Value {
-    of::<RawScene>(crate::scene::FORMAT, "Scene of girderway")
+    let mut schema = of::<RawScene>("Scene", crate::scene::FORMAT, "Scene of girderway");
+    schema["$defs"]["Changes"] = changes(&schema);
+    schema["properties"]["compare"]["items"] = json!({ "$ref": "#/$defs/Changes" });
+    schema
 }
 
 /// The schema of designs.
 #[must_use]
 pub fn design() -> Value {
-    of::<RawDesign>(crate::design::FORMAT, "Design of girderway")
+    of::<RawDesign>("Design", crate::design::FORMAT, "Design of girderway")
 }
 
-fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
+/// The schema of an item of `compare`: a label, and members of a scene that are merged into it. A null removes a named
+/// member.
+fn changes(scene: &Value) -> Value {
+    let mut properties = scene["properties"].clone();
+    if let Some(members) = properties.as_object_mut() {
+        members.retain(|key, _| !["$schema", "format", "name", "units", "compare"].contains(&key.as_str()));
+        for member in members.values_mut() {
+            if let Some(named) = member.get_mut("additionalProperties").filter(|named| named.is_object()) {
+                *named = json!({ "anyOf": [named.clone(), { "type": "null" }] });
+            }
+        }
+        members.insert(
+            "label".to_owned(),
+            json!({ "type": "string", "description": "Name of the variant, a part of the names of its files." }),
+        );
+    }
+    json!({
+        "type": "object",
+        "description": "A variant of the scene: its label, and the keys that change.",
+        "additionalProperties": false,
+        "properties": properties,
+        "required": ["label"],
+    })
+}
+
+/// The schema of the type `T`, whose definition is called `root`.
+fn of<T: JsonSchema>(root: &str, format: &str, title: &str) -> Value {
     let schema = SchemaSettings::draft2020_12().into_generator().into_root_schema_for::<T>();
     // the prefix `Raw` of the types is an implementation detail and does not belong in a schema
     let text = schema.to_value().to_string().replace("\"Raw", "\"").replace("$defs/Raw", "$defs/");
@@ -47,7 +78,13 @@ fn of<T: JsonSchema>(format: &str, title: &str) -> Value {
     schema["title"] = json!(title);
     schema["properties"]["format"] =
         json!({ "const": format, "description": "Name and version of the format." });
+    schema["properties"]["$schema"] =
+        json!({ "type": "string", "description": "Path of this schema, for editors; otherwise ignored." });
     schema["required"] = json!(["format", "units"]);
+    if let Some(units) = schema.pointer_mut("/$defs/Units") {
+        units["required"] = json!(["length", "force", "time"]);
+    }
+    restrictions::add(&mut schema, root);
     schema
 }
 

@@ -37,6 +37,17 @@ pub fn of_document(document: &Document, outcomes: &[CaseResult], comparison: Map
     result
 }
 
+/// The JSON Schema of the summary of a document.
+///
+/// ```
+/// assert_eq!(results::summary::schema()["properties"]["format"]["const"], "girderway-summary/1");
+/// ```
+#[must_use]
+pub fn schema() -> Value {
+    serde_json::from_str(include_str!("schema.json"))
+        .expect("the schema is JSON, as the test of this function shows")
+}
+
 /// The summary of one run as JSON; `number` is that of its case in the document, from 1.
 #[must_use]
 pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
