@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use anstyle::{AnsiColor, Effects};
 use formats::spec::SolveError;
 use formats::tables::WriteError;
 use formats::text::diagnostic::Diagnostic;
@@ -82,18 +83,44 @@ impl Failure {
             let object = serde_json::json!({ "status": self.exit().status(), "errors": errors });
             return format!("{object}\n");
         }
+        self.text(|diagnostic| format!("{diagnostic}\n"), "girderway: ")
+    }
+
+    /// Text for a terminal: below each error the line of the file with a mark at the place, with colours.
+    #[must_use]
+    pub fn report_with_excerpts(&self) -> String {
+        let strong = |colour: AnsiColor| colour.on_default().effects(Effects::BOLD);
+        let (wrong, place) = (strong(AnsiColor::Red), AnsiColor::Cyan.on_default());
+        let one = |diagnostic: &Diagnostic| {
+            let message = diagnostic.to_string();
+            let (position, rest) = message.split_at(diagnostic.position_length());
+            let mut text = format!("{place}{position}{place:#}{rest}\n");
+            if let (Some(line), Some(excerpt)) = (diagnostic.line, &diagnostic.excerpt) {
+                let number = format!("{line:>6} | ");
+                let blank = format!("{:>6} | {}", "", " ".repeat(excerpt.before));
+                text += &format!(
+                    "{place}{number}{place:#}{}\n{place}{blank}{place:#}{wrong}^{wrong:#}\n",
+                    excerpt.text
+                );
+            }
+            text
+        };
+        self.text(one, &format!("{wrong}girderway:{wrong:#} "))
+    }
+
+    /// Text of the failure: each of the first errors as `one` writes it, or a message behind a name.
+    fn text(&self, one: impl Fn(&Diagnostic) -> String, name: &str) -> String {
         match self {
             Failure::Input(diagnostics) => {
-                let mut lines: Vec<String> =
-                    diagnostics.iter().take(MOST).map(|diagnostic| format!("{diagnostic}\n")).collect();
+                let mut lines: Vec<String> = diagnostics.iter().take(MOST).map(one).collect();
                 match diagnostics.len().saturating_sub(MOST) {
                     0 => {}
-                    1 => lines.push("girderway: and 1 more fault\n".to_owned()),
-                    more => lines.push(format!("girderway: and {more} more faults\n")),
+                    1 => lines.push(format!("{name}and 1 more fault\n")),
+                    more => lines.push(format!("{name}and {more} more faults\n")),
                 }
                 lines.concat()
             }
-            Failure::Differs(message) | Failure::Untrusted(message) => format!("girderway: {message}\n"),
+            Failure::Differs(message) | Failure::Untrusted(message) => format!("{name}{message}\n"),
         }
     }
 }
@@ -158,5 +185,28 @@ impl From<study::Error> for Failure {
             study::Error::Input(diagnostics) => Failure::Input(diagnostics),
             other => Failure::untrusted(other),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use formats::text::source::Source;
+
+    #[test]
+    fn a_terminal_shows_the_line_with_a_mark_below_the_place() {
+        let text = "{\"format\": \"girderway-beam/1\",\n \"units\": {\"length\": \"cm\", \"force\": \"kN\", \"time\": \"s\"}}";
+        let source = Source { name: "spec.json".to_owned(), text: text.to_owned() };
+        let faults = formats::spec::Spec::read(&source, None).expect_err("no such unit");
+        let text = anstream::adapter::strip_str(&Failure::from(faults).report_with_excerpts()).to_string();
+        let lines: Vec<&str> = text.lines().collect();
+        let line =
+            lines.iter().position(|line| line.starts_with("spec.json:2:22: units.length")).expect("the unit");
+        assert_eq!(
+            lines[line + 1],
+            "     2 |  \"units\": {\"length\": \"cm\", \"force\": \"kN\", \"time\": \"s\"}}"
+        );
+        let mark = lines[line + 2].find('^').expect("a mark");
+        assert_eq!(&lines[line + 1][mark..mark + 4], "\"cm\"");
     }
 }

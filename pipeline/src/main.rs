@@ -1,6 +1,6 @@
 //! The girderway program.
 
-use std::io::Write;
+use std::io::{IsTerminal, Write};
 use std::panic;
 use std::process::ExitCode;
 
@@ -70,7 +70,10 @@ fn usage(error: &clap::Error) -> Exit {
 }
 
 fn tell(failure: &Failure, json: bool) -> Exit {
-    // an error of writing is ignored: standard error may be closed
-    let _ = std::io::stderr().write_all(failure.report(json).as_bytes());
+    let mut out = std::io::stderr();
+    let text = if out.is_terminal() && !json { failure.report_with_excerpts() } else { failure.report(json) };
+    // colours are left out where the terminal or the environment (NO_COLOR) does not want them; an error of writing is
+    // ignored: standard error may be closed
+    let _ = anstream::AutoStream::auto(&mut out).write_all(text.as_bytes());
     failure.exit()
 }

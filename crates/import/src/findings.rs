@@ -99,6 +99,7 @@ impl ImportFindings {
             expected: finding.expected.clone(),
             found: finding.found.clone(),
             hint: finding.hint.clone(),
+            excerpt: None,
         };
         let mut placed: Vec<Diagnostic> = sorted.iter().map(place).collect();
         placed.dedup();

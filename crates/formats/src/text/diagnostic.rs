@@ -28,6 +28,57 @@ pub struct Diagnostic {
     pub found: Option<String>,
     /// What the user can do about it.
     pub hint: Option<String>,
+    /// The part of the file around the place, if known; not part of the machine-readable form.
+    #[serde(skip)]
+    pub excerpt: Option<Excerpt>,
+}
+
+/// A part of a line of a file, and the place in it that is meant.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Excerpt {
+    /// The text, about 100 characters at most, dots where it is cut, tabulators as single blanks.
+    pub text: String,
+    /// Number of characters before the place.
+    pub before: usize,
+}
+
+/// Largest numbers of characters of an excerpt before and after the place.
+const AROUND: [usize; 2] = [40, 60];
+
+impl Excerpt {
+    /// The part of the line of `text` that contains the byte at `offset`.
+    ///
+    /// ```
+    /// use formats::text::diagnostic::Excerpt;
+    ///
+    /// let excerpt = Excerpt::new("{\n  \"spans\": [6, -7]\n}", 17);
+    /// assert_eq!((excerpt.text.as_str(), excerpt.before), ("  \"spans\": [6, -7]", 15));
+    /// ```
+    #[must_use]
+    pub fn new(text: &str, offset: usize) -> Excerpt {
+        let (before, after) = text.split_at(char_boundary(text, offset));
+        let before = &before[before.rfind('\n').map_or(0, |newline| newline + 1)..];
+        let after = after.split('\n').next().unwrap_or_default();
+        let plain = |c: char| if c.is_control() { ' ' } else { c };
+        let mut near: Vec<char> = before.chars().rev().take(AROUND[0]).map(plain).collect();
+        if near.len() < before.chars().count() {
+            near.extend(['.'; 3]);
+        }
+        let before = near.len();
+        near.reverse();
+        let mut after = after.trim_end().chars().map(plain);
+        near.extend(after.by_ref().take(AROUND[1]));
+        if after.next().is_some() {
+            near.extend(['.'; 3]);
+        }
+        Excerpt { text: near.into_iter().collect(), before }
+    }
+}
+
+/// The byte at which the character at the byte `offset` begins, or the end of the text.
+pub(super) fn char_boundary(text: &str, offset: usize) -> usize {
+    let is_boundary = |byte: &usize| text.is_char_boundary(*byte);
+    (0..=offset.min(text.len())).rev().find(is_boundary).unwrap_or_default()
 }
 
 impl Diagnostic {
@@ -42,7 +93,15 @@ impl Diagnostic {
             expected: expected.into(),
             found: None,
             hint: None,
+            excerpt: None,
         }
+    }
+
+    /// Number of bytes of the position, `file:line:column:`, with which the message begins.
+    #[must_use]
+    pub fn position_length(&self) -> usize {
+        let place = self.line.zip(self.column).map_or(0, |(line, column)| format!(":{line}:{column}").len());
+        self.file.len() + place + 1
     }
 
     /// Adds a hint.

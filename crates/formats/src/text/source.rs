@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use super::convert::{Located, convert};
-use super::diagnostic::Diagnostic;
+use super::diagnostic::{Diagnostic, Excerpt, char_boundary};
 use super::examine::{Examined, examine};
 use super::fault::{Fault, Faults};
 use super::json::{self, SyntaxError};
@@ -209,6 +209,7 @@ impl<'s> Tree<'s> {
             column: Some(column),
             path: if is_deep { String::new() } else { path.to_string() },
             hint,
+            excerpt: Some(Excerpt::new(&self.source.text, offset)),
             ..Diagnostic::of_file(&self.source.name, expected)
         }
     }
@@ -259,6 +260,7 @@ impl<'s> Tree<'s> {
             expected: fault.expected.clone(),
             found: fault.found.clone(),
             hint: fault.hint.clone(),
+            excerpt: offset.map(|offset| Excerpt::new(&self.source.text, offset)),
         }
     }
 
@@ -301,11 +303,7 @@ fn find_duplicates(node: &TreeNode<'_>, path: Path, faults: &mut Faults) {
 
 /// Line and column (in characters) of a byte offset, both counted from 1.
 fn line_and_column(text: &str, offset: usize) -> (usize, usize) {
-    let mut end = offset.min(text.len());
-    while !text.is_char_boundary(end) {
-        end -= 1;
-    }
-    let before = &text[..end];
+    let before = &text[..char_boundary(text, offset)];
     let start = before.rfind('\n').map_or(0, |newline| newline + 1);
     (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
 }
