@@ -13,42 +13,93 @@ pub(super) struct Region {
 
 /// Region where the values, linear along the edges of the grid's cells, are at least `level`.
 ///
-/// `x` are the coordinates of the columns, `y` those of the rows, and `values[row][column]` the values there.
-/// Each cell is clipped to the part at or above the level (marching squares). Neighbouring cells of a row that
-/// are entirely inside are joined. A cell whose largest value equals the level is omitted.
+/// `x` are the coordinates of the columns, `y` those of the rows, both increasing, and `values[row][column]` the values
+/// there. Each cell is clipped to the part at or above the level (marching squares). The parts in neighbouring cells of
+/// a row are joined to one polygon. A cell whose largest value equals the level is omitted.
 pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> Region {
     let mut found = Region::default();
     for row in 1..y.len() {
-        let mut run: Option<usize> = None;
-        for column in 1..=x.len() {
-            let corners = (column < x.len()).then(|| {
-                [(row - 1, column - 1), (row - 1, column), (row, column), (row, column - 1)]
-                    .map(|(i, j)| ([x[j], y[i]], values[i][j]))
-            });
-            let above = corners.iter().flatten().any(|c| c.1 > level);
-            let inside = if above { corners.iter().flatten().filter(|c| c.1 >= level).count() } else { 0 };
-            if inside == 4 {
-                run.get_or_insert(column - 1);
+        let mut strip = Strip::default();
+        for column in 1..x.len() {
+            let corners = [(row - 1, column - 1), (row - 1, column), (row, column), (row, column - 1)]
+                .map(|(i, j)| ([x[j], y[i]], values[i][j]));
+            if corners.iter().all(|corner| corner.1 <= level) {
                 continue;
             }
-            if let Some(start) = run.take() {
-                let (a, b, c, d) = (x[start], x[column - 1], y[row - 1], y[row]);
-                found.polygons.push(vec![[a, c], [b, c], [b, d], [a, d]]);
+            let from = found.chords.len();
+            let part = clip(&corners, level, &mut found.chords);
+            if (row + column).is_multiple_of(2) {
+                found.dashes.extend_from_slice(&found.chords[from..]);
             }
-            if let (Some(corners), 1..) = (corners, inside) {
-                let from = found.chords.len();
-                clip(&corners, level, &mut found);
-                if (row + column).is_multiple_of(2) {
-                    found.dashes.extend_from_slice(&found.chords[from..]);
-                }
+            if !strip.ends_at(x[column - 1]) {
+                found.polygons.extend(std::mem::take(&mut strip).polygon());
             }
+            strip.join(&part);
         }
+        found.polygons.extend(strip.polygon());
     }
     found
 }
 
-/// Adds the part of one cell at or above the level.
-fn clip(corners: &[([f64; 2], f64); 4], level: f64, found: &mut Region) {
+/// Neighbouring parts of a row of cells as one polygon: its lower and its upper side, both from left to right.
+#[derive(Default)]
+struct Strip {
+    sides: [Vec<[f64; 2]>; 2],
+}
+
+impl Strip {
+    /// Whether the strip reaches the vertical edge at `x`.
+    fn ends_at(&self, x: f64) -> bool {
+        self.sides[0].last().is_some_and(|last| last[0] >= x)
+    }
+
+    /// Adds a convex polygon, counterclockwise, that shares its left edge with the strip.
+    fn join(&mut self, part: &[[f64; 2]]) {
+        let left = part.iter().map(|point| point[0]).fold(f64::INFINITY, f64::min);
+        let right = part.iter().map(|point| point[0]).fold(f64::NEG_INFINITY, f64::max);
+        let first = (0..part.len()).find(|&k| {
+            let before = part[(k + part.len() - 1) % part.len()];
+            part[k][0] == left && (before[0] > left || before[1] > part[k][1])
+        });
+        let around = |k: usize| part[(first.unwrap_or_default() + k) % part.len()];
+        let turn = (0..part.len()).find(|&k| around(k)[0] == right).unwrap_or_default();
+        (0..=turn).for_each(|k| push(&mut self.sides[0], around(k)));
+        let is_pointed = around(turn + 1)[0] < right;
+        let start = if is_pointed { turn } else { turn + 1 };
+        if around(part.len() - 1)[0] > left {
+            // the left end is a single point, which belongs to both sides
+            push(&mut self.sides[1], around(0));
+        }
+        (start..part.len()).rev().for_each(|k| push(&mut self.sides[1], around(k)));
+    }
+
+    /// The polygon; `None` of an empty strip.
+    fn polygon(self) -> Option<Vec<[f64; 2]>> {
+        let [mut lower, upper] = self.sides;
+        for point in upper.into_iter().rev() {
+            if lower.last() != Some(&point) && lower.first() != Some(&point) {
+                lower.push(point);
+            }
+        }
+        (lower.len() > 2).then_some(lower)
+    }
+}
+
+/// Adds a point to a side: neither twice, nor between two others on a horizontal line.
+fn push(side: &mut Vec<[f64; 2]>, point: [f64; 2]) {
+    let is_near = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs().max(b.abs());
+    match side[..] {
+        [.., last] if is_near(last[0], point[0]) && is_near(last[1], point[1]) => {}
+        [.., before, last] if before[1] == last[1] && last[1] == point[1] => {
+            side.pop();
+            side.push(point);
+        }
+        _ => side.push(point),
+    }
+}
+
+/// The part of one cell at or above the level; its contour line is added to `chords`.
+fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 2]>) -> Vec<[f64; 2]> {
     let mut polygon = Vec::with_capacity(6);
     let mut leaving = None;
     let mut entering = Vec::new();
@@ -65,14 +116,14 @@ fn clip(corners: &[([f64; 2], f64); 4], level: f64, found: &mut Region) {
                 leaving = Some(cut);
             } else {
                 match leaving.take() {
-                    Some(from) => found.chords.push([from, cut]),
+                    Some(from) => chords.push([from, cut]),
                     None => entering.push(cut),
                 }
             }
         }
     }
     if let (Some(from), Some(to)) = (leaving, entering.first()) {
-        found.chords.push([from, *to]);
+        chords.push([from, *to]);
     }
-    found.polygons.push(polygon);
+    polygon
 }

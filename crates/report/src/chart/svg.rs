@@ -41,10 +41,11 @@ impl Svg {
         self.element("xmlns=\"http://www.w3.org/2000/svg\"", 1.0)
     }
 
-    /// The picture as an element inside HTML, which reads it as an image and needs no name space.
+    /// The picture as an element inside HTML, which needs no name space. A screen reader reads it as an image with the
+    /// text of the element `label` of the page.
     #[must_use]
-    pub fn inline(&self) -> String {
-        self.element("role=\"img\"", 1.0)
+    pub fn inline(&self, label: &str) -> String {
+        self.element(&format!("role=\"img\" aria-labelledby=\"{label}\""), 1.0)
     }
 
     /// The SVG element with further attributes; `unit` is the length of a pixel in the units of the parent element.

@@ -1,6 +1,6 @@
 //! The page of a report: sections as HTML.
 
-use crate::chart::{Chart, Drawing};
+use crate::chart::{Chart, Drawing, Style};
 use crate::document::code::{coded, exponent, plain};
 use crate::document::number::number;
 use crate::document::section::{Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
@@ -129,7 +129,9 @@ fn section(
                 }
             }
             @for body in &tables { (body) }
-            @for body in &figures { (body) }
+            @if !figures.is_empty() {
+                div .pictures[figures.len() > 1] { @for body in &figures { (body) } }
+            }
         }
     })
 }
@@ -199,15 +201,16 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
             (drawing.svg, "picture chart", Some(data))
         }
     };
+    let label = format!("figure-{running}");
     Ok(html! {
         figure {
             div class=(class) {
-                (PreEscaped(svg.inline()))
+                (PreEscaped(svg.inline(&label)))
                 @if let Some(data) = data {
                     script type="application/json" data-still=[still] { (PreEscaped(data)) }
                 }
             }
-            figcaption { b { "Figure " (running) ". " } (figure.caption) }
+            figcaption id=(label) { b { "Figure " (running) ". " } (figure.caption) }
         }
     })
 }
@@ -265,7 +268,8 @@ fn data(chart: &Chart, drawing: &Drawing) -> String {
                 places.push(own);
                 places.len() - 1
             });
-            json!({"label": one.label, "x": at, "y": list(&values, &chart.y_axis, y)})
+            let is_apart = one.style == Style::Points;
+            json!({"label": one.label, "x": at, "y": list(&values, &chart.y_axis, y), "apart": is_apart})
         })
         .collect();
     let places: Vec<_> = places.iter().map(|own| list(own, &chart.x_axis, x)).collect();
@@ -276,6 +280,7 @@ fn data(chart: &Chart, drawing: &Drawing) -> String {
         "y": axis(&chart.y_axis, y),
         "places": places,
         "series": series,
+        "markers": chart.markers.iter().map(|marker| json!([marker.x, marker.label])).collect::<Vec<_>>(),
     });
     all.to_string().replace('<', "\\u003c")
 }
