@@ -12,6 +12,7 @@ use serde_json::{Value, json};
 use sim::Channel;
 use splines::{Axis, Probe};
 
+mod browser;
 mod motion;
 mod statics;
 

@@ -225,7 +225,7 @@ impl Chart {
         let mut found = Vec::new();
         for marker in self.inside(frame) {
             let half = 0.5 * text_width(&marker.label, SMALL) + 3.0;
-            let at = frame.place([marker.x, frame.y.low])[0].min(WIDTH - half).max(half);
+            let at = frame.place([marker.x, frame.y.low])[0].min(WIDTH - half).max(frame.left + half);
             let free = |row: &Vec<[f64; 2]>| row.iter().all(|t| at + half <= t[0] || t[1] <= at - half);
             let row = taken.iter().position(free).unwrap_or(taken.len());
             if row == taken.len() {

@@ -1,0 +1,60 @@
+// Collects what a reader of the page would stumble over. Chromium's narrowest window is 500 pixels wide.
+const seen = (element) => {
+  const box = element.getBoundingClientRect();
+  return box.width > 0 && box.height > 0 && getComputedStyle(element).visibility !== "hidden";
+};
+const found = { failed: window.failed, overlaps: [], beyond: [], faint: [], unlabelled: 0, pictures: 0, zooms: false };
+const said = (element) => element.textContent.trim().slice(0, 40);
+const cover = (texts, where) => {
+  const boxes = texts.filter(seen).map((text) => [text, text.getBoundingClientRect()]);
+  boxes.forEach(([one, a], i) => {
+    for (const [other, b] of boxes.slice(i + 1)) {
+      const across = Math.min(a.right, b.right) - Math.max(a.left, b.left);
+      const down = Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top);
+      // lines of letters have room above and below: a third of their height is theirs
+      if (across > 1 && down > 0.34 * Math.min(a.height, b.height)) found.overlaps.push(`${where}: ${said(one)} / ${said(other)}`);
+    }
+  });
+};
+for (const svg of document.querySelectorAll(".picture > svg")) {
+  if (!seen(svg)) continue;
+  found.pictures += 1;
+  const label = document.getElementById(svg.getAttribute("aria-labelledby"));
+  if (!label || !said(label)) found.unlabelled += 1;
+  cover([...svg.querySelectorAll("text")], label ? said(label) : "figure");
+}
+cover([...document.querySelectorAll("nav a")], "contents");
+for (const table of document.querySelectorAll("table")) cover([...table.querySelectorAll("th, td")], "table");
+const width = document.documentElement.clientWidth;
+for (const element of document.querySelectorAll("h1, h2, p, table, figcaption, .tools, .legend, nav")) {
+  if (seen(element) && element.getBoundingClientRect().right > width + 1) found.beyond.push(said(element));
+}
+const light = (text) => {
+  const [r, g, b] = text.match(/[\d.]+/g).map((part) => { const c = part / 255; return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4; });
+  return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+};
+const ground = (element) => {
+  for (let at = element; at; at = at.parentElement) {
+    const colour = getComputedStyle(at).backgroundColor;
+    if (!/, 0\)$/.test(colour) && colour !== "transparent") return light(colour);
+  }
+  return 1;
+};
+for (const element of document.querySelectorAll("p, a, th, td, caption, figcaption, button, footer, .unit")) {
+  if (!seen(element) || !said(element)) continue;
+  const [one, other] = [light(getComputedStyle(element).color), ground(element)];
+  const contrast = (Math.max(one, other) + 0.05) / (Math.min(one, other) + 0.05);
+  if (contrast < 4.5) found.faint.push(`${said(element)}: ${contrast.toFixed(1)}`);
+}
+found.dark = matchMedia("(prefers-color-scheme: dark)").matches;
+const chart = document.querySelector(".chart.live");
+if (chart) {
+  const press = (key) => [...chart.querySelectorAll("svg")].filter(seen)[0].dispatchEvent(new KeyboardEvent("keydown", { key, bubbles: true }));
+  const labels = () => [...[...chart.querySelectorAll("svg")].filter(seen)[0].querySelectorAll("text")].map(said).join();
+  const before = labels();
+  press("+");
+  const after = labels();
+  press("0");
+  found.zooms = after !== before && labels() === before;
+}
+document.body.append("FOUND" + JSON.stringify(found) + "FOUND");
