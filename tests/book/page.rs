@@ -203,6 +203,7 @@ fn commands_of_readme_and_contributing_are_those_that_are_checked() {
     for name in ["README.md", "CONTRIBUTING.md"] {
         let page = fs::read_to_string(super::root().join(name)).expect("the page");
         let folder = tempfile::tempdir().expect("a temporary folder");
+        write(&page, folder.path());
         let mut count = 0;
         for words in blocks(&page).iter().filter(|block| block.mark == "sh").flat_map(commands) {
             match words[0] {
@@ -228,4 +229,46 @@ fn commands_of_readme_and_contributing_are_those_that_are_checked() {
             }
         }
     }
+}
+
+/// The table of the README beside the summary of the design that stands above it.
+#[test]
+fn numbers_of_the_readme_are_those_of_its_design() {
+    let page = fs::read_to_string(super::root().join("README.md")).expect("the page");
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    assert_eq!(write(&page, folder.path()), 2);
+    girderway(folder.path(), &["design", "design.json", "-o", "out"]);
+    let summary = fs::read(folder.path().join("out/summary.json")).expect("written");
+    let summary: Value = serde_json::from_slice(&summary).expect("JSON");
+    let extremes = summary["extremes"].as_array().expect("a list");
+    let rows = [
+        ("largest sagging moment", "moment", "max", 1.0),
+        ("largest hogging moment", "moment", "min", 1.0),
+        ("largest shear force", "shear", "max", 1.0),
+        ("largest deflection", "deflection", "max", 1e3),
+    ];
+    for (name, quantity, kind, factor) in rows {
+        let size = |found: &&Value| found["value"].as_f64().expect("a number").abs();
+        let found = extremes
+            .iter()
+            .filter(|one| [&one["quantity"], &one["kind"], &one["plane"]] == [quantity, kind, "vertical"])
+            .max_by(|a, b| size(a).total_cmp(&size(b)))
+            .expect("an extreme");
+        let line = page.lines().find(|line| line.starts_with(&format!("| {name} |"))).expect("a row");
+        let cells: Vec<f64> = line.split('|').skip(2).take(3).map(|cell| number_of(cell.trim())).collect();
+        let exact =
+            [factor * found["value"].as_f64().expect("a number"), x_of(found, "x"), x_of(found, "position")];
+        for (cell, exact) in cells.iter().zip(exact) {
+            assert!((cell - exact).abs() <= 5.1e-4 * exact.abs(), "{line}: {exact}");
+        }
+    }
+}
+
+fn x_of(found: &Value, key: &str) -> f64 {
+    found[key].as_f64().expect("a number")
+}
+
+/// The number with which a cell begins.
+fn number_of(cell: &str) -> f64 {
+    cell.split(' ').next().unwrap_or_default().parse().unwrap_or_else(|_| panic!("no number: {cell}"))
 }
