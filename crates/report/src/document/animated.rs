@@ -14,6 +14,8 @@ pub enum AnimationTrack {
     Attribute(&'static str, Vec<f64>),
     /// Number of decimals and values of a number that the element shows.
     Number(usize, Vec<f64>),
+    /// Points of a polyline: their fixed abscissas, and the ordinates of each over time, pixels.
+    Curve(Vec<f64>, Vec<Vec<f64>>),
 }
 
 /// An animated picture. Without scripts it shows one of its frames.
@@ -42,6 +44,8 @@ pub struct Animation {
 
 /// Power of ten to which displacements are rounded, pixels: a hundredth of a pixel is invisible.
 const PIXEL: i32 = -2;
+/// The same for the points of curves, whose neighbours move with them.
+const CURVE_PIXEL: i32 = -1;
 /// Power of ten to which times are rounded, s.
 const INSTANT: i32 = -6;
 
@@ -55,6 +59,7 @@ impl Animation {
             let is_finite = match track {
                 AnimationTrack::Displacement(places) => places.iter().all(|place| finite(place)),
                 AnimationTrack::Attribute(_, values) | AnimationTrack::Number(_, values) => finite(values),
+                AnimationTrack::Curve(x, y) => finite(x) && y.iter().all(|values| finite(values)),
             };
             if !is_finite {
                 return None;
@@ -70,6 +75,10 @@ impl Animation {
                 AnimationTrack::Number(digits, values) => {
                     let power = i32::try_from(*digits).unwrap_or(0);
                     json!({"e": element, "a": "text", "d": digits, "v": coded(values, -power)})
+                }
+                AnimationTrack::Curve(x, y) => {
+                    let y: Vec<_> = y.iter().map(|values| coded(values, CURVE_PIXEL)).collect();
+                    json!({"e": element, "a": "points", "x": coded(x, CURVE_PIXEL), "y": y})
                 }
             });
         }

@@ -4,7 +4,10 @@ for (const source of document.querySelectorAll(".animation > script")) {
   const svg = box.querySelector("svg");
   const data = JSON.parse(source.textContent);
   const time = decode(data.time);
-  const tracks = data.tracks.map((track) => (track.v ? { ...track, v: decode(track.v) } : { ...track, x: decode(track.x), y: decode(track.y) }));
+  const tracks = data.tracks.map((track) => {
+    if (track.v) return { ...track, v: decode(track.v) };
+    return { ...track, x: decode(track.x), y: track.a === "points" ? track.y.map(decode) : decode(track.y) };
+  });
   const nodes = tracks.map((track) => svg.querySelector(`[data-m="${track.e}"]`));
   const begin = time[0], end = time[time.length - 1];
   const button = document.createElement("button");
@@ -28,6 +31,7 @@ for (const source of document.querySelectorAll(".animation > script")) {
     tracks.forEach((track, index) => {
       const node = nodes[index];
       if (track.a === "transform") node.setAttribute("transform", `translate(${mix(track.x)} ${mix(track.y)})`);
+      else if (track.a === "points") node.setAttribute("points", track.x.map((x, k) => `${x},${mix(track.y[k]).toFixed(1)}`).join(" "));
       else if (track.a === "text") node.textContent = mix(track.v).toFixed(track.d);
       else node.setAttribute(track.a, mix(track.v));
     });

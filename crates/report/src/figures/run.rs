@@ -91,7 +91,7 @@ pub fn figures(
         .collect();
     let (run, input) = (&labelled[0], &outcomes[0].input);
     let mut all = RunFigures::default();
-    all.add("animation", animation::animation_figure(run, input).map_err(FigureError::from));
+    all.add("animation", animation::animation_figure(run, input, known));
     all.figures.extend(motion::travel(run, &fired));
     all.figures.extend(rails::rail_sum_charts(&labelled, comparison));
     all.figures.extend(motion::paths(&labelled));

@@ -9,7 +9,7 @@ pub(super) const WIDTH: f64 = 860.0;
 pub(super) const SIDE: f64 = 56.0;
 
 pub(super) const INK: &str = "#22222a";
-pub(super) const GREY: &str = "#8a8a92";
+pub(super) const GREY: &str = "#62626a";
 pub(super) const STEEL: &str = "#c9d3dc";
 pub(super) const DARK: &str = "#7d8fa0";
 pub(super) const ORANGE: &str = "#d65a0b";
@@ -98,6 +98,30 @@ impl PlanDrawing {
         ));
     }
 
+    /// Adds a polyline through fixed abscissas whose ordinates vary; `places[k]` are the ordinates of point k in each
+    /// frame.
+    pub fn curve(&mut self, x: Vec<f64>, places: Vec<Vec<f64>>, still: usize, (colour, width): (&str, f64)) {
+        let now = |values: &Vec<f64>| values.get(still).copied().unwrap_or_default();
+        let points: Vec<String> =
+            x.iter().zip(&places).map(|(x, values)| format!("{x:.1},{:.1}", now(values))).collect();
+        let mark = self.element([AnimationTrack::Curve(x, places)]);
+        self.add(&format!(
+            "<polyline {mark} points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"{width}\"/>",
+            points.join(" ")
+        ));
+    }
+
+    /// Adds a bar of about a fifth of `room` pixels whose length is a round number, with its length in words; `scale`
+    /// is the number of pixels of a unit of length.
+    pub fn scale_bar(&mut self, [x, y]: [f64; 2], room: f64, scale: f64, unit: &str) {
+        let length = round_length(0.2 * room / scale);
+        let end = x + length * scale;
+        for line in [[[x, y], [end, y]], [[x, y - 4.0], [x, y + 4.0]], [[end, y - 4.0], [end, y + 4.0]]] {
+            self.line(line, INK, 1.2);
+        }
+        self.text([end + 6.0, y + 4.0], &format!("{length} {unit}"), (INK, 11.0), "start");
+    }
+
     /// Adds a line whose ends both move.
     pub fn rope(&mut self, ends: [Vec<[f64; 2]>; 2], still: usize) {
         let now = ends.each_ref().map(|end| end.get(still).copied().unwrap_or_default());
@@ -155,6 +179,14 @@ impl PlanDrawing {
             Svg::new(width, height.round(), format!("<g transform=\"scale(10)\">\n{}</g>\n", self.body));
         (svg, self.tracks)
     }
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above `length`.
+fn round_length(length: f64) -> f64 {
+    let power = 10f64.powi(length.log10().floor() as i32);
+    let factor = [5.0, 2.0].into_iter().find(|factor| factor * power <= length).unwrap_or(1.0);
+    // powers below one are inexact
+    if power < 1.0 { factor / (1.0 / power).round() } else { factor * power }
 }
 
 fn escaped(text: &str) -> String {

@@ -1,40 +1,51 @@
-//! The animation of a crane: its plan view and the view along the runway, in one picture.
+//! The moving view of a scene: of a crane its plan and the view along the runway, in one picture; of other scenes the
+//! rails from the side.
 //!
-//! `draw` is the picture under construction, `view` the data of a run that both views need; `plan` and `section` draw
-//! them.
+//! `draw` is the picture under construction, `view` the data of a run that both views of a crane need; `plan` and
+//! `section` draw them; `side` is the view of other scenes.
 
 mod draw;
 mod plan;
 mod section;
+mod side;
 mod view;
 
 use crate::document::animated::Animation;
 
+use crate::figures::error::FigureError;
 use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::{Picture, number};
 use draw::{PlanDrawing, WIDTH};
 use formats::scene::motion::SimulationInput;
 use formats::units::Dimension;
-use foundations::Error;
+use foundations::SolvedStructure;
 use results::layout::ScenePositions;
 use view::{AnimationView, BAR};
 
 /// Largest number of frames.
 const FRAMES: usize = 400;
 
-/// The animation of a run in which bodies carry structures or hang in space; `None` for other runs.
+/// The moving view of a run: that of a crane where bodies carry structures or hang in space, and the rails from the side
+/// otherwise; `known` has the solved structures.
 ///
 /// Its frames are rows of the record at equal distances, at most 400. Without scripts it shows the frame in which the
 /// vertical force of a runway wheel is largest.
 ///
 /// # Errors
 /// A structure of which no model can be built.
-pub fn animation_figure(run: &LabelledRun, input: &SimulationInput) -> Result<Option<RunFigure>, Error> {
+pub fn animation_figure(
+    run: &LabelledRun,
+    input: &SimulationInput,
+    known: &[SolvedStructure],
+) -> Result<Option<RunFigure>, FigureError> {
     let scene = run.scene;
     let is_carrying = scene.structures.iter().any(|structure| structure.carrier.is_some());
     let has_suspended = scene.bodies.iter().any(|body| body.in_space);
     let time = run.record.values("time");
-    if !(is_carrying || has_suspended) || time.len() < 2 {
+    if !(is_carrying || has_suspended) {
+        return side::side_view(run, input, known);
+    }
+    if time.len() < 2 {
         return Ok(None);
     }
     let every = time.len().div_ceil(FRAMES);

@@ -2,6 +2,7 @@
 
 use super::draw::{BLUE, DARK, GREY, INK, ORANGE, PlanDrawing, SIDE, STEEL, WIDTH};
 use super::view::{AnimationView, BAR};
+use formats::units::Dimension;
 
 /// Largest height of the view, pixels.
 const ACROSS: f64 = 300.0;
@@ -24,7 +25,11 @@ pub(super) fn draw(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) ->
         drawing.moving(places, view.still, |drawing| plan.draw_body(drawing, body, &trucks));
     }
     let [low, high] = plan.across;
-    plan.top + (high - low) * plan.scale + BAR + 14.0
+    let bottom = plan.top + (high - low) * plan.scale + BAR + 14.0;
+    let unit = view.scene.units.label(Dimension::LENGTH);
+    drawing.scale_bar([SIDE, bottom + 12.0], WIDTH - 2.0 * SIDE, plan.scale, &unit);
+    plan.draw_axes(drawing, [WIDTH - SIDE - 70.0, bottom - 8.0], &rails);
+    bottom + 26.0
 }
 
 /// Least and greatest of `values`, infinities in reverse order if there are none.
@@ -67,6 +72,33 @@ impl<'p> Plan<'p> {
     /// Place of a point on the picture.
     fn place(&self, [x, _, z]: [f64; 3]) -> [f64; 2] {
         [self.left + (x - self.from) * self.scale, self.top + (z - self.across[0]) * self.scale]
+    }
+
+    /// Arrows of the axes, along the runway and lateral, and of north where the names of the rails tell it.
+    fn draw_axes(&self, drawing: &mut PlanDrawing, [x, y]: [f64; 2], rails: &[(usize, f64)]) {
+        let mut arrow = |[dx, dy]: [f64; 2], from: [f64; 2], name: &str| {
+            let tip = [from[0] + 26.0 * dx, from[1] + 26.0 * dy];
+            drawing.line([from, tip], INK, 1.2);
+            let side = |sign: f64| [tip[0] - 7.0 * dx - 3.0 * sign * dy, tip[1] - 7.0 * dy + 3.0 * sign * dx];
+            drawing.shape(&[tip, side(1.0), side(-1.0)], INK);
+            drawing.text(
+                [tip[0] + 10.0 * dx + 6.0 * dy.abs(), tip[1] + 4.0 + 4.0 * dy],
+                name,
+                (INK, 11.0),
+                "middle",
+            );
+        };
+        arrow([1.0, 0.0], [x, y], "x");
+        arrow([0.0, 1.0], [x, y], "z");
+        let named = |word: &str| {
+            let is_named =
+                |(rail, _): &&(usize, f64)| self.view.scene.rails[*rail].name.to_lowercase().contains(word);
+            rails.iter().find(is_named).map(|(_, z)| *z)
+        };
+        if let (Some(north), Some(south)) = (named("north"), named("south")) {
+            let down = (north - south).signum();
+            arrow([0.0, down], [x - 40.0, y + 13.0 - 13.0 * down], "N");
+        }
     }
 
     /// A rail with its name and stations.
