@@ -59,6 +59,8 @@ pub struct PeerOutcome {
     pub theory: Option<&'static str>,
     /// Largest relative difference that counts as agreement.
     pub tolerance: f64,
+    /// Grids with another tolerance.
+    pub own_tolerances: Vec<(GridBlock, f64)>,
     /// Differences, one for each compared grid.
     pub differences: Vec<BlockDifference>,
     /// Grids that only one of the codes has.
@@ -76,7 +78,14 @@ pub struct PeerOutcome {
 impl PeerOutcome {
     /// Whether at least one grid was compared and all of them agree.
     pub fn agrees(&self) -> bool {
-        !self.differences.is_empty() && self.differences.iter().all(|d| d.relative <= self.tolerance)
+        !self.differences.is_empty()
+            && self.differences.iter().all(|d| d.relative <= self.tolerance_of(d.quantity))
+    }
+
+    /// Largest relative difference of a grid that counts as agreement.
+    pub fn tolerance_of(&self, quantity: GridBlock) -> f64 {
+        let own = self.own_tolerances.iter().find(|(other, _)| *other == quantity);
+        own.map_or(self.tolerance, |(_, tolerance)| *tolerance)
     }
 
     /// The result as lines of text; `rails` are the names of the rails.
@@ -137,7 +146,10 @@ impl PeerOutcome {
             PeerMeasure::Largest => "of the largest entry",
             PeerMeasure::Diagonal => "of sqrt(Gii Gjj)",
         };
-        let _ = writeln!(text, "{verdict} (tolerance {:.0e} {measure})", self.tolerance);
+        let others = self.own_tolerances.iter();
+        let others: String =
+            others.map(|(quantity, tolerance)| format!(", {quantity} {tolerance:.1e}")).collect();
+        let _ = writeln!(text, "{verdict} (tolerance {:.0e} {measure}{others})", self.tolerance);
         text
     }
 
@@ -152,6 +164,7 @@ impl PeerOutcome {
                     "grid": d.quantity.name(), "entries": d.entries, "scale": d.scale,
                     "rails": d.rails.map(name), "at": d.at,
                     "ours": d.ours, "theirs": d.theirs, "relative": d.relative, "by_station": d.profile,
+                    "tolerance": self.tolerance_of(d.quantity),
                 })
             })
             .collect();

@@ -169,4 +169,6 @@ pub struct PeerAnswer {
     pub notes: Vec<String>,
     /// Largest difference that the modelling of the code explains.
     pub tolerance: Option<f64>,
+    /// The same for single grids, by name.
+    pub tolerances: BTreeMap<String, f64>,
 }

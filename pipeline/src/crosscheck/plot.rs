@@ -28,7 +28,13 @@ pub fn charts(outcome: &PeerOutcome, rails: &[String], unit: &str) -> Vec<Chart>
         }
         let ends = kept.first().into_iter().chain(kept.last());
         let limit = ends.map(|k| [x(k), outcome.tolerance]).collect();
-        chart.with(Series::new("tolerance", Style::Dashed, limit))
+        chart = chart.with(Series::new("tolerance", Style::Dashed, limit));
+        for (quantity, tolerance) in &outcome.own_tolerances {
+            let ends = kept.first().into_iter().chain(kept.last());
+            let limit = ends.map(|k| [x(k), *tolerance]).collect();
+            chart = chart.with(Series::new(format!("tolerance, {quantity}"), Style::Dashed, limit));
+        }
+        chart
     };
     rails
         .iter()

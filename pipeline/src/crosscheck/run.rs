@@ -40,6 +40,7 @@ pub fn crosscheck(
     let stations: Vec<Station> = girder.stations.iter().map(|x| (0, *x)).collect();
     let mut outcome = ask(Peer::ScikitFem, girder, ours, &stations, environment, say)?;
     outcome.tolerance = tolerance;
+    outcome.own_tolerances.clear();
     Ok(outcome)
 }
 
@@ -87,6 +88,11 @@ pub fn ask(
         elements: answer.elements,
         theory: None,
         tolerance: answer.tolerance.unwrap_or(peer.tolerance()),
+        own_tolerances: GridBlock::ALL
+            .into_iter()
+            .filter_map(|q| Some((q, *answer.tolerances.get(q.name())?)))
+            .filter(|(_, own)| own.is_finite())
+            .collect(),
         differences,
         skipped,
         stations: places,

@@ -57,6 +57,7 @@ fn nothing_compared_is_no_agreement() {
         elements: String::new(),
         theory: None,
         tolerance: 1e-9,
+        own_tolerances: Vec::new(),
         differences: vec![],
         skipped: vec![GridBlock::Lateral],
         stations: vec![(0, 0.0)],
