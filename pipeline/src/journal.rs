@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::json;
 
+use crate::interrupt;
 use crate::manifest::OutputEntry;
 
 /// Name of the journal in an output folder.
@@ -69,6 +70,7 @@ impl Journal {
     /// The journal cannot be written.
     pub fn begin(&mut self, command: &str) -> io::Result<()> {
         let line = json!({ "format": FORMAT, "command": command });
+        interrupt::leaves(self.path.parent());
         self.append(&format!("\n{line}\n"))
     }
 
@@ -93,7 +95,9 @@ impl Journal {
     /// # Errors
     /// The journal cannot be removed.
     pub fn remove(&self) -> io::Result<()> {
-        fs::remove_file(&self.path)
+        fs::remove_file(&self.path)?;
+        interrupt::leaves(None);
+        Ok(())
     }
 }
 

@@ -12,6 +12,7 @@ pub mod commands;
 pub mod crosscheck;
 pub mod exit;
 pub mod folder;
+pub mod interrupt;
 pub mod journal;
 pub mod manifest;
 pub mod output;

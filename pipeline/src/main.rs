@@ -9,6 +9,7 @@ use formats::text::diagnostic::Diagnostic;
 use girderway::cli::{Cli, Command};
 use girderway::commands;
 use girderway::exit::{Exit, Failure};
+use girderway::interrupt;
 use girderway::output;
 
 fn main() -> ExitCode {
@@ -19,6 +20,7 @@ fn main() -> ExitCode {
         Err(error) => return usage(&error).into(),
     };
     let json = cli.global.json;
+    interrupt::listen();
     let result = panic::catch_unwind(|| dispatch(cli));
     let result = result.unwrap_or_else(|_| {
         let version = env!("CARGO_PKG_VERSION");
