@@ -8,18 +8,20 @@
 //! ```
 //!
 //! G_res is the residual flexibility: the static deflection in the omitted modes. It makes the static deflection
-//! under F equal to that of G for any number of modes. The foundation is built in four steps:
+//! under F equal to that of G for any number of modes. The foundation is built in five steps:
 //!
 //! 1. Modes: members are subdivided until the relative error of the requested frequencies is at most [`ACCURACY`]
 //!    ([`search`]).
 //! 2. Excitation: modes that no wheel force and no carrier can excite are dropped ([`excited_by`]). If fewer than m
 //!    modes remain, or if the highest ones have the frequency of a mode that was not computed, more modes are
 //!    computed.
-//! 3. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
+//! 3. Iteration: of members that are flexible in shear a step of inverse iteration with the distributed mass makes the
+//!    slopes of the modes continuous within members ([`RefinedModes::iterate`]). Of all modes of a mesh only those are used
+//!    that it resolves ([`RefinedModes::keep_resolved`]).
+//! 4. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
 //!    of a mesh are subtracted from the surface of that mesh; the remainder is the deformation of its elements
-//!    between nodes. Of a mesh of members that are flexible in shear only the modes that it resolves are used, because
-//!    the slopes of the others jump at nodes ([`RefinedModes::keep_resolved`]).
-//! 4. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
+//!    between nodes.
+//! 5. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
 //!
 //! # Source
 //! R. H. MacNeal, A hybrid method of component mode synthesis, Computers & Structures 1 (1971), 581-601.

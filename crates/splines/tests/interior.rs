@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, ElementMember, ElementResidual, Error, ExactSurface, Flexibility, Influence, MemberMotion,
-    Probe, RailElement, RailShapes, Rails,
+    Axis, Compliance, ElementMember, ElementResidual, Error, ExactSurface, Flexibility, Influence,
+    MemberMotion, Probe, RailElement, RailShapes, Rails,
 };
 
 const X: [f64; 2] = [2.0, 8.5];
@@ -90,10 +90,9 @@ fn shapes_with_member_motions_deflect_between_their_ends() {
         let line = Arc::new(rails(reversed));
         let (length, flexibility) = (X[1] - X[0], line.elements()[0].flexibility);
         let motion = |plane: usize| {
-            let (c, g) = [
-                (flexibility.bending_z, flexibility.shear_y),
-                (flexibility.bending_y, flexibility.shear_z),
-            ][plane];
+            let (c, g) =
+                [(flexibility.bending_z, flexibility.shear_y), (flexibility.bending_y, flexibility.shear_z)]
+                    [plane];
             let (bending, shear) = (c * length.powi(4) / 24.0, g * length * length / 2.0);
             let turn = 2.0 * bending / length;
             let mut out = MemberMotion { plane, deflection: [0.0; 9], rotation: [0.0; 9] };

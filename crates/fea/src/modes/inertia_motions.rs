@@ -61,10 +61,7 @@ impl InertiaMotions {
         let uniform = &shapes[MOTIONS - 1];
         let energy = plane.bending * length.powi(5) / 720.0 + plane.shear * length.powi(3) / 12.0;
         let rest: [[Polynomial; 2]; MOTIONS] = std::array::from_fn(|j| {
-            let loads = [
-                shapes[j][0].map(|c| mass.deflection * c),
-                shapes[j][1].map(|c| mass.rotation * c),
-            ];
+            let loads = [shapes[j][0].map(|c| mass.deflection * c), shapes[j][1].map(|c| mass.rotation * c)];
             let whole = clamped_deflection(plane, length, &loads);
             let carried = work(&shapes[j], uniform) / energy;
             let mut rest: [Polynomial; 2] =

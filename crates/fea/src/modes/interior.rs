@@ -8,9 +8,9 @@
 //! power of the length where it erred by the second, apart from a small term of the rotary inertia.
 //!
 //! The motion is a further Rayleigh-Ritz function. Zero at the ends, it is orthogonal to the shapes of the member
-//! without load in the strain energy, so that only the mass couples it. A correction of the slopes alone would save the
-//! unknown, but its generalised forces would not belong to the displacements of any motion, and the residual
-//! flexibility could become negative.
+//! without load in the strain energy, so that only the mass couples it. The rest of the jumps is removed after the search,
+//! without further unknowns, by a step of inverse iteration with the mass as it is distributed
+//! ([`crate::RefinedModes::iterate`]).
 //!
 //! Without shear flexibility the slope is a degree of freedom of the ends, and continuous: such planes have no
 //! interior motion.

@@ -73,7 +73,8 @@ impl FactoredFrame {
             let pair = self.bodies.pair(element.points);
             let degrees = motion.ends(element);
             let end_motions = |of: &dyn Fn(usize) -> SVector<f64, 6>| -> [f64; 4] {
-                let moved = ends.fixed_columns::<6>(0) * of(pair[0]) + ends.fixed_columns::<6>(6) * of(pair[1]);
+                let moved =
+                    ends.fixed_columns::<6>(0) * of(pair[0]) + ends.fixed_columns::<6>(6) * of(pair[1]);
                 degrees.map(|(k, sign)| sign * moved[k])
             };
             let reference = |body: usize| self.bodies.list[body].reference;
@@ -95,7 +96,8 @@ impl FactoredFrame {
                 let products = weighted(&places, &loads, pick);
                 loads.transpose() * products
             });
-        let factors = combinations(modes, &strain, &kinetic).ok_or(Error::Modes { asked: count, found: 0 })?;
+        let factors =
+            combinations(modes, &strain, &kinetic).ok_or(Error::Modes { asked: count, found: 0 })?;
         combine(modes, &places, &loads, &factors);
         Ok(())
     }
@@ -148,7 +150,7 @@ fn combine(modes: &mut Modes, places: &[Place], loads: &Mat<f64>, (squares, fact
     let old = &modes.modes;
     let (states, points) = (6 * old[0].states.len(), 6 * old[0].points.len());
     let rows = states + points + places.len() + 6;
-    let whole = Mat::from_fn(rows, old.len(), |row, r| {
+    let value = |row: usize, r: usize| {
         let mode = &old[r];
         match row {
             row if row < states => mode.states[row / 6][row % 6],
@@ -159,12 +161,16 @@ fn combine(modes: &mut Modes, places: &[Place], loads: &Mat<f64>, (squares, fact
             }
             row => mode.coupling[row + 6 - rows],
         }
-    });
-    let sums = whole * factors;
+    };
+    // Many rows are zero: motions in one plane have none beside it.
+    let kept: Vec<usize> = (0..rows).filter(|&row| (0..old.len()).any(|r| value(row, r) != 0.0)).collect();
+    let mut index = vec![None; rows];
+    kept.iter().enumerate().for_each(|(k, &row)| index[row] = Some(k));
+    let sums = Mat::from_fn(kept.len(), old.len(), |k, r| value(kept[k], r)) * factors;
     let amplitudes = loads * factors;
     for (r, mode) in modes.modes.iter_mut().enumerate() {
         mode.omega = squares[r].sqrt();
-        let own = |row: usize| sums[(row, r)];
+        let own = |row: usize| index[row].map_or(0.0, |k: usize| sums[(k, r)]);
         for (at, motion) in mode.states.iter_mut().enumerate() {
             *motion = std::array::from_fn(|k| own(6 * at + k));
         }

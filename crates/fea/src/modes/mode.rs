@@ -265,8 +265,10 @@ impl Modes {
         }
         let squares = |member: usize| {
             let sum = |plane: usize| -> f64 {
-                let all =
-                    self.modes.iter().filter_map(|mode| Some(mode.between.get(member)?[plane][0] / mode.omega));
+                let all = self
+                    .modes
+                    .iter()
+                    .filter_map(|mode| Some(mode.between.get(member)?[plane][0] / mode.omega));
                 all.map(|load| load * load).sum()
             };
             [sum(0), sum(1)]

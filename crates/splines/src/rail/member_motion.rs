@@ -88,8 +88,9 @@ mod tests {
             for k in 0..=10 {
                 let s = f64::from(k) / 10.0;
                 let r = 1.0 - s;
-                let cubic = start * r * r * (1.0 + 2.0 * s) + end * s * s * (1.0 + 2.0 * r) + first * s * r * r
-                    - last * s * s * r;
+                let cubic =
+                    start * r * r * (1.0 + 2.0 * s) + end * s * s * (1.0 + 2.0 * r) + first * s * r * r
+                        - last * s * s * r;
                 let found = cubic + s * s * r * r * value(&quotient, s);
                 assert!((found - value(&q, s)).abs() < 1e-13, "{s}");
             }

@@ -201,10 +201,9 @@ impl ElementShapes {
         let [t, u, v, w, x] = weights();
         let quotients = e.iter().zip(f).zip(g.iter().zip(h)).zip(i);
         for (((value, slope), ((a, b), (c, d))), (((e, f), (g, h)), i)) in out.zip(data).zip(quotients) {
-            *value = (p * a + q * b + r * c + s * d)
-                + (t[0] * e + u[0] * f + v[0] * g + w[0] * h + x[0] * i);
-            *slope = (dp * a + dq * b + dr * c + ds * d)
-                + (t[1] * e + u[1] * f + v[1] * g + w[1] * h + x[1] * i);
+            *value = (p * a + q * b + r * c + s * d) + (t[0] * e + u[0] * f + v[0] * g + w[0] * h + x[0] * i);
+            *slope =
+                (dp * a + dq * b + dr * c + ds * d) + (t[1] * e + u[1] * f + v[1] * g + w[1] * h + x[1] * i);
         }
     }
 }
