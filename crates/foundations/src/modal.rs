@@ -8,23 +8,23 @@
 //! ```
 //!
 //! G_res is the residual flexibility: the static deflection in the omitted modes. It makes the static deflection
-//! under F equal to that of G for any number of modes. The foundation is built in four steps:
+//! under F equal to that of G for any number of modes. The foundation is built in five steps:
 //!
 //! 1. Modes: members are subdivided until the relative error of the requested frequencies is at most [`ACCURACY`]
 //!    ([`search`]).
 //! 2. Excitation: modes that no wheel force and no carrier can excite are dropped ([`excited_by`]). If fewer than m
 //!    modes remain, or if the highest ones have the frequency of a mode that was not computed, more modes are
 //!    computed.
-//! 3. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
+//! 3. Iteration: of members that are flexible in shear a step of inverse iteration with the distributed mass makes the
+//!    slopes of the modes continuous within members ([`RefinedModes::iterate`]). Of all modes of a mesh only those are used
+//!    that it resolves ([`RefinedModes::keep_resolved`]).
+//! 4. Residual flexibility: the lowest modes are subtracted from the exact surface of the members as given. All modes
 //!    of a mesh are subtracted from the surface of that mesh; the remainder is the deformation of its elements
-//!    between nodes. Of a mesh of members that are flexible in shear only the modes that it resolves are used, because
-//!    the slopes of the others jump at nodes ([`RefinedModes::keep_resolved`]).
-//! 4. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
+//!    between nodes.
+//! 5. Damping: a ratio of critical damping for each mode, and discrete dampers under the rail ([`damped`]).
 //!
 //! # Source
 //! R. H. MacNeal, A hybrid method of component mode synthesis, Computers & Structures 1 (1971), 581-601.
-
-use std::sync::Arc;
 
 use fea::{FactoredFrame, Modes, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
@@ -105,13 +105,18 @@ impl MeshModes {
 
     fn new(
         name: &str,
-        refined: RefinedModes,
-        excited: Vec<fea::Mode>,
+        mut refined: RefinedModes,
+        mut excited: Vec<fea::Mode>,
         given: Option<ExactSurface>,
         is_whole: bool,
     ) -> Result<MeshModes, Error> {
         let compliance = match given {
-            Some(surface) => StaticCompliance::Given(surface),
+            Some(surface) => {
+                refined.modes.modes = excited;
+                refined.iterate().map_err(Error::modes(name))?;
+                excited = refined.modes.modes.clone();
+                StaticCompliance::Given(surface)
+            }
             None => {
                 let found = refined.frame.surface().map_err(Error::frame(name))?;
                 StaticCompliance::Subdivided(found.surface)
@@ -139,16 +144,14 @@ impl MeshModes {
         let mut refined = self.refined.clone();
         refined.modes.modes = self.excited.iter().take(count).cloned().collect();
         let kept = &refined.modes;
-        let rail_error = Error::rails(name);
-        let line = Arc::clone(self.refined.frame.line().map_err(&frame_error)?);
         let residual: Box<dyn Compliance> = match &self.compliance {
             StaticCompliance::Given(exact) => {
-                let scaled = shapes(&line, &kept.modes, |mode| mode.omega).map_err(&rail_error)?;
+                let scaled = kept.rail_shapes(|mode| mode.omega).map_err(&frame_error)?;
                 Box::new(ResidualFlexibility::new(exact.clone(), scaled))
             }
             StaticCompliance::Subdivided(surface) => Box::new(kept.residual(surface).map_err(&frame_error)?),
         };
-        let own = shapes(&line, &kept.modes, |_| 1.0).map_err(&rail_error)?;
+        let own = kept.rail_shapes(|_| 1.0).map_err(&frame_error)?;
         let rails = (0..refined.rails.len())
             .map(|rail| Extent { range: residual.range(rail), breaks: residual.breaks(rail) })
             .collect();
@@ -368,8 +371,12 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     for (at, motion) in out.points.iter_mut().enumerate() {
         *motion = std::array::from_fn(|i| add(|mode| &mode.points, at, i));
     }
-    for (at, loads) in out.loads.iter_mut().enumerate() {
-        *loads = std::array::from_fn(|k| modes.iter().zip(weights).map(|(m, w)| w * m.loads[at][k]).sum());
+    for (at, planes) in out.between.iter_mut().enumerate() {
+        for (plane, amplitudes) in planes.iter_mut().enumerate() {
+            for (k, amplitude) in amplitudes.iter_mut().enumerate() {
+                *amplitude = modes.iter().zip(weights).map(|(m, w)| w * m.between[at][plane][k]).sum();
+            }
+        }
     }
     out.coupling = std::array::from_fn(|i| modes.iter().zip(weights).map(|(m, w)| w * m.coupling[i]).sum());
     out
@@ -412,25 +419,4 @@ impl Shapes for ModeShapes {
     fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), splines::Error> {
         self.0.row(at, value, slope)
     }
-}
-
-/// The modes along `line`, each divided by its `divisor`.
-fn shapes(
-    line: &Arc<Rails>,
-    modes: &[fea::Mode],
-    divisor: impl Fn(&fea::Mode) -> f64,
-) -> Result<splines::RailShapes, splines::Error> {
-    let states = DMatrix::from_fn(6 * line.state_count(), modes.len(), |k, r| {
-        modes[r].states[k / 6][k % 6] / divisor(&modes[r])
-    });
-    let own = splines::RailShapes::new(Arc::clone(line), states)?;
-    if modes.iter().all(|mode| mode.loads.is_empty()) {
-        return Ok(own);
-    }
-    let elements = line.elements();
-    let loads = DMatrix::from_fn(2 * elements.len(), modes.len(), |k, r| {
-        let member = elements[k / 2].member.map(|member| member.id);
-        member.map_or(0.0, |member| modes[r].loads[member][k % 2] / divisor(&modes[r]))
-    });
-    own.with_uniform_loads(&loads)
 }

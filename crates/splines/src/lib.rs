@@ -62,7 +62,9 @@ pub use curve::{CurveValue, PiecewiseCubic, akima, natural_spline};
 pub use error::Error;
 pub use probe::{Axis, Probe};
 pub use quality::{StationSearch, StationSet, fewest_stations};
-pub use rail::{ElementFunctions, ElementMember, Flexibility, RailElement, Rails, RoundingSizes, ShapeRow};
+pub use rail::{
+    ElementFunctions, ElementMember, Flexibility, MemberMotion, RailElement, Rails, RoundingSizes, ShapeRow,
+};
 pub use surface::{
     Couplings, DisplacementLines, ElementResidual, ExactSurface, ForceComponent, InfluenceLines,
     InternalForce, RailShapes, ResidualFlexibility, Uncoupled,

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use splines::{
-    Axis, Compliance, ElementMember, ElementResidual, Error, ExactSurface, Flexibility, Influence, Probe,
-    RailElement, RailShapes, Rails,
+    Axis, Compliance, ElementMember, ElementResidual, Error, ExactSurface, Flexibility, Influence,
+    MemberMotion, Probe, RailElement, RailShapes, Rails,
 };
 
 const X: [f64; 2] = [2.0, 8.5];
@@ -82,27 +82,58 @@ fn deflection_under_a_uniform_load_is_the_integral_of_greens_function() {
     }
 }
 
+/// Analytic: the deflection under a uniform load, as a motion of its member by polynomials, on a rail above and beside the
+/// member; shapes have the sum of such motions.
 #[test]
-fn shapes_with_loads_deflect_between_their_ends() {
-    let line = Arc::new(rails(true));
-    let states = DMatrix::from_fn(24, 2, |k, r| (k as f64 - 7.0 * r as f64).sin());
-    let loads = DMatrix::from_row_slice(4, 2, &[3.0, -1.0, 0.5, 2.0, 0.0, 0.0, 0.0, 0.0]);
-    let bare = RailShapes::new(Arc::clone(&line), states).expect("six degrees of freedom a state");
-    let loaded = bare.clone().with_uniform_loads(&loads).expect("two loads an element");
-    let wrong = bare.clone().with_uniform_loads(&DMatrix::zeros(3, 2));
-    assert_eq!(wrong.err(), Some(Error::NodalShape { rows: 3, columns: 2, expected: 4 }));
-    for (rail, axis) in [(0, Axis::Vertical), (0, Axis::Longitudinal), (1, Axis::Lateral)] {
-        let at = Probe { rail, x: 4.1, axis };
-        let rows = [&bare, &loaded].map(|shapes| {
-            let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
-            shapes.row(at, &mut value, &mut slope).expect("on the rail");
-            [value, slope]
-        });
-        let (element, [y, z]) = line.uniform_load(at).expect("on the rail");
-        for k in 0..2 {
-            for shape in 0..2 {
-                let wanted = loads[(2 * element, shape)] * y[k] + loads[(2 * element + 1, shape)] * z[k];
-                assert!((rows[1][k][shape] - rows[0][k][shape] - wanted).abs() < 1e-12);
+fn shapes_with_member_motions_deflect_between_their_ends() {
+    for reversed in [false, true] {
+        let line = Arc::new(rails(reversed));
+        let (length, flexibility) = (X[1] - X[0], line.elements()[0].flexibility);
+        let motion = |plane: usize| {
+            let (c, g) =
+                [(flexibility.bending_z, flexibility.shear_y), (flexibility.bending_y, flexibility.shear_z)]
+                    [plane];
+            let (bending, shear) = (c * length.powi(4) / 24.0, g * length * length / 2.0);
+            let turn = 2.0 * bending / length;
+            let mut out = MemberMotion { plane, deflection: [0.0; 9], rotation: [0.0; 9] };
+            out.deflection[1..5].copy_from_slice(&[shear, bending - shear, -2.0 * bending, bending]);
+            out.rotation[1..4].copy_from_slice(&[turn, -3.0 * turn, 2.0 * turn]);
+            out
+        };
+        // A motion of degree eight as well, known by its polynomials alone.
+        let rest = [0.7, -1.0, 0.2, 2.0, -0.3, 0.9];
+        let mut steep = MemberMotion { plane: 1, deflection: [0.0; 9], rotation: [0.0; 9] };
+        for (p, c) in rest.iter().enumerate() {
+            (steep.deflection[p + 1], steep.rotation[p + 1]) = (steep.deflection[p + 1] + c, c * 0.5);
+            (steep.deflection[p + 3], steep.rotation[p + 2]) = (steep.deflection[p + 3] - c, -0.2 * c);
+        }
+        steep.rotation[8] = -steep.rotation.iter().sum::<f64>();
+        let motions = vec![vec![motion(0), motion(1), steep], vec![motion(0), motion(1), steep]];
+        let amplitudes = DMatrix::from_fn(6, 2, |k, r| (3.0 * k as f64 + r as f64).cos());
+        let states = DMatrix::from_fn(24, 2, |k, r| (k as f64 - 7.0 * r as f64).sin());
+        let bare = RailShapes::new(Arc::clone(&line), states).expect("six degrees of freedom a state");
+        let moved = bare.clone().with_member_motions(motions.clone(), &amplitudes).expect("three an element");
+        let wrong = bare.clone().with_member_motions(motions.clone(), &DMatrix::zeros(3, 2));
+        assert_eq!(wrong.err(), Some(Error::NodalShape { rows: 3, columns: 2, expected: 6 }));
+        for (rail, axis) in [(0, Axis::Vertical), (0, Axis::Longitudinal), (1, Axis::Lateral)] {
+            for x in [2.0, 3.1, 5.25, 7.9, 8.5] {
+                let at = Probe { rail, x, axis };
+                let rows = [&bare, &moved].map(|shapes| {
+                    let (mut value, mut slope) = ([0.0; 2], [0.0; 2]);
+                    shapes.row(at, &mut value, &mut slope).expect("on the rail");
+                    [value, slope]
+                });
+                let (element, [y, z]) = line.uniform_load(at).expect("on the rail");
+                let own = line.member_motion(at, &steep).expect("on the rail");
+                let known = [0, 1].map(|plane| line.member_motion(at, &motion(plane)).expect("on the rail"));
+                for k in 0..2 {
+                    assert!((known[0][k] - y[k]).abs() < 1e-12 && (known[1][k] - z[k]).abs() < 1e-12);
+                    for shape in 0..2 {
+                        let factor = |motion: usize| amplitudes[(3 * element + motion, shape)];
+                        let wanted = factor(0) * y[k] + factor(1) * z[k] + factor(2) * own[k];
+                        assert!((rows[1][k][shape] - rows[0][k][shape] - wanted).abs() < 1e-12, "{at:?}");
+                    }
+                }
             }
         }
     }

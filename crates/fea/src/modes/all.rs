@@ -1,6 +1,6 @@
 //! All natural modes of a frame, from dense matrices.
 
-use faer::{Mat, Side};
+use faer::{Mat, MatRef, Side};
 use nalgebra::DVector;
 use sprs::CsMat;
 
@@ -79,12 +79,20 @@ pub(super) fn spectrum(
         }
         full
     };
-    let factor = dense(stiffness).llt(Side::Lower).ok()?;
-    let mut matrix = dense(mass);
+    dense_spectrum(dense(stiffness).as_ref(), dense(mass), count)
+}
+
+/// The same for dense matrices, both symmetric.
+pub(super) fn dense_spectrum(
+    stiffness: MatRef<'_, f64>,
+    mut mass: Mat<f64>,
+    count: usize,
+) -> Option<Vec<(f64, DVector<f64>)>> {
+    let factor = stiffness.llt(Side::Lower).ok()?;
     let lower = factor.L();
-    lower.solve_lower_triangular_in_place(&mut matrix);
+    lower.solve_lower_triangular_in_place(&mut mass);
     // L^-1 M L^-T is symmetric: the transpose of L^-1 M takes the second solve.
-    let mut matrix = matrix.transpose().to_owned();
+    let mut matrix = mass.transpose().to_owned();
     lower.solve_lower_triangular_in_place(&mut matrix);
     let eigen = matrix.self_adjoint_eigen(Side::Lower).ok()?;
     let (values, mut vectors) = (eigen.S(), eigen.U().to_owned());

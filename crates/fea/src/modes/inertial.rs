@@ -1,8 +1,8 @@
 //! Reactions and internal forces of forces on the mass: of weight, and of inertia in motion.
 
-use nalgebra::{DMatrix, SVector, Vector3};
+use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
-use splines::Probe;
+use splines::{MemberMotion, Probe};
 
 use crate::assembly::{BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation};
 use crate::error::Error;
@@ -11,14 +11,19 @@ use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
 use crate::modes::interior::InteriorMotion;
 use crate::modes::mass::{release_shapes, unreleased_mass};
-use crate::modes::mode::Mode;
-use crate::modes::shapes::{Cubic, Vector12, bending_shapes, uniform_load_shape};
+use crate::modes::mode::{BETWEEN, Mode};
+use crate::modes::shapes::{Cubic, Vector12, bending_shapes};
 
 type Vector6 = SVector<f64, 6>;
 
-/// Places and weights of Gauss quadrature on -1 to 1, exact to degree five.
-const GAUSS: [[f64; 2]; 3] =
-    [[-0.774_596_669_241_483_4, 5.0 / 9.0], [0.0, 8.0 / 9.0], [0.774_596_669_241_483_4, 5.0 / 9.0]];
+/// Places and weights of Gauss quadrature on -1 to 1, exact to degree nine.
+const GAUSS: [[f64; 2]; 5] = [
+    [-0.906_179_845_938_664, 0.236_926_885_056_189_08],
+    [-0.538_469_310_105_683_1, 0.478_628_670_499_366_47],
+    [0.0, 128.0 / 225.0],
+    [0.538_469_310_105_683_1, 0.478_628_670_499_366_47],
+    [0.906_179_845_938_664, 0.236_926_885_056_189_08],
+];
 
 /// The forces M a of a uniform acceleration a of the whole structure, its supports included: with a = -g up its weight.
 /// M is the consistent mass of the members and the rigid masses.
@@ -27,13 +32,13 @@ pub struct Weight {
     forces: InertiaForces,
 }
 
-/// Forces M a on the references of the bodies, and the acceleration of each member, local: of its flexible ends, and by
-/// the uniform loads under which it deflects between them.
+/// Forces M a on the references of the bodies, and the acceleration of each member, local: of its flexible ends, and of
+/// its motions between them ([`Mode::between`]).
 #[derive(Clone, Debug)]
 struct InertiaForces {
     on_bodies: Vec<Vector6>,
     end_accelerations: Vec<Vector12>,
-    loads: Vec<[f64; 2]>,
+    between: Vec<[[f64; BETWEEN]; 2]>,
 }
 
 impl FactoredFrame {
@@ -159,7 +164,7 @@ impl FactoredFrame {
         let zero = || InertiaForces {
             on_bodies: vec![SVector::zeros(); bodies],
             end_accelerations: vec![Vector12::zeros(); self.elements.len()],
-            loads: vec![[0.0; 2]; self.elements.len()],
+            between: vec![[[0.0; BETWEEN]; 2]; self.elements.len()],
         };
         let mut out: Vec<InertiaForces> = all.iter().map(|_| zero()).collect();
         for (index, (element, member)) in self.elements.iter().zip(&m.members).enumerate() {
@@ -181,19 +186,20 @@ impl FactoredFrame {
         out
     }
 
-    /// Adds the forces of the interior motions of members in modes.
+    /// Adds the forces of the motions of members between their ends in modes.
     fn add_interior_motions(&self, m: &Model, modes: &[Mode], out: &mut [InertiaForces]) {
         for motion in InteriorMotion::all(m, &self.elements, &self.bodies) {
-            let InteriorMotion { member, plane, ref coupling, .. } = motion;
+            let InteriorMotion { member, plane, .. } = motion;
             let element = &self.elements[member];
             let b = transformation(element, &self.bodies);
             let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
-            let force = ends.transpose() * coupling;
+            let coupling = end_forces(m, element, &motion);
             for (forces, mode) in out.iter_mut().zip(modes) {
-                let Some(load) = mode.loads.get(member).map(|loads| loads[plane]) else { continue };
-                forces.loads[member][plane] = load;
+                let Some(amplitudes) = mode.between.get(member).map(|planes| planes[plane]) else { continue };
+                forces.between[member][plane] = amplitudes;
+                let force = ends.transpose() * (coupling * SVector::from(amplitudes));
                 for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
-                    forces.on_bodies[body] += force.fixed_rows::<6>(6 * end) * load;
+                    forces.on_bodies[body] += force.fixed_rows::<6>(6 * end);
                 }
             }
         }
@@ -222,7 +228,7 @@ impl FactoredFrame {
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
     /// integral of m N a over the part before the section.
     fn own_member(&self, m: &Model, section: &splines::InternalForce, forces: &InertiaForces) -> f64 {
-        let (ends, loads) = (&forces.end_accelerations[section.member], &forces.loads[section.member]);
+        let (ends, between) = (&forces.end_accelerations[section.member], &forces.between[section.member]);
         let (element, member) = (&self.elements[section.member], &m.members[section.member]);
         let pair = self.bodies.pair(element.points);
         let cross_section = &m.sections[member.section];
@@ -232,10 +238,14 @@ impl FactoredFrame {
         let distributed =
             DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
         let mut fixed = unreleased_mass(element, cross_section, m.theory, member.kind) * ends;
-        if *loads != [0.0; 2] {
-            let interior = InteriorMotion::of_member(m, section.member, element);
-            interior.iter().for_each(|motion| fixed += motion.coupling * loads[motion.plane]);
+        let mut inertia = [None, None];
+        if *between != [[0.0; BETWEEN]; 2] {
+            for motion in InteriorMotion::of_member(m, section.member, element) {
+                fixed += end_forces(m, element, &motion) * SVector::from(between[motion.plane]);
+                inertia[motion.plane] = Some(motion.inertia_motions(m, element));
+            }
         }
+        let added = [0, 1].map(|k| inertia[k].as_ref().map(|inertia| inertia.sum(&between[k])));
         let end_forces: f64 = section.ends.iter().zip(fixed.iter()).map(|(a, b)| a * b).sum();
         let to = section.place * element.length;
         end_forces
@@ -243,12 +253,26 @@ impl FactoredFrame {
                 .iter()
                 .map(|[place, weight]| {
                     let z = 0.5 * to * (1.0 + place);
-                    let load = distributed.force(ends, loads, z / element.length);
+                    let load = distributed.force(ends, &added, z / element.length);
                     let balance = section.component.balance(to - z);
                     0.5 * to * weight * balance.iter().zip(load).map(|(a, b)| a * b).sum::<f64>()
                 })
                 .sum::<f64>()
     }
+}
+
+/// Products of inertia of the motions between the ends of a member in one plane with its motion by each degree of freedom
+/// of its flexible ends, local axes: degrees of freedom x motions.
+fn end_forces(m: &Model, element: &Element, motion: &InteriorMotion) -> SMatrix<f64, 12, BETWEEN> {
+    let mut out = SMatrix::<f64, 12, BETWEEN>::zeros();
+    out.set_column(0, &motion.coupling);
+    let inertia = motion.inertia_motions(m, element);
+    for (row, degree) in motion.ends(element).into_iter().enumerate() {
+        for (k, product) in inertia.stiffness[row].iter().enumerate() {
+            out[(degree.0, 1 + k)] = degree.1 * product;
+        }
+    }
+    out
 }
 
 impl InertiaForces {
@@ -287,8 +311,8 @@ struct DistributedMass<'a> {
 
 impl DistributedMass<'_> {
     /// Force and moment per length, local, at the fraction `at` of the length, for accelerations `ends` of the
-    /// flexible ends and those under the uniform loads `loads`.
-    fn force(&self, ends: &Vector12, loads: &[f64; 2], at: f64) -> [f64; 6] {
+    /// flexible ends and the motions `added` between them.
+    fn force(&self, ends: &Vector12, added: &[Option<MemberMotion>; 2], at: f64) -> [f64; 6] {
         let section = self.section;
         let linear = |k: usize| section.mass * ((1.0 - at) * ends[k] + at * ends[k + 6]);
         let mut out = [0.0; 6];
@@ -297,12 +321,12 @@ impl DistributedMass<'_> {
             out[3] = linear(3) * section.gyration_squared(section.iy + section.iz);
         }
         let planes = bending_planes(&self.element.flexibility);
-        for ((plane, second), load) in planes.iter().zip([section.iz, section.iy]).zip(loads) {
+        for ((plane, second), added) in planes.iter().zip([section.iz, section.iy]).zip(added) {
             if plane.bending.is_infinite() {
                 out[plane.deflection] = linear(plane.deflection);
                 continue;
             }
-            let [deflection, rotation] = self.bending(plane, ends, *load, at);
+            let [deflection, rotation] = self.bending(plane, ends, added.as_ref(), at);
             out[plane.deflection] = section.mass * deflection;
             if self.theory == BeamTheory::Timoshenko {
                 out[plane.rotation] = plane.sign * section.mass * section.gyration_squared(second) * rotation;
@@ -312,7 +336,13 @@ impl DistributedMass<'_> {
     }
 
     /// Accelerations of deflection and rotation of the section at the fraction `at` of the length.
-    fn bending(&self, plane: &BendingPlane, ends: &Vector12, load: f64, at: f64) -> [f64; 2] {
+    fn bending(
+        &self,
+        plane: &BendingPlane,
+        ends: &Vector12,
+        added: Option<&MemberMotion>,
+        at: f64,
+    ) -> [f64; 2] {
         let length = self.element.length;
         let shapes = bending_shapes(plane.shear_ratio(length), length);
         let (v, turn, sign) = (plane.deflection, plane.rotation, plane.sign);
@@ -321,10 +351,7 @@ impl DistributedMass<'_> {
         let sum = |pick: fn(&(Cubic, Cubic)) -> &Cubic| -> f64 {
             shapes.iter().zip(moved).map(|(pair, moved)| value(pick(pair)) * moved).sum()
         };
-        if load == 0.0 {
-            return [sum(|pair| &pair.0), sum(|pair| &pair.1)];
-        }
-        let (deflection, rotation) = uniform_load_shape(plane, length);
-        [sum(|pair| &pair.0) + load * value(&deflection), sum(|pair| &pair.1) + load * value(&rotation)]
+        let own = added.map_or([0.0; 2], |motion| [value(&motion.deflection), value(&motion.rotation)]);
+        [sum(|pair| &pair.0) + own[0], sum(|pair| &pair.1) + own[1]]
     }
 }

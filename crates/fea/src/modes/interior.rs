@@ -8,15 +8,16 @@
 //! power of the length where it erred by the second, apart from a small term of the rotary inertia.
 //!
 //! The motion is a further Rayleigh-Ritz function. Zero at the ends, it is orthogonal to the shapes of the member
-//! without load in the strain energy, so that only the mass couples it. A correction of the slopes alone would save the
-//! unknown, but its generalised forces would not belong to the displacements of any motion, and the residual
-//! flexibility could become negative.
+//! without load in the strain energy, so that only the mass couples it. The rest of the jumps is removed after the search,
+//! without further unknowns, by a step of inverse iteration with the mass as it is distributed
+//! ([`crate::RefinedModes::iterate`]).
 //!
 //! Without shear flexibility the slope is a degree of freedom of the ends, and continuous: such planes have no
 //! interior motion.
 
 use crate::assembly::{BendingPlane, Bodies, Element, bending_planes};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model};
+use crate::modes::inertia_motions::{InertiaMotions, MassPerLength};
 use crate::modes::shapes::{Vector12, bending_shapes, integral_of_product, uniform_load_shape};
 
 /// Deflection of a member with clamped ends under a uniform load of intensity one in one plane of bending:
@@ -78,15 +79,9 @@ impl InteriorMotion {
         let rotary = density * section.gyration_squared(second);
         let mass = density * integral_of_product(&deflection, &deflection)
             + rotary * integral_of_product(&rotation, &rotation);
-        let at = [
-            (plane.deflection, 1.0),
-            (plane.rotation, plane.sign),
-            (plane.deflection + 6, 1.0),
-            (plane.rotation + 6, plane.sign),
-        ];
         let mut coupling = Vector12::zeros();
         for ((k, sign), (shape, turn)) in
-            at.into_iter().zip(bending_shapes(plane.shear_ratio(length), length))
+            end_degrees(plane).into_iter().zip(bending_shapes(plane.shear_ratio(length), length))
         {
             coupling[k] = sign
                 * (density * integral_of_product(&shape, &deflection)
@@ -96,8 +91,39 @@ impl InteriorMotion {
         InteriorMotion { member, plane: index, stiffness, mass, coupling }
     }
 
+    /// Index and sign, among the degrees of freedom of the flexible ends, of the deflections and rotations of both ends.
+    pub fn ends(&self, element: &Element) -> [(usize, f64); 4] {
+        end_degrees(&bending_planes(&element.flexibility)[self.plane])
+    }
+
+    /// The deflections under the inertia of the motions of the member in this plane; `m` is the model of `element`.
+    pub fn inertia_motions(&self, m: &Model, element: &Element) -> InertiaMotions {
+        let section = &m.sections[m.members[self.member].section];
+        let second = if self.plane == 0 { section.iz } else { section.iy };
+        let mass = MassPerLength {
+            deflection: section.mass,
+            rotation: section.mass * section.gyration_squared(second),
+        };
+        let plane = &bending_planes(&element.flexibility)[self.plane];
+        let mut released = [[0.0; 4]; 4];
+        if let Some(own) = &element.released {
+            let ends = self.ends(element);
+            released = ends.map(|(i, a)| ends.map(|(j, b)| a * b * own.compliance[(i, j)]));
+        }
+        InertiaMotions::new(self.plane, plane, element.length, mass, &released)
+    }
+
     /// Intensity of the load at which twice the strain energy is one.
     pub fn unit_load(&self) -> f64 {
         self.stiffness.sqrt().recip()
     }
+}
+
+fn end_degrees(plane: &BendingPlane) -> [(usize, f64); 4] {
+    [
+        (plane.deflection, 1.0),
+        (plane.rotation, plane.sign),
+        (plane.deflection + 6, 1.0),
+        (plane.rotation + 6, plane.sign),
+    ]
 }

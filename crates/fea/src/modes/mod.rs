@@ -7,15 +7,17 @@
 //! search to the unknowns that given forces can move, and `interior` lets Timoshenko members deflect between nodes
 //! under their own inertia.
 //!
-//! Order of the files: `shapes`, `interior`, `mass`, `count`, `decoupled`, `block`, `lanczos`, `mode`, `all`, `lowest`,
-//! `refined`, `inertial`.
+//! Order of the files: `shapes`, `interior`, `inertia_motions`, `mass`, `count`, `decoupled`, `block`, `lanczos`,
+//! `mode`, `all`, `lowest`, `inertial`, `iterated`, `refined`.
 
 mod all;
 mod block;
 mod count;
 mod decoupled;
+mod inertia_motions;
 mod inertial;
 mod interior;
+mod iterated;
 mod lanczos;
 mod lowest;
 mod mass;

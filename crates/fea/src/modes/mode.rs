@@ -2,14 +2,18 @@
 
 use std::sync::Arc;
 
-use nalgebra::{DVector, DVectorView, Vector3};
-use splines::{Axis, ElementResidual, ExactSurface, Probe, Rails};
+use nalgebra::{DMatrix, DVector, DVectorView, Vector3};
+use splines::{Axis, ElementResidual, ExactSurface, MemberMotion, Probe, RailShapes, Rails};
 
-use crate::assembly::{Combination, column_norm, symmetric_product};
+use crate::assembly::{Combination, bending_planes, column_norm, symmetric_product};
 use crate::error::Error;
 use crate::influence::FactoredFrame;
 use crate::modes::decoupled::Part;
+use crate::modes::inertia_motions::{MOTIONS, uniform_load_motion};
 use crate::modes::mass::{ScaledMass, rows};
+
+/// Number of motions of a member between its ends in one plane.
+pub(super) const BETWEEN: usize = 1 + MOTIONS;
 
 /// A natural mode with modal mass 1: phi^T M phi = 1, K phi = omega^2 M phi.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,13 +21,15 @@ pub struct Mode {
     /// Circular frequency, radian/time.
     pub omega: f64,
     /// For each state of the rails its three displacements and three rotations, in the axes of its rail.
-    /// Along a rail element the shape is that of the member without load, and under `loads` ([`Modes::at`]).
+    /// Along a rail element the shape is that of the member without load, with the motions `between`
+    /// ([`Modes::at`]).
     pub states: Vec<[f64; 6]>,
     /// For each point its three displacements and three rotations, global.
     pub points: Vec<[f64; 6]>,
-    /// For each member the intensities of uniform loads along its local y and z axes, force/length, under which it
-    /// deflects between its ends. Empty if no member with mass is flexible in shear.
-    pub loads: Vec<[f64; 2]>,
+    /// For each member and each of its local x-y and x-z planes, the amplitudes of its motions between the ends: the
+    /// intensity of a uniform load, force/length; then the inertia of the motion, by five amplitudes times the square of a
+    /// frequency ([`crate::RefinedModes::iterate`]), or zeros. Empty if no member with mass is flexible in shear.
+    pub between: Vec<[[f64; BETWEEN]; 2]>,
     /// phi^T M r for six rigid motions r of the whole structure with its supports: three translations along
     /// the global axes, three rotations about the global origin. Its squares are the effective modal masses.
     pub coupling: [f64; 6],
@@ -70,6 +76,9 @@ pub struct Modes {
     /// moments of inertia about the global origin.
     pub rigid_mass: [[f64; 6]; 6],
     line: Option<Arc<Rails>>,
+    /// For each member the motions of which [`Mode::between`] has the amplitudes, by plane; of a plane without such motions
+    /// none, and without inertia only the first.
+    pub(super) motions: Arc<Vec<[Vec<MemberMotion>; 2]>>,
 }
 
 /// What shows that the modes are the lowest: a shift, the number of modes below it, and the next frequency.
@@ -99,7 +108,20 @@ impl FactoredFrame {
             next,
             rigid_mass: rows(&mass.total),
             line: self.line().ok().cloned(),
+            motions: Arc::new(self.uniform_loads(mass)),
         }
+    }
+
+    /// For each member and plane its deflection under a uniform load, if it is an interior motion.
+    fn uniform_loads(&self, mass: &ScaledMass) -> Vec<[Vec<MemberMotion>; 2]> {
+        let count = if mass.interior.is_empty() { 0 } else { self.elements.len() };
+        let mut out = vec![<[Vec<MemberMotion>; 2]>::default(); count];
+        for motion in &mass.interior {
+            let element = &self.elements[motion.member];
+            let plane = &bending_planes(&element.flexibility)[motion.plane];
+            out[motion.member][motion.plane].push(uniform_load_motion(motion.plane, plane, element.length));
+        }
+        out
     }
 
     /// A mode from its eigenvalue and its scaled unknowns, those of `part`, with modal mass 1.
@@ -120,9 +142,10 @@ impl FactoredFrame {
             mass.rigid.each_ref().map(|rigid| DVectorView::from_slice(rigid, rigid.len()).dot(&phi));
         let (amplitudes, unknowns) = phi.as_slice().split_at(mass.interior.len());
         let motions = self.body_motions(unknowns);
-        let mut loads = vec![[0.0; 2]; if amplitudes.is_empty() { 0 } else { self.elements.len() }];
+        let mut between =
+            vec![[[0.0; BETWEEN]; 2]; if amplitudes.is_empty() { 0 } else { self.elements.len() }];
         for (motion, amplitude) in mass.interior.iter().zip(amplitudes) {
-            loads[motion.member][motion.plane] = amplitude * motion.unit_load();
+            between[motion.member][motion.plane][0] = amplitude * motion.unit_load();
         }
         let value = |row: &Combination| row.evaluate(&motions);
         let states = self.states().iter().map(|state| state.each_ref().map(value)).collect();
@@ -130,7 +153,7 @@ impl FactoredFrame {
             let motion = self.bodies.motion(point, &Vector3::zeros());
             (motion * motions[self.bodies.of_point[point]]).into()
         });
-        Mode { omega: lambda.sqrt(), states, points: points.collect(), loads, coupling, residual }
+        Mode { omega: lambda.sqrt(), states, points: points.collect(), between, coupling, residual }
     }
 }
 
@@ -146,15 +169,54 @@ impl Modes {
     /// [`Error::NoRails`]; [`Error::Rail`] for a probe beyond its rail, or in a direction that nothing resists.
     pub fn at(&self, probe: Probe) -> Result<Vec<[f64; 2]>, Error> {
         let row = self.line()?.row(probe)?;
-        let (element, between) = self.line()?.uniform_load(probe)?;
-        let member = self.line()?.elements()[element].member.map(|member| member.id);
+        let member = self.line()?.elements()[row.element].member.map(|member| member.id);
+        let mut between = Vec::new();
+        for (plane, motions) in member.and_then(|id| self.motions.get(id)).into_iter().flatten().enumerate() {
+            for (k, motion) in motions.iter().enumerate() {
+                between.push(([plane, k], self.line()?.member_motion(probe, motion)?));
+            }
+        }
         let sum = |mode: &Mode, weights: &[f64], k: usize| -> f64 {
             let terms = row.indices().iter().zip(weights);
             let ends: f64 = terms.map(|(&index, weight)| weight * mode.states[index / 6][index % 6]).sum();
-            let loads = member.and_then(|member| mode.loads.get(member));
-            ends + loads.map_or(0.0, |loads| loads[0] * between[0][k] + loads[1] * between[1][k])
+            let amplitudes = member.and_then(|member| mode.between.get(member));
+            let own = |of: &[[f64; BETWEEN]; 2]| -> f64 {
+                between.iter().map(|([plane, motion], value)| of[*plane][*motion] * value[k]).sum()
+            };
+            ends + amplitudes.map_or(0.0, own)
         };
         Ok(self.modes.iter().map(|mode| [sum(mode, row.values(), 0), sum(mode, row.slopes(), 1)]).collect())
+    }
+
+    /// The modes along the rails, each divided by its `divisor`.
+    ///
+    /// # Errors
+    /// [`Error::NoRails`].
+    pub fn rail_shapes(&self, divisor: impl Fn(&Mode) -> f64) -> Result<RailShapes, Error> {
+        let line = self.line()?;
+        let modes = &self.modes;
+        let factors: Vec<f64> = modes.iter().map(|mode| 1.0 / divisor(mode)).collect();
+        let states = DMatrix::from_fn(6 * line.state_count(), modes.len(), |k, r| {
+            modes[r].states[k / 6][k % 6] * factors[r]
+        });
+        let ends = RailShapes::new(Arc::clone(line), states)?;
+        if modes.iter().all(|mode| mode.between.is_empty()) {
+            return Ok(ends);
+        }
+        let (mut motions, mut places) = (Vec::new(), Vec::new());
+        for element in line.elements() {
+            let member = element.member.map(|member| member.id).filter(|id| *id < self.motions.len());
+            let planes = member.map_or(&[][..], |id| &self.motions[id]);
+            motions.push(planes.iter().flatten().copied().collect());
+            for (plane, own) in planes.iter().enumerate() {
+                places.extend((0..own.len()).map(|k| (member, plane, k)));
+            }
+        }
+        let amplitudes = DMatrix::from_fn(places.len(), modes.len(), |row, r| {
+            let (member, plane, k) = places[row];
+            member.map_or(0.0, |member| modes[r].between[member][plane][k] * factors[r])
+        });
+        Ok(ends.with_member_motions(motions, &amplitudes)?)
     }
 
     /// Rotation of every mode about the rail at x, linear along a rail element: exact if the element runs
@@ -177,10 +239,11 @@ impl Modes {
     ///
     /// G_res = G - sum phi_r phi_r^T / omega_r^2
     ///
-    /// Products of deflections by [`Mode::loads`] with other motions are left out: their sum over all modes is zero.
+    /// Products of deflections by uniform loads ([`Mode::between`]) with other motions are left out: their sum over all
+    /// modes is zero. The part of inertia is not counted.
     ///
-    /// Guarantee: positive semi-definite up to the rounding of G, for all modes, or for any number of modes without
-    /// such loads.
+    /// Guarantee: positive semi-definite up to the rounding of G, for all modes as computed from the mesh, or for any number
+    /// of modes of members that are rigid in shear.
     ///
     /// # Errors
     /// [`Error::NoRails`]; [`Error::Rail`] for a surface of another frame, by its number of states.
@@ -202,8 +265,10 @@ impl Modes {
         }
         let squares = |member: usize| {
             let sum = |plane: usize| -> f64 {
-                let all =
-                    self.modes.iter().filter_map(|mode| Some(mode.loads.get(member)?[plane] / mode.omega));
+                let all = self
+                    .modes
+                    .iter()
+                    .filter_map(|mode| Some(mode.between.get(member)?[plane][0] / mode.omega));
                 all.map(|load| load * load).sum()
             };
             [sum(0), sum(1)]

@@ -3,7 +3,7 @@
 //!
 //! Order: `element` (data), `load` (a rail force in the axes of the member), `green` and `shape` (the two
 //! functions of one element), `functions` (both in any number type), `rounding` (sizes of their terms), `interior` (the
-//! deflection of an element under uniform loads), `row` and `planar` (their values at a place), `track` (which element
+//! deflection of an element under uniform loads), `member_motion` (any other motion of its member between the ends), `row` and `planar` (their values at a place), `track` (which element
 //! carries a place), `rails` (all together).
 
 mod element;
@@ -11,6 +11,7 @@ mod functions;
 mod green;
 mod interior;
 mod load;
+mod member_motion;
 mod planar;
 mod rails;
 mod rounding;
@@ -21,6 +22,8 @@ mod track;
 pub use element::{ElementMember, Flexibility, RailElement};
 pub(crate) use element::{IDENTITY, LocalPlace};
 pub use functions::ElementFunctions;
+pub(crate) use member_motion::EndForm;
+pub use member_motion::MemberMotion;
 pub(crate) use planar::{PlanarCubics, PlanarPlace};
 pub use rails::Rails;
 pub use rounding::RoundingSizes;

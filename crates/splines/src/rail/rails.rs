@@ -7,6 +7,7 @@ use super::element::{LocalPlace, RailElement};
 use super::green::ClampedElement;
 use super::interior::uniform_load;
 use super::load::AxisLoad;
+use super::member_motion::MemberMotion;
 use super::planar::{PlanarCubics, PlanarPlace};
 use super::rounding::RoundingSizes;
 use super::row::ShapeRow;
@@ -261,6 +262,29 @@ impl Rails {
         let rate = if span.reversed { -span.length * span.scale } else { span.length * span.scale };
         let out = uniform_load(&self.elements[span.element], p.axis.component(), s);
         Ok((span.element, out.map(|[value, slope]| [value, slope * rate])))
+    }
+
+    /// Displacement at a probe along its axis by a motion of the member that carries it, and its derivative by the rail
+    /// coordinate.
+    ///
+    /// # Errors
+    /// As [`Rails::row`].
+    pub fn member_motion(&self, p: Probe, motion: &MemberMotion) -> Result<[f64; 2], Error> {
+        let span = self.stiff_span(p)?;
+        let element = &self.elements[span.element];
+        if element.is_rigid_arm() {
+            return Ok([0.0; 2]);
+        }
+        let LocalPlace { end, r } = span.local(p.x);
+        let at = if (end == 0) == span.reversed { 1.0 - r } else { r };
+        let polynomial = motion.of_rail(element, p.axis.component());
+        let (mut value, mut slope) = (0.0, 0.0);
+        for c in polynomial.into_iter().rev() {
+            slope = slope * at + value;
+            value = value * at + c;
+        }
+        let scale = if span.reversed { -span.scale } else { span.scale };
+        Ok([value, scale * slope])
     }
 
     /// Sizes of the terms behind [`Rails::row`] and Green's function at a place of an element, for bounds of rounding

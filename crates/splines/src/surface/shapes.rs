@@ -6,13 +6,14 @@ use nalgebra::DMatrix;
 
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{LocalPlace, Rails};
+use crate::rail::{EndForm, LocalPlace, MemberMotion, Rails};
 
-/// Motions of rails by the motions of their node states, phi_r(p) = N(p) s_r, and if given by uniform loads on their
-/// members.
+/// Motions of rails by the motions of their node states, phi_r(p) = N(p) s_r, and if given by motions of their members
+/// between the ends.
 ///
-/// Along an element each is a cubic, stored by its values and slopes at the element's ends when a probe first
-/// stands on the element. Four numbers a shape then replace the up to twelve entries of N.
+/// Along an element each is a polynomial, stored when a probe first stands on the element: by its values and slopes at
+/// the element's ends, four numbers a shape that replace the up to twelve entries of N, and, where the member has motions
+/// of its own, by five more ([`RailShapes::with_member_motions`]).
 ///
 /// ```
 /// use std::sync::Arc;
@@ -44,12 +45,25 @@ pub struct RailShapes {
     rails: Arc<Rails>,
     /// Shapes x degrees of freedom: what a place needs of all shapes is contiguous.
     motions: DMatrix<f64>,
-    /// By element and direction: the values of all shapes at the first end, then their slopes there by the
-    /// fraction of the element, then both at the last end.
-    ends: Vec<[OnceLock<Vec<f64>>; 3]>,
-    /// Shapes x (two for each element): intensities of uniform loads on the members, under which they deflect between
-    /// their ends. Without columns where there are none.
-    loads: DMatrix<f64>,
+    /// By element and direction.
+    elements: Vec<[OnceLock<ElementShapes>; 3]>,
+    /// For each element the motions of its member between the ends. Empty where no element has any.
+    between: Vec<Vec<MemberMotion>>,
+    /// Shapes x motions of all elements in their order: their amplitudes.
+    amplitudes: DMatrix<f64>,
+    /// For each element the first column of its amplitudes.
+    first: Vec<usize>,
+}
+
+/// All shapes along one element in one direction.
+#[derive(Clone, Debug)]
+struct ElementShapes {
+    /// The values of all shapes at the first end, then their slopes there by the fraction of the element, then both at
+    /// the last end.
+    ends: Vec<f64>,
+    /// If the member has motions of its own: the coefficients of all shapes for each power of the fraction s of its
+    /// length, in the quotient of their rest by s^2 (1 - s)^2.
+    quotients: Vec<f64>,
 }
 
 impl RailShapes {
@@ -64,24 +78,38 @@ impl RailShapes {
         if rows != expected {
             return Err(Error::NodalShape { rows, columns, expected });
         }
-        let ends = line.elements().iter().map(|_| Default::default()).collect();
-        let loads = DMatrix::zeros(states.ncols(), 0);
-        Ok(RailShapes { rails: line, motions: states.transpose(), ends, loads })
+        Ok(RailShapes {
+            elements: line.elements().iter().map(|_| Default::default()).collect(),
+            rails: line,
+            motions: states.transpose(),
+            between: Vec::new(),
+            amplitudes: DMatrix::zeros(0, 0),
+            first: Vec::new(),
+        })
     }
 
-    /// The same shapes with deflections of the members between their ends added: those of clamped members under uniform
-    /// loads along their local y and z axes ([`Rails::uniform_load`]). `loads` is 2 E x shapes for E elements: rows
-    /// 2 e and 2 e + 1 hold the intensities on the member of element e.
+    /// The same shapes with motions of the members between their ends added. `between` has the motions of the member of
+    /// each element; `amplitudes` is motions x shapes, with the motions of all elements in their order.
     ///
     /// # Errors
-    /// Another number of rows or columns.
-    pub fn with_uniform_loads(mut self, loads: &DMatrix<f64>) -> Result<RailShapes, Error> {
-        let expected = 2 * self.rails.elements().len();
-        let (rows, columns) = loads.shape();
-        if rows != expected || columns != self.count() {
-            return Err(Error::NodalShape { rows, columns, expected });
+    /// Another number of elements, motions or shapes.
+    pub fn with_member_motions(
+        mut self,
+        between: Vec<Vec<MemberMotion>>,
+        amplitudes: &DMatrix<f64>,
+    ) -> Result<RailShapes, Error> {
+        let mut first = Vec::with_capacity(between.len());
+        let mut count = 0;
+        for motions in &between {
+            first.push(count);
+            count += motions.len();
         }
-        self.loads = loads.transpose();
+        let (rows, columns) = amplitudes.shape();
+        if between.len() != self.elements.len() || rows != count || columns != self.count() {
+            return Err(Error::NodalShape { rows, columns, expected: count });
+        }
+        self.elements = between.iter().map(|_| Default::default()).collect();
+        (self.between, self.amplitudes, self.first) = (between, amplitudes.transpose(), first);
         Ok(self)
     }
 
@@ -103,44 +131,98 @@ impl RailShapes {
             return Ok(());
         }
         let axis = at.axis.component();
-        let ends = self.ends[element][axis].get_or_init(|| self.ends(element, axis));
-        let ([p, q, r, s], [dp, dq, dr, ds]) = hermite(place, scale);
-        let (first, last) = ends.split_at(2 * count);
-        let ((a, b), (c, d)) = (first.split_at(count), last.split_at(count));
-        let data = a.iter().zip(b).zip(c.iter().zip(d));
-        for ((value, slope), ((a, b), (c, d))) in value.iter_mut().zip(slope.iter_mut()).zip(data) {
-            *value = p * a + q * b + r * c + s * d;
-            *slope = dp * a + dq * b + dr * c + ds * d;
-        }
-        if self.loads.ncols() > 0 {
-            self.add_uniform_loads(at, value, slope)?;
-        }
+        let of = self.elements[element][axis].get_or_init(|| self.along(element, axis));
+        let reversed = self.rails.elements()[element].is_reversed();
+        of.fill(count, hermite(place, scale), || quotient_weights(place, reversed, scale), value, slope);
         Ok(())
     }
 
-    fn add_uniform_loads(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
-        let (element, planes) = self.rails.uniform_load(at)?;
-        for (plane, [w, dw]) in planes.into_iter().enumerate().filter(|(_, of)| *of != [0.0; 2]) {
-            let loads = self.loads.column(2 * element + plane);
-            for ((value, slope), load) in value.iter_mut().zip(slope.iter_mut()).zip(&loads) {
-                *value += w * load;
-                *slope += dw * load;
-            }
-        }
-        Ok(())
-    }
-
-    /// Values and slopes of all shapes at both ends of an element.
-    fn ends(&self, element: usize, axis: usize) -> Vec<f64> {
+    /// All shapes along an element.
+    fn along(&self, element: usize, axis: usize) -> ElementShapes {
+        let count = self.count();
         let rows = self.rails.end_rows(element, axis);
         let parts = rows.iter().flat_map(|row| [(row, row.values()), (row, row.slopes())]);
         let sum = |indices: &[usize], weights: &[f64], shape: usize| -> f64 {
             indices.iter().zip(weights).map(|(&k, weight)| weight * self.motions[(shape, k)]).sum()
         };
-        parts
-            .flat_map(|(row, weights)| (0..self.count()).map(move |shape| sum(row.indices(), weights, shape)))
-            .collect()
+        let mut ends: Vec<f64> = parts
+            .flat_map(|(row, weights)| (0..count).map(move |shape| sum(row.indices(), weights, shape)))
+            .collect();
+        let own = &self.rails.elements()[element];
+        let motions = self.between.get(element).map_or(&[][..], |motions| motions);
+        let mut quotients = vec![0.0; if motions.is_empty() { 0 } else { 5 * count }];
+        for (k, motion) in motions.iter().enumerate() {
+            let EndForm { mut values, mut slopes, quotient } = EndForm::of(&motion.of_rail(own, axis));
+            if own.is_reversed() {
+                // Seen along the rail, the member begins with its last end.
+                (values, slopes) = ([values[1], values[0]], [-slopes[1], -slopes[0]]);
+            }
+            let amplitudes = self.amplitudes.column(self.first[element] + k);
+            for (shape, amplitude) in amplitudes.iter().enumerate() {
+                ends[shape] += values[0] * amplitude;
+                ends[count + shape] += slopes[0] * amplitude;
+                ends[2 * count + shape] += values[1] * amplitude;
+                ends[3 * count + shape] += slopes[1] * amplitude;
+                for (power, c) in quotient.iter().enumerate() {
+                    quotients[power * count + shape] += c * amplitude;
+                }
+            }
+        }
+        ElementShapes { ends, quotients }
     }
+}
+
+impl ElementShapes {
+    /// Writes the values and slopes of all `count` shapes by the weights of their end values and slopes, and of their
+    /// quotients.
+    fn fill(
+        &self,
+        count: usize,
+        ([p, q, r, s], [dp, dq, dr, ds]): ([f64; 4], [f64; 4]),
+        weights: impl FnOnce() -> [[f64; 2]; 5],
+        value: &mut [f64],
+        slope: &mut [f64],
+    ) {
+        let (first, last) = self.ends.split_at(2 * count);
+        let ((a, b), (c, d)) = (first.split_at(count), last.split_at(count));
+        let data = a.iter().zip(b).zip(c.iter().zip(d));
+        let out = value.iter_mut().zip(slope);
+        if self.quotients.is_empty() {
+            for ((value, slope), ((a, b), (c, d))) in out.zip(data) {
+                *value = p * a + q * b + r * c + s * d;
+                *slope = dp * a + dq * b + dr * c + ds * d;
+            }
+            return;
+        }
+        let (e, rest) = self.quotients.split_at(count);
+        let (f, rest) = rest.split_at(count);
+        let (g, rest) = rest.split_at(count);
+        let (h, i) = rest.split_at(count);
+        let [t, u, v, w, x] = weights();
+        let quotients = e.iter().zip(f).zip(g.iter().zip(h)).zip(i);
+        for (((value, slope), ((a, b), (c, d))), (((e, f), (g, h)), i)) in out.zip(data).zip(quotients) {
+            *value = (p * a + q * b + r * c + s * d) + (t[0] * e + u[0] * f + v[0] * g + w[0] * h + x[0] * i);
+            *slope =
+                (dp * a + dq * b + dr * c + ds * d) + (t[1] * e + u[1] * f + v[1] * g + w[1] * h + x[1] * i);
+        }
+    }
+}
+
+/// Weights of the coefficients of a quotient in the value at a place, and the derivatives of these weights by x:
+/// s^p s^2 (1 - s)^2 with s along the member.
+fn quotient_weights(LocalPlace { end, r }: LocalPlace, reversed: bool, scale: f64) -> [[f64; 2]; 5] {
+    let s = if (end == 0) == reversed { 1.0 - r } else { r };
+    let scale = if reversed { -scale } else { scale };
+    let product = r * (1.0 - r);
+    let (double, steep) = (product * product, 2.0 * product * (1.0 - 2.0 * s));
+    let mut out = [[0.0; 2]; 5];
+    let (mut power, mut derivative) = (1.0, 0.0);
+    for weights in &mut out {
+        *weights = [double * power, scale * (steep * power + double * derivative)];
+        derivative = s * derivative + power;
+        power *= s;
+    }
+    out
 }
 
 /// Weights of the values and slopes at both ends of an element in the value at a place, and the derivatives
