@@ -62,8 +62,8 @@ fn within(history: &History, kinds: &[Kind], tolerance: f64) -> Vec<usize> {
 }
 
 fn kinds(history: &History, loads: &WheelLoadReader, (s, dofs): (usize, usize)) -> Vec<Kind> {
-    let [places, forces] = loads.channels_on(s);
-    let mut groups = vec![places, forces];
+    let channels = |k: usize| loads.on(s).flat_map(|source| source.channels()[k].clone()).collect();
+    let mut groups: Vec<Vec<usize>> = vec![channels(0), channels(1)];
     for first in [Channel::Coordinate(s, 0), Channel::Acceleration(s, 0)] {
         groups.extend(history.position(first).map(|first| (first..first + dofs).collect()));
     }

@@ -123,7 +123,7 @@ impl Refinement<'_> {
     }
 
     /// The state in which a value was found.
-    pub fn state_of(&self, found: &GirderValue) -> LoadState {
+    pub fn state_of(&self, found: &GirderValue) -> LoadState<'_> {
         let states = &self.girders.states;
         let Some(is_after) = found.is_after else { return states.at(found.position) };
         let mut state = states.limit(found.position, is_after);

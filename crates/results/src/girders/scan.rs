@@ -1,12 +1,15 @@
 //! Values of every section and beside every wheel at all rows of a history, and where wheels pass sections.
 
-use trains::{PassedLoads, SectionSide};
+use splines::Axis;
+use trains::{PassedLoads, RailLoad, SectionSide};
 
 use super::distributed::{FORCES, Quantities};
 use super::fibres::StressRows;
 use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
 use super::peaks::Peak;
+use super::points::{DIRECTIONS, PointBlock, probe};
+use crate::response::displacements;
 
 /// Signs with which the largest and the smallest values are the largest.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
@@ -66,7 +69,7 @@ impl Scan {
             stresses: StressRows::new(&sections.stressed, sections.sections.len(), loads),
             sizes: [0.0; FORCES + 2],
         };
-        let mut before: Option<LoadState> = None;
+        let mut before: Option<LoadState<'_>> = None;
         for row in 0..rows {
             let state = girders.states.at_row(row);
             scan.add_forces(girders, row, &state);
@@ -96,7 +99,7 @@ impl Scan {
     }
 
     /// Adds the forces of all sections at a row, and of those just before and just behind each load.
-    fn add_forces(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState) {
+    fn add_forces(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState<'_>) {
         let sections = girders.sections;
         let mut passed = PassedLoads::default();
         for (index, member) in girders.members.members().enumerate() {
@@ -128,40 +131,41 @@ impl Scan {
     }
 
     /// Adds the deflections of all points at a row, and those under each load on a member.
-    fn add_deflections(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState) {
-        let sections = girders.sections;
-        let mut first = 0;
-        for (rail, outline) in sections.rails.iter().enumerate() {
-            let count = outline.places.len();
-            let on = |load: &usize| {
-                let load = state.loads[*load];
-                load.rail == outline.rail && load.x >= outline.range[0] && load.x <= outline.range[1]
-            };
-            let loads: Vec<usize> = (0..state.loads.len()).filter(on).collect();
-            let mut places = outline.places.clone();
-            places.extend(loads.iter().map(|load| state.loads[*load].x));
-            let mut under = Vec::new();
-            for (index, load) in loads.iter().enumerate() {
-                let x = places[count + index];
-                let spans = outline.spans_at(x).filter(|span| girders.is_carried(rail, x, *span));
-                under.extend(spans.map(|span| (index, self.under(*load, rail, span))));
+    fn add_deflections(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState<'_>) {
+        let Some(all) = girders.points.at(state) else { return };
+        let (mut probes, mut under) = (Vec::new(), Vec::new());
+        for PointBlock { rail, plane, points, values } in girders.points.blocks().iter().cloned() {
+            let own = &all[values];
+            for (peaks, value) in self.points[points].iter_mut().zip(own) {
+                add_signed(&mut peaks[plane], row, *value);
             }
-            for plane in 0..2 {
-                let Some(all) = girders.deflections(rail, &places, plane, state) else { continue };
-                let own = self.points[first..first + count].iter_mut().zip(&all);
-                own.for_each(|(peaks, value)| add_signed(&mut peaks[plane], row, *value));
-                for (index, at) in &under {
-                    add_signed(&mut self.under[*at][plane], row, all[count + index]);
+            self.add_size(FORCES + plane, own);
+            let outline = &girders.sections.rails[rail];
+            for (load, RailLoad { rail: on, x, .. }) in state.loads.iter().enumerate() {
+                if *on != outline.rail || *x < outline.range[0] || *x > outline.range[1] {
+                    continue;
                 }
-                let size = &mut self.sizes[FORCES + plane];
-                *size = all.iter().fold(*size, |most, value| most.max(value.abs()));
+                let spans = outline.spans_at(*x).filter(|span| girders.is_carried(rail, *x, *span));
+                under.extend(spans.map(|span| (probes.len(), self.under(load, rail, span), plane)));
+                probes.push(probe(*on, *x, plane));
             }
-            first += count;
+        }
+        let Ok(moved) = displacements(girders.foundation, &probes, &state.loads, state.dofs()) else { return };
+        for (probe, value) in probes.iter().zip(&moved) {
+            self.add_size(FORCES + usize::from(probe.axis == Axis::Lateral), &[*value]);
+        }
+        for (index, at, plane) in under {
+            add_signed(&mut self.under[at][plane], row, DIRECTIONS[plane] * moved[index]);
         }
     }
 
+    fn add_size(&mut self, quantity: usize, values: &[f64]) {
+        let size = &mut self.sizes[quantity];
+        *size = values.iter().fold(*size, |most, value| most.max(value.abs()));
+    }
+
     /// Adds the sections that loads pass between two rows.
-    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize, a: &LoadState, b: &LoadState) {
+    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize, a: &LoadState<'_>, b: &LoadState<'_>) {
         let sections = girders.sections;
         for (load, (from, to)) in a.loads.iter().zip(&b.loads).enumerate() {
             if from.force == [0.0; 3] && to.force == [0.0; 3] {

@@ -8,6 +8,7 @@ use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
 use super::instants::LoadStates;
 use super::kept_rows::kept_rows;
+use super::points::PointDeflections;
 use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
@@ -152,21 +153,16 @@ impl<'a> PreparedGirders<'a> {
         let ends: Vec<(usize, f64)> =
             self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
         let own = (self.s, foundation.dofs());
-        let mut girders = LoadedGirders {
+        let states = LoadStates::new(history, loads, own, &ends, &chosen.rows);
+        LoadedGirders {
             foundation,
             members: self.members,
             distributed: &self.distributed,
             sections,
-            states: LoadStates::new(history, loads, own, &ends, chosen.rows.clone()),
-            deflects: [foundation.parts.is_none()
-                && (foundation.structure.is_some() || foundation.compliance.is_some());
-                2],
+            points: PointDeflections::new(foundation, sections, &states),
+            states,
             deflection_stride: chosen.deflection_stride,
-        };
-        if girders.deflects[1] {
-            girders.deflects[1] = girders.has_deflections(1);
         }
-        girders
     }
 
     /// Extremes of all spans, at some of the rows.

@@ -19,7 +19,7 @@ pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
 pub(crate) use influence::{dead_load, inertia};
 pub use loaded::{WheelLoad, WheelLoadReader};
-pub(crate) use loaded::{displacements, spread};
+pub(crate) use loaded::{LoadSource, PlaceMotions, displacements, spread};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift};
 

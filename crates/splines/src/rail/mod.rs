@@ -19,7 +19,7 @@ mod shape;
 mod track;
 
 pub use element::{ElementMember, Flexibility, RailElement};
-pub(crate) use element::{IDENTITY, LocalPlace};
+pub(crate) use element::{IDENTITY, LocalPlace, MemberPlace};
 pub use functions::ElementFunctions;
 pub(crate) use planar::{PlanarCubics, PlanarPlace};
 pub use rails::Rails;

@@ -118,6 +118,17 @@ impl RailShapes {
         Ok(())
     }
 
+    /// Sum over the loads of force times displacement of each shape.
+    pub(super) fn under(&self, loads: &[(Probe, f64)]) -> Result<Vec<f64>, Error> {
+        let mut out = vec![0.0; self.count()];
+        let (mut value, mut slope) = (out.clone(), out.clone());
+        for (probe, force) in loads {
+            self.row(*probe, &mut value, &mut slope)?;
+            out.iter_mut().zip(&value).for_each(|(sum, shape)| *sum += shape * force);
+        }
+        Ok(out)
+    }
+
     fn add_uniform_loads(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
         let (element, planes) = self.rails.uniform_load(at)?;
         for (plane, [w, dw]) in planes.into_iter().enumerate().filter(|(_, of)| *of != [0.0; 2]) {
