@@ -137,11 +137,12 @@ pub trait Compliance: Send + Sync {
 
 /// Displacements of fixed places under loads that change from call to call, made by [`Compliance::at_places`].
 pub trait PlaceDisplacements: Send + Sync {
-    /// Writes the displacement of each place, along the axis of its probe, into `out`, which has one entry for each place.
+    /// Writes the displacements of the places under loads into `out`, then those of the probes `also`, which may be others
+    /// at each call. `out` has one entry for each.
     ///
     /// # Errors
     /// Those of [`Compliance::displacements`].
-    fn under(&self, loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error>;
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error>;
 }
 
 /// Places with nothing prepared: the compliance is evaluated at each call.
@@ -151,8 +152,9 @@ struct Repeated<'a, C: ?Sized> {
 }
 
 impl<C: Compliance + ?Sized> PlaceDisplacements for Repeated<'_, C> {
-    fn under(&self, loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
-        self.compliance.displacements(&self.at, loads, out)
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        let all: Vec<Probe> = self.at.iter().chain(also).copied().collect();
+        self.compliance.displacements(&all, loads, out)
     }
 }
 

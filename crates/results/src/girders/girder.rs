@@ -18,7 +18,7 @@ pub(super) struct LoadedGirders<'a> {
     pub sections: &'a Sections,
     pub states: LoadStates,
     /// The deflections of all points.
-    pub points: PointDeflections<'a>,
+    pub points: &'a PointDeflections<'a>,
     /// Every how many rows deflections are evaluated: they change more slowly than forces.
     pub deflection_stride: usize,
 }

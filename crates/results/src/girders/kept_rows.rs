@@ -13,9 +13,9 @@ struct Kind {
     size: f64,
 }
 
-/// Rows of a history, the first and the last included, between which the loads on structure `s` and the motions of its
-/// `dofs` degrees of freedom differ from straight lines by no more than `tolerance` times the largest force, displacement
-/// or acceleration. The tolerance is raised until there are no more than `most` rows.
+/// Indices of the `rows` of a history, the first and the last included, between which the loads on structure `s` and the
+/// motions of its `dofs` degrees of freedom differ from straight lines by no more than `tolerance` times the largest force,
+/// displacement or acceleration. The tolerance is raised until there are no more than `most`.
 ///
 /// From each row that is kept the cone of straight lines that pass near all rows behind it is narrowed row by row; the last
 /// row whose values lie in the cone is kept next.
@@ -24,15 +24,16 @@ struct Kind {
 /// Williams, Bounded straight-line approximation of digitized planar curves and lines, Computer Graphics and Image
 /// Processing 16 (1981), 370.
 pub(super) fn kept_rows(
-    history: &History,
+    (history, rows): (&History, &[usize]),
     loads: &WheelLoadReader,
     (s, dofs): (usize, usize),
     mut tolerance: f64,
     most: usize,
 ) -> Vec<usize> {
     let kinds = kinds(history, loads, (s, dofs));
+    let samples: Vec<&[f64]> = rows.iter().map(|row| history.sample(*row)).collect();
     loop {
-        let kept = within(history, &kinds, tolerance);
+        let kept = within(&samples, &kinds, tolerance);
         if kept.len() <= most || tolerance >= 1.0 {
             return kept;
         }
@@ -41,22 +42,22 @@ pub(super) fn kept_rows(
 }
 
 /// The rows that a tolerance keeps.
-fn within(history: &History, kinds: &[Kind], tolerance: f64) -> Vec<usize> {
+fn within(samples: &[&[f64]], kinds: &[Kind], tolerance: f64) -> Vec<usize> {
     let mut kept = vec![0];
     let mut cone = Cone::new(kinds);
     let mut row = 1;
-    while row < history.len() {
+    while row < samples.len() {
         let first = kept[kept.len() - 1];
-        if row == first + 1 || cone.contains(kinds, history.sample(first), history.sample(row)) {
-            cone.narrow(kinds, tolerance, history.sample(first), history.sample(row));
+        if row == first + 1 || cone.contains(kinds, samples[first], samples[row]) {
+            cone.narrow(kinds, tolerance, samples[first], samples[row]);
             row += 1;
         } else {
             kept.push(row - 1);
             cone = Cone::new(kinds);
         }
     }
-    if history.len() > 1 {
-        kept.push(history.len() - 1);
+    if samples.len() > 1 {
+        kept.push(samples.len() - 1);
     }
     kept
 }

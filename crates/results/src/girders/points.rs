@@ -48,7 +48,7 @@ impl<'a> PointDeflections<'a> {
         let vertical = Self::of(foundation, sections, if is_known { &[0] } else { &[] });
         let lateral = Self::of(foundation, sections, if is_known { &[1] } else { &[] });
         let mut few = spread(states.len(), FEW);
-        if few.any(|row| lateral.at(&states.at_row(row)).iter().flatten().any(|value| *value != 0.0)) {
+        if few.any(|row| lateral.at(&states.at_row(row), &[]).iter().flatten().any(|value| *value != 0.0)) {
             return Self::of(foundation, sections, &[0, 1]);
         }
         vertical
@@ -82,11 +82,16 @@ impl<'a> PointDeflections<'a> {
         self.blocks.iter().any(|block| block.plane == plane)
     }
 
-    /// The deflections of all blocks; `None` where the structure is unrestrained under a load.
-    pub fn at(&self, state: &LoadState<'_>) -> Option<Vec<f64>> {
-        let mut out = self.motions.as_ref()?.under(&state.loads, state.dofs()).ok()?;
+    /// The deflections of all blocks, then those at `also`; `None` where the structure is unrestrained under a load or there.
+    pub fn at(&self, state: &LoadState<'_>, also: &[Probe]) -> Option<Vec<f64>> {
+        let mut out = self.motions.as_ref()?.under(&state.loads, state.dofs(), also).ok()?;
+        let count = out.len() - also.len();
+        let (own, others) = out.split_at_mut(count);
         for block in &self.blocks {
-            out[block.values.clone()].iter_mut().for_each(|value| *value *= DIRECTIONS[block.plane]);
+            own[block.values.clone()].iter_mut().for_each(|value| *value *= DIRECTIONS[block.plane]);
+        }
+        for (value, probe) in others.iter_mut().zip(also) {
+            *value *= DIRECTIONS[usize::from(probe.axis == Axis::Lateral)];
         }
         Some(out)
     }

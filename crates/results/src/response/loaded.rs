@@ -178,6 +178,12 @@ pub(crate) fn displacements(
     if let Some(compliance) = &foundation.compliance {
         compliance.displacements(probes, &components(loads, foundation.is_loaded_along), &mut out)?;
     }
+    add_motions(foundation, probes, q, &mut out)?;
+    Ok(out)
+}
+
+/// Adds Phi q at the probes.
+fn add_motions(foundation: &Foundation, probes: &[Probe], q: &[f64], out: &mut [f64]) -> Result<(), Error> {
     if let (Some(structure), false) = (&foundation.structure, q.is_empty()) {
         let (mut value, mut slope) = (vec![0.0; q.len()], vec![0.0; q.len()]);
         for (out, probe) in out.iter_mut().zip(probes) {
@@ -185,7 +191,7 @@ pub(crate) fn displacements(
             *out += value.iter().zip(q).map(|(phi, q)| phi * q).sum::<f64>();
         }
     }
-    Ok(out)
+    Ok(())
 }
 
 /// The components of loads that are not zero; those along the rails only where the structure is loaded along them.
@@ -203,8 +209,8 @@ fn components(loads: &[RailLoad], is_loaded_along: bool) -> Vec<(Probe, f64)> {
 
 /// The same displacements of fixed places, prepared for many loads and motions.
 pub(crate) struct PlaceMotions<'a> {
+    foundation: &'a Foundation,
     compliance: Option<Box<dyn PlaceDisplacements + 'a>>,
-    is_loaded_along: bool,
     /// Phi: for each degree of freedom the values at all places.
     shapes: Vec<f64>,
     count: usize,
@@ -226,21 +232,25 @@ impl<'a> PlaceMotions<'a> {
                 shapes.iter_mut().skip(k).step_by(count).zip(&value).for_each(|(own, value)| *own = *value);
             }
         }
-        Ok(PlaceMotions { compliance, is_loaded_along: foundation.is_loaded_along, shapes, count })
+        Ok(PlaceMotions { foundation, compliance, shapes, count })
     }
 
-    /// The displacements under loads, with the degrees of freedom `q`, none where they are not known.
+    /// The displacements under loads, with the degrees of freedom `q`, none where they are not known; then those of the
+    /// probes `also`, which may be others at each call.
     ///
     /// # Errors
-    /// A load beyond its rail, or in a direction in which the structure is unrestrained.
-    pub fn under(&self, loads: &[RailLoad], q: &[f64]) -> Result<Vec<f64>, Error> {
-        let mut out = vec![0.0; self.count];
+    /// A load or a probe beyond its rail, or in a direction in which the structure is unrestrained.
+    pub fn under(&self, loads: &[RailLoad], q: &[f64], also: &[Probe]) -> Result<Vec<f64>, Error> {
+        let mut out = vec![0.0; self.count + also.len()];
+        let foundation = self.foundation;
         if let Some(compliance) = &self.compliance {
-            compliance.under(&components(loads, self.is_loaded_along), &mut out)?;
+            compliance.under(&components(loads, foundation.is_loaded_along), also, &mut out)?;
         }
+        let (fixed, others) = out.split_at_mut(self.count);
         for (q, own) in q.iter().zip(self.shapes.chunks(self.count.max(1))) {
-            out.iter_mut().zip(own).for_each(|(sum, phi)| *sum += phi * q);
+            fixed.iter_mut().zip(own).for_each(|(sum, phi)| *sum += phi * q);
         }
+        add_motions(foundation, also, q, others)?;
         Ok(out)
     }
 }

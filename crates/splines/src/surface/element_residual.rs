@@ -115,8 +115,10 @@ struct LesserPlaces<'a> {
 }
 
 impl PlaceDisplacements for LesserPlaces<'_> {
-    fn under(&self, loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
-        self.whole.under(loads, out)?;
-        self.of.take(&self.deflections, loads, out)
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        self.whole.under(loads, also, out)?;
+        let (out, others) = out.split_at_mut(self.deflections.len());
+        self.of.take(&self.deflections, loads, out)?;
+        self.of.take(&self.of.deflections(also)?, loads, others)
     }
 }

@@ -89,13 +89,16 @@ impl<'s> SurfacePlaces<'s> {
 }
 
 impl PlaceDisplacements for SurfacePlaces<'_> {
-    fn under(&self, loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
-        if out.len() != self.places.len() {
-            return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [self.places.len(), 1] });
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        let rows = self.places.len() + also.len();
+        if out.len() != rows {
+            return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [rows, 1] });
         }
         let mut forces = vec![0.0; self.nodal.nrows()];
         let mut moved = vec![0.0; self.nodal.nrows()];
+        let (out, others) = out.split_at_mut(self.places.len());
         out.fill(0.0);
+        let mut loaded = Vec::with_capacity(loads.len());
         for (probe, force) in loads {
             let row = restrained_row(self.rails, self.nodal, *probe)?;
             let entries = row.indices().iter().zip(row.values());
@@ -106,16 +109,27 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
                 let (t, [a, b, c]) = if s <= *place { (s, before) } else { (q, behind) };
                 out[*index] += force * t * (a + t * (b + t * c));
             }
+            loaded.push((row.element, row.axis, row.place, *force));
         }
         for (dof, force) in forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
-            let column = self.nodal.column(dof);
-            moved.iter_mut().zip(column.iter()).for_each(|(sum, c)| *sum += c * force);
+            let column = &self.nodal.as_slice()[dof * moved.len()..(dof + 1) * moved.len()];
+            moved.iter_mut().zip(column).for_each(|(sum, c)| *sum += c * force);
         }
         let mut first = 0;
         for (out, end) in out.iter_mut().zip(&self.ends) {
             let own = &self.entries[first..*end];
             *out += own.iter().map(|(dof, shape)| shape * moved[*dof]).sum::<f64>();
             first = *end;
+        }
+        for (probe, out) in also.iter().zip(others) {
+            let row = restrained_row(self.rails, self.nodal, *probe)?;
+            let entries = row.indices().iter().zip(row.values()).filter(|(_, shape)| **shape != 0.0);
+            *out = entries.map(|(&dof, shape)| shape * moved[dof]).sum();
+            for (element, axis, place, force) in &loaded {
+                if let Some([own, other]) = self.rails.clamped_on_one_member(row.element, *element) {
+                    *out += force * own.value(row.axis, row.place, other, *axis, *place);
+                }
+            }
         }
         Ok(())
     }

@@ -78,8 +78,11 @@ impl Compliance for ResidualFlexibility {
         for (j, other) in values.chunks_exact(count).enumerate() {
             let rows = values.chunks_exact(count).zip(slopes.chunks_exact(count));
             for (i, (value, slope)) in rows.enumerate() {
-                out.value[(i, j)] -= dot(value, other);
                 out.slope[(i, j)] -= dot(slope, other);
+                if i >= j {
+                    out.value[(i, j)] -= dot(value, other);
+                    out.value[(j, i)] = out.value[(i, j)];
+                }
             }
         }
         Ok(())
@@ -128,11 +131,17 @@ struct ResidualPlaces<'a> {
 }
 
 impl PlaceDisplacements for ResidualPlaces<'_> {
-    fn under(&self, loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
-        self.whole.under(loads, out)?;
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        self.whole.under(loads, also, out)?;
         let taken = self.taken.under(loads)?;
+        let (out, others) = out.split_at_mut(out.len() - also.len());
         for (own, out) in self.shapes.chunks(taken.len().max(1)).zip(out) {
             *out -= dot(own, &taken);
+        }
+        let (mut value, mut slope) = (vec![0.0; taken.len()], vec![0.0; taken.len()]);
+        for (probe, out) in also.iter().zip(others) {
+            self.taken.row(*probe, &mut value, &mut slope)?;
+            *out -= dot(&value, &taken);
         }
         Ok(())
     }

@@ -97,14 +97,14 @@ impl RailShapes {
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists.
     pub fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
-        let (element, place, scale) = self.rails.place(at)?;
+        let span = self.rails.stiff_span(at)?;
         let count = self.count();
         if count == 0 {
             return Ok(());
         }
         let axis = at.axis.component();
-        let ends = self.ends[element][axis].get_or_init(|| self.ends(element, axis));
-        let ([p, q, r, s], [dp, dq, dr, ds]) = hermite(place, scale);
+        let ends = self.ends[span.element][axis].get_or_init(|| self.ends(span.element, axis));
+        let ([p, q, r, s], [dp, dq, dr, ds]) = hermite(span.local(at.x), span.scale);
         let (first, last) = ends.split_at(2 * count);
         let ((a, b), (c, d)) = (first.split_at(count), last.split_at(count));
         let data = a.iter().zip(b).zip(c.iter().zip(d));
@@ -113,7 +113,13 @@ impl RailShapes {
             *slope = dp * a + dq * b + dr * c + ds * d;
         }
         if self.loads.ncols() > 0 {
-            self.add_uniform_loads(at, value, slope)?;
+            let planes = self.rails.uniform_load_on(span, at);
+            for (plane, [w, dw]) in planes.into_iter().enumerate().filter(|(_, of)| *of != [0.0; 2]) {
+                let first = (2 * span.element + plane) * count;
+                let loads = &self.loads.as_slice()[first..first + count];
+                value.iter_mut().zip(loads).for_each(|(value, load)| *value += w * load);
+                slope.iter_mut().zip(loads).for_each(|(slope, load)| *slope += dw * load);
+            }
         }
         Ok(())
     }
@@ -127,18 +133,6 @@ impl RailShapes {
             out.iter_mut().zip(&value).for_each(|(sum, shape)| *sum += shape * force);
         }
         Ok(out)
-    }
-
-    fn add_uniform_loads(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
-        let (element, planes) = self.rails.uniform_load(at)?;
-        for (plane, [w, dw]) in planes.into_iter().enumerate().filter(|(_, of)| *of != [0.0; 2]) {
-            let loads = self.loads.column(2 * element + plane);
-            for ((value, slope), load) in value.iter_mut().zip(slope.iter_mut()).zip(&loads) {
-                *value += w * load;
-                *slope += dw * load;
-            }
-        }
-        Ok(())
     }
 
     /// Values and slopes of all shapes at both ends of an element.

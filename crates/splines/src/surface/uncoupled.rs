@@ -103,11 +103,23 @@ struct PlaceGroup<'a> {
 }
 
 impl<C: Compliance> PlaceDisplacements for UncoupledPlaces<'_, C> {
-    fn under(&self, loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        let count = out.len() - also.len();
+        let mut is_done = vec![false; also.len()];
         for PlaceGroup { first, places, indices } in &self.groups {
-            let mut own = vec![0.0; indices.len()];
-            places.under(&self.of.loads_of(first, loads), &mut own)?;
-            indices.iter().zip(own).for_each(|(i, value)| out[*i] = value);
+            let own: Vec<usize> =
+                (0..also.len()).filter(|i| self.of.couplings.keep(first, &also[*i])).collect();
+            let others: Vec<Probe> = own.iter().map(|i| also[*i]).collect();
+            let mut values = vec![0.0; indices.len() + own.len()];
+            places.under(&self.of.loads_of(first, loads), &others, &mut values)?;
+            let all = indices.iter().copied().chain(own.iter().map(|i| count + i));
+            all.zip(values).for_each(|(i, value)| out[i] = value);
+            own.into_iter().for_each(|i| is_done[i] = true);
+        }
+        // probes that no place is coupled with
+        for i in (0..also.len()).filter(|i| !is_done[*i]) {
+            let on = self.of.loads_of(&also[i], loads);
+            self.of.whole.displacements(&also[i..=i], &on, &mut out[count + i..=count + i])?;
         }
         Ok(())
     }
