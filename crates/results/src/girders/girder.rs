@@ -56,7 +56,7 @@ impl LoadedGirders<'_> {
     ) -> Quantities {
         let mut out = passed.quantities(place, own);
         if !self.distributed.is_empty() {
-            let more = self.distributed.at(member, place, state.accelerations());
+            let more = self.distributed.at(member, place, &state.accelerations());
             out.iter_mut().zip(more).for_each(|(sum, value)| *sum += value);
         }
         out
@@ -92,13 +92,19 @@ impl LoadedGirders<'_> {
 
     /// Deflections of points of a rail, downwards or along +z; `None` where they are not known or the structure is
     /// unrestrained in this direction.
-    pub fn deflections(&self, rail: usize, x: &[f64], plane: usize, state: &LoadState<'_>) -> Option<Vec<f64>> {
+    pub fn deflections(
+        &self,
+        rail: usize,
+        x: &[f64],
+        plane: usize,
+        state: &LoadState<'_>,
+    ) -> Option<Vec<f64>> {
         if !self.points.has(plane) {
             return None;
         }
         let rail = self.sections.rails[rail].rail;
         let probes: Vec<Probe> = x.iter().map(|&x| probe(rail, x, plane)).collect();
-        let mut out = displacements(self.foundation, &probes, &state.loads, state.dofs()).ok()?;
+        let mut out = displacements(self.foundation, &probes, &state.loads, &state.dofs()).ok()?;
         out.iter_mut().for_each(|value| *value *= DIRECTIONS[plane]);
         Some(out)
     }

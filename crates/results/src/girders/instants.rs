@@ -1,6 +1,7 @@
 //! Loads on a structure and motions of its degrees of freedom between the rows of a history.
 
 use std::borrow::Cow;
+use std::ops::Range;
 
 use sim::{Channel, History};
 use trains::RailLoad;
@@ -16,24 +17,41 @@ const CORNER: f64 = 0.25;
 const OVERSHOOT: f64 = 0.5;
 
 /// State of a structure at one time.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub(super) struct LoadState<'a> {
     pub time: f64,
     /// Loads on its rails, always in the same order.
     pub loads: Vec<RailLoad>,
-    /// Displacements of its degrees of freedom, then their accelerations.
-    motions: Cow<'a, [f64]>,
+    values: StateValues<'a>,
+    /// Range of the displacements of its degrees of freedom among the values; their accelerations follow.
+    dofs: Range<usize>,
+}
+
+/// The values of a state, which are interpolated when they are needed.
+#[derive(Clone)]
+enum StateValues<'a> {
+    Row(&'a [f64]),
+    Between(Between<'a>),
+    Limit(Vec<f64>),
 }
 
 impl LoadState<'_> {
     /// Displacements of the degrees of freedom of the structure.
-    pub fn dofs(&self) -> &[f64] {
-        &self.motions[..self.motions.len() / 2]
+    pub fn dofs(&self) -> Cow<'_, [f64]> {
+        self.values(self.dofs.clone())
     }
 
     /// Accelerations of the degrees of freedom.
-    pub fn accelerations(&self) -> &[f64] {
-        &self.motions[self.motions.len() / 2..]
+    pub fn accelerations(&self) -> Cow<'_, [f64]> {
+        self.values(self.dofs.end..2 * self.dofs.end - self.dofs.start)
+    }
+
+    fn values(&self, range: Range<usize>) -> Cow<'_, [f64]> {
+        match &self.values {
+            StateValues::Row(values) => Cow::Borrowed(&values[range]),
+            StateValues::Limit(values) => Cow::Borrowed(&values[range]),
+            StateValues::Between(between) => Cow::Owned(range.map(|c| between.value(c)).collect()),
+        }
     }
 }
 
@@ -121,33 +139,32 @@ impl LoadStates {
 
     /// The state at a row.
     pub fn at_row(&self, row: usize) -> LoadState<'_> {
-        let values = self.row(row);
-        self.state(values, Cow::Borrowed(&values[self.motions..]))
+        self.state(StateValues::Row(self.row(row)))
     }
 
     /// The state at a time that is counted in rows, between the first and the last.
     pub fn at(&self, position: f64) -> LoadState<'_> {
         match self.between(position) {
             Ok(row) => self.at_row(row),
-            Err(between) => {
-                let values: Vec<f64> = (0..self.width).map(|c| between.value(c)).collect();
-                self.state(&values, Cow::Owned(values[self.motions..].to_vec()))
-            }
+            Err(between) => self.state(StateValues::Between(between)),
         }
     }
 
     /// The coordinate of a load at a time that is counted in rows.
     fn coordinate(&self, load: usize, position: f64) -> f64 {
-        let (source, first) = &self.sources[load];
-        let values = |value: &dyn Fn(usize) -> f64| {
-            let [place, forces] = source.channels();
-            let own: Vec<f64> = (0..place.len() + forces.len()).map(|k| value(first + k)).collect();
-            source.load(&own).x
-        };
         match self.between(position) {
-            Ok(row) => values(&|c| self.row(row)[c]),
-            Err(between) => values(&|c| between.value(c)),
+            Ok(row) => self.load(load, &|c| self.row(row)[c]).x,
+            Err(between) => self.load(load, &|c| between.value(c)).x,
         }
+    }
+
+    /// A load by the values of a row.
+    fn load(&self, load: usize, value: &dyn Fn(usize) -> f64) -> RailLoad {
+        let (source, first) = &self.sources[load];
+        let count: usize = source.channels().into_iter().map(|range| range.len()).sum();
+        let mut own = [0.0; 4];
+        own[..count].iter_mut().enumerate().for_each(|(k, own)| *own = value(first + k));
+        source.load(&own)
     }
 
     /// What interpolates at a time that is counted in rows; at a row its number instead.
@@ -215,7 +232,7 @@ impl LoadStates {
         for (c, out) in out.iter_mut().enumerate().skip(1) {
             *out = cubic.value(c).unwrap_or(*out);
         }
-        self.state(&out, Cow::Owned(out[self.motions..].to_vec()))
+        self.state(StateValues::Limit(out))
     }
 
     /// The forces and motions of a row with the places of all loads at another time.
@@ -255,13 +272,20 @@ impl LoadStates {
         0.5 * (a + b)
     }
 
-    fn state<'s>(&self, values: &[f64], motions: Cow<'s, [f64]>) -> LoadState<'s> {
-        let loads = self.sources.iter().map(|(source, first)| source.load(&values[*first..])).collect();
-        LoadState { time: values[0], loads, motions }
+    fn state<'s>(&self, values: StateValues<'s>) -> LoadState<'s> {
+        let value = |c: usize| match &values {
+            StateValues::Row(values) => values[c],
+            StateValues::Limit(values) => values[c],
+            StateValues::Between(between) => between.value(c),
+        };
+        let loads = (0..self.sources.len()).map(|load| self.load(load, &value)).collect();
+        let dofs = self.motions..self.motions + (self.width - self.motions) / 2;
+        LoadState { time: value(0), loads, values, dofs }
     }
 }
 
 /// A time between two rows.
+#[derive(Clone)]
 struct Between<'a> {
     ends: [&'a [f64]; 2],
     fraction: f64,
@@ -281,6 +305,7 @@ impl Between<'_> {
 }
 
 /// The Lagrange polynomials through four rows at one time.
+#[derive(Clone)]
 struct Cubic<'a> {
     rows: [&'a [f64]; 4],
     weights: [f64; 4],

@@ -38,13 +38,9 @@ pub(super) struct PointBlock {
 
 impl<'a> PointDeflections<'a> {
     /// The points of `sections`. Rails whose deflections are not known, or that are unrestrained in a plane, have none.
-    pub fn new(
-        foundation: &'a Foundation,
-        sections: &Sections,
-        states: &LoadStates,
-    ) -> PointDeflections<'a> {
-        let is_known = foundation.parts.is_none()
-            && (foundation.structure.is_some() || foundation.compliance.is_some());
+    pub fn new(foundation: &'a Foundation, sections: &Sections, states: &LoadStates) -> PointDeflections<'a> {
+        let is_known =
+            foundation.parts.is_none() && (foundation.structure.is_some() || foundation.compliance.is_some());
         let vertical = Self::of(foundation, sections, if is_known { &[0] } else { &[] });
         let lateral = Self::of(foundation, sections, if is_known { &[1] } else { &[] });
         let mut few = spread(states.len(), FEW);
@@ -84,7 +80,7 @@ impl<'a> PointDeflections<'a> {
 
     /// The deflections of all blocks, then those at `also`; `None` where the structure is unrestrained under a load or there.
     pub fn at(&self, state: &LoadState<'_>, also: &[Probe]) -> Option<Vec<f64>> {
-        let mut out = self.motions.as_ref()?.under(&state.loads, state.dofs(), also).ok()?;
+        let mut out = self.motions.as_ref()?.under(&state.loads, &state.dofs(), also).ok()?;
         let count = out.len() - also.len();
         let (own, others) = out.split_at_mut(count);
         for block in &self.blocks {

@@ -137,7 +137,13 @@ impl Scan {
     }
 
     /// Adds the sections that loads pass between two rows.
-    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize, a: &LoadState<'_>, b: &LoadState<'_>) {
+    fn add_passages(
+        &mut self,
+        girders: &LoadedGirders<'_>,
+        row: usize,
+        a: &LoadState<'_>,
+        b: &LoadState<'_>,
+    ) {
         let sections = girders.sections;
         for (load, (from, to)) in a.loads.iter().zip(&b.loads).enumerate() {
             if from.force == [0.0; 3] && to.force == [0.0; 3] {

@@ -1,7 +1,7 @@
 //! The girders of one structure: extremes of its spans, and envelopes at places.
 
 use formats::scene::Scene;
-use sim::{Foundation, History};
+use sim::{Channel, Foundation, History};
 use trains::{GirderResponse, MemberForces};
 
 use super::distributed::{DistributedForces, FORCES};
@@ -133,9 +133,17 @@ impl<'a> PreparedGirders<'a> {
         let width = self.width(history, loads).max(1);
         let all: Vec<usize> = (0..history.len()).collect();
         if choice == RowChoice::Needed {
-            let own = (self.s, foundations[self.s].dofs());
+            // places, forces, displacements and accelerations
+            let of_loads =
+                |k: usize| loads.on(self.s).flat_map(|source| source.channels()[k].clone()).collect();
+            let mut kinds: Vec<Vec<usize>> = vec![of_loads(0), of_loads(1)];
+            for first in [Channel::Coordinate(self.s, 0), Channel::Acceleration(self.s, 0)] {
+                let dofs = foundations[self.s].dofs();
+                kinds.extend(history.position(first).map(|first| (first..first + dofs).collect()));
+            }
             let needed = |rows: &[usize], (tolerance, most): (f64, usize)| {
-                kept_rows((history, rows), loads, own, tolerance, most / width)
+                let samples: Vec<&[f64]> = rows.iter().map(|row| history.sample(*row)).collect();
+                kept_rows(&samples, kinds.clone(), tolerance, most / width)
             };
             let rows = needed(&all, NEEDED[0]);
             let coarse = needed(&rows, NEEDED[1]);

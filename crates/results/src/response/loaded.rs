@@ -66,12 +66,7 @@ impl WheelLoadReader {
         let wheels = input.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
             let first = history.position(Channel::Position(w)).unwrap_or_default();
-            LoadSource {
-                structure: rail.structure,
-                rail: rail.rail,
-                channels: first..first + 4,
-                stop: None,
-            }
+            LoadSource { structure: rail.structure, rail: rail.rail, channels: first..first + 4, stop: None }
         });
         let meetings =
             scene.stops.iter().flat_map(|stop| stop.points.iter().map(move |meeting| (stop, meeting)));
