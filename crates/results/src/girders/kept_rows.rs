@@ -113,9 +113,9 @@ mod tests {
         let samples: Vec<[f64; 3]> = (0..=1000).map(parabola).collect();
         let expected: Vec<usize> = (0..=1000).step_by(20).collect();
         // 10 * 10 is within the tolerance, 10 * 11 is not
-        assert_eq!(rows(&samples, 1.05e-4, 1000), expected);
+        assert_eq!(rows(&samples, 1.02e-4, 1000), expected);
         // the second doubling of the tolerance allows 20 * 20
-        assert_eq!(rows(&samples, 1.05e-4, 30), (0..=1000).step_by(40).collect::<Vec<_>>());
+        assert_eq!(rows(&samples, 1.02e-4, 30), (0..=1000).step_by(40).collect::<Vec<_>>());
         let line: Vec<[f64; 3]> = samples.iter().map(|[t, _, line]| [*t, 0.0, *line]).collect();
         assert_eq!(rows(&line, 1e-9, 1000), [0, 1000]);
     }
