@@ -114,6 +114,15 @@ pub trait Compliance: Send + Sync {
         Ok(())
     }
 
+    /// Prepares the displacements at the probes `at` for loads that change from call to call, with the values of
+    /// [`Compliance::displacements`] up to rounding.
+    ///
+    /// # Errors
+    /// Those of [`Compliance::fill`] for the probes.
+    fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
+        Ok(Box::new(Repeated { compliance: self, at: at.to_vec() }))
+    }
+
     /// Coordinates along `rail` where derivatives of the surface may jump (supports, hinges, stations),
     /// increasing.
     fn breaks(&self, rail: usize) -> Vec<f64>;
@@ -124,6 +133,29 @@ pub trait Compliance: Send + Sync {
     /// Whether `value[(i, j)]` = `value[(j, i)]` for all probes (Maxwell's reciprocal theorem). A solver may
     /// then compute half of the matrix.
     fn is_symmetric(&self) -> bool;
+}
+
+/// Displacements of fixed places under loads that change from call to call, made by [`Compliance::at_places`].
+pub trait PlaceDisplacements: Send + Sync {
+    /// Writes the displacements of the places under loads into `out`, then those of the probes `also`, which may be others
+    /// at each call. `out` has one entry for each.
+    ///
+    /// # Errors
+    /// Those of [`Compliance::displacements`].
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error>;
+}
+
+/// Places with nothing prepared: the compliance is evaluated at each call.
+struct Repeated<'a, C: ?Sized> {
+    compliance: &'a C,
+    at: Vec<Probe>,
+}
+
+impl<C: Compliance + ?Sized> PlaceDisplacements for Repeated<'_, C> {
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        let all: Vec<Probe> = self.at.iter().chain(also).copied().collect();
+        self.compliance.displacements(&all, loads, out)
+    }
 }
 
 /// Value and partial derivatives of G(p, q), up to the second order, for one pair of probes.

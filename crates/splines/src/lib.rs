@@ -57,7 +57,7 @@ mod surface;
 mod table;
 mod vector;
 
-pub use compliance::{Compliance, Differentiable, Influence, Partials};
+pub use compliance::{Compliance, Differentiable, Influence, Partials, PlaceDisplacements};
 pub use curve::{CurveValue, PiecewiseCubic, akima, natural_spline};
 pub use error::Error;
 pub use probe::{Axis, Probe};

@@ -1,13 +1,14 @@
 //! Internal forces and deflections of the girders of one structure at any time and place.
 
 use sim::Foundation;
-use splines::{Axis, Probe};
+use splines::Probe;
 use trains::{MemberForces, PassedLoads, SectionSide};
 
 use super::distributed::{DistributedForces, FORCES, Quantities};
 use super::instants::{LoadState, LoadStates};
+use super::points::{DIRECTIONS, PointDeflections, probe};
 use super::sections::{MemberSection, Sections};
-use crate::response::{displacements, spread};
+use crate::response::displacements;
 
 /// The girders of a structure under the loads of a run.
 pub(super) struct LoadedGirders<'a> {
@@ -15,9 +16,9 @@ pub(super) struct LoadedGirders<'a> {
     pub members: &'a MemberForces,
     pub distributed: &'a DistributedForces,
     pub sections: &'a Sections,
-    pub states: LoadStates<'a>,
-    /// Whether the deflections in the vertical and in the lateral plane are known and not zero throughout.
-    pub deflects: [bool; 2],
+    pub states: LoadStates,
+    /// The deflections of all points.
+    pub points: &'a PointDeflections<'a>,
     /// Every how many rows deflections are evaluated: they change more slowly than forces.
     pub deflection_stride: usize,
 }
@@ -36,12 +37,9 @@ pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> 
     }
 }
 
-/// Number of rows at which deflections are looked for.
-const FEW: usize = 24;
-
 impl LoadedGirders<'_> {
     /// The quantities of a section at a distance from the first end of a member.
-    pub fn forces_in(&self, member: usize, place: f64, state: &LoadState, own: OwnLoad) -> Quantities {
+    pub fn forces_in(&self, member: usize, place: f64, state: &LoadState<'_>, own: OwnLoad) -> Quantities {
         let mut passed = PassedLoads::default();
         self.members.load(member, &state.loads, &mut passed);
         self.sum(member, place, state, &passed, own)
@@ -52,13 +50,13 @@ impl LoadedGirders<'_> {
         &self,
         member: usize,
         place: f64,
-        state: &LoadState,
+        state: &LoadState<'_>,
         passed: &PassedLoads,
         own: OwnLoad,
     ) -> Quantities {
         let mut out = passed.quantities(place, own);
         if !self.distributed.is_empty() {
-            let more = self.distributed.at(member, place, &state.accelerations);
+            let more = self.distributed.at(member, place, &state.accelerations());
             out.iter_mut().zip(more).for_each(|(sum, value)| *sum += value);
         }
         out
@@ -94,26 +92,21 @@ impl LoadedGirders<'_> {
 
     /// Deflections of points of a rail, downwards or along +z; `None` where they are not known or the structure is
     /// unrestrained in this direction.
-    pub fn deflections(&self, rail: usize, x: &[f64], plane: usize, state: &LoadState) -> Option<Vec<f64>> {
-        if !self.deflects[plane] {
+    pub fn deflections(
+        &self,
+        rail: usize,
+        x: &[f64],
+        plane: usize,
+        state: &LoadState<'_>,
+    ) -> Option<Vec<f64>> {
+        if !self.points.has(plane) {
             return None;
         }
-        let (axis, sign) = if plane == 0 { (Axis::Vertical, -1.0) } else { (Axis::Lateral, 1.0) };
         let rail = self.sections.rails[rail].rail;
-        let probes: Vec<Probe> = x.iter().map(|&x| Probe { rail, x, axis }).collect();
-        let mut out = displacements(self.foundation, &probes, &state.wheels, &state.dofs).ok()?;
-        out.iter_mut().for_each(|value| *value *= sign);
+        let probes: Vec<Probe> = x.iter().map(|&x| probe(rail, x, plane)).collect();
+        let mut out = displacements(self.foundation, &probes, &state.loads, &state.dofs()).ok()?;
+        out.iter_mut().for_each(|value| *value *= DIRECTIONS[plane]);
         Some(out)
-    }
-
-    /// Whether a plane has deflections at one of a few rows that are evenly distributed.
-    pub fn has_deflections(&self, plane: usize) -> bool {
-        let rails = &self.sections.rails;
-        spread(self.states.len(), FEW).any(|row| {
-            let state = self.states.at_row(row);
-            let moved = |rail: usize| self.deflections(rail, &rails[rail].places, plane, &state);
-            (0..rails.len()).filter_map(moved).flatten().any(|value| value != 0.0)
-        })
     }
 
     /// Deflection of one point at a time.

@@ -1,9 +1,12 @@
 //! Loads on a structure and motions of its degrees of freedom between the rows of a history.
 
+use std::borrow::Cow;
+use std::ops::Range;
+
 use sim::{Channel, History};
 use trains::RailLoad;
 
-use crate::response::{WheelLoad, WheelLoadReader};
+use crate::response::{LoadSource, WheelLoadReader};
 
 /// Change of the slope from interval to interval, relative to the slopes beside it, above which values are interpolated
 /// linearly: a force jumps there or has a corner.
@@ -14,16 +17,42 @@ const CORNER: f64 = 0.25;
 const OVERSHOOT: f64 = 0.5;
 
 /// State of a structure at one time.
-#[derive(Clone, Debug, Default)]
-pub(super) struct LoadState {
+#[derive(Clone)]
+pub(super) struct LoadState<'a> {
     pub time: f64,
     /// Loads on its rails, always in the same order.
     pub loads: Vec<RailLoad>,
-    /// The same loads as the simulation has them.
-    pub wheels: Vec<WheelLoad>,
-    /// Displacements and accelerations of its degrees of freedom.
-    pub dofs: Vec<f64>,
-    pub accelerations: Vec<f64>,
+    values: StateValues<'a>,
+    /// Range of the displacements of its degrees of freedom among the values; their accelerations follow.
+    dofs: Range<usize>,
+}
+
+/// The values of a state, which are interpolated when they are needed.
+#[derive(Clone)]
+enum StateValues<'a> {
+    Row(&'a [f64]),
+    Between(Between<'a>),
+    Limit(Vec<f64>),
+}
+
+impl LoadState<'_> {
+    /// Displacements of the degrees of freedom of the structure.
+    pub fn dofs(&self) -> Cow<'_, [f64]> {
+        self.values(self.dofs.clone())
+    }
+
+    /// Accelerations of the degrees of freedom.
+    pub fn accelerations(&self) -> Cow<'_, [f64]> {
+        self.values(self.dofs.end..2 * self.dofs.end - self.dofs.start)
+    }
+
+    fn values(&self, range: Range<usize>) -> Cow<'_, [f64]> {
+        match &self.values {
+            StateValues::Row(values) => Cow::Borrowed(&values[range]),
+            StateValues::Limit(values) => Cow::Borrowed(&values[range]),
+            StateValues::Between(between) => Cow::Owned(range.map(|c| between.value(c)).collect()),
+        }
+    }
 }
 
 /// The states of a structure over time: rows of a history, and between them cubic polynomials through
@@ -32,42 +61,52 @@ pub(super) struct LoadState {
 /// Forces have corners, and with dampers jumps, where wheels pass the ends of members. No polynomial extends to these
 /// times: beside them it is one through rows of the same side, extrapolated. Where the four rows show another jump or corner, for instance of a contact
 /// that opens, values are interpolated linearly.
-pub(super) struct LoadStates<'a> {
-    history: &'a History,
-    loads: &'a WheelLoadReader,
-    s: usize,
-    /// First channels of displacements and accelerations, with their number.
-    dofs: Option<(usize, usize, usize)>,
-    rows: Vec<usize>,
-    /// Channels that are interpolated.
-    channels: Vec<usize>,
+pub(super) struct LoadStates {
+    /// The loads, with the place of their first value in a row.
+    sources: Vec<(LoadSource, usize)>,
+    /// Place of the first displacement in a row.
+    motions: usize,
+    /// Values of a row: the time, those of the loads, displacements and accelerations of the degrees of freedom.
+    width: usize,
+    /// Row by row.
+    values: Vec<f64>,
     /// Times at which loads pass ends of members, counted in rows, increasing.
     corners: Vec<f64>,
 }
 
-impl<'a> LoadStates<'a> {
+impl LoadStates {
     /// The states of structure `s` with `dofs` recorded degrees of freedom, by increasing rows of a history. `ends` are the
     /// ends of members by rail.
     pub fn new(
-        history: &'a History,
-        loads: &'a WheelLoadReader,
+        history: &History,
+        loads: &WheelLoadReader,
         (s, dofs): (usize, usize),
         ends: &[(usize, f64)],
-        rows: Vec<usize>,
-    ) -> LoadStates<'a> {
-        let channel = |wanted| history.position(wanted);
-        let first = channel(Channel::Coordinate(s, 0)).zip(channel(Channel::Acceleration(s, 0)));
-        let dofs = first.map(|(q, a)| (q, a, dofs));
-        let mut channels = loads.channels();
-        channels.extend(dofs.iter().flat_map(|(q, a, n)| (*q..q + n).chain(*a..a + n)));
-        let mut out = LoadStates { history, loads, s, dofs, rows, channels, corners: Vec::new() };
+        rows: &[usize],
+    ) -> LoadStates {
+        let mut channels = vec![0];
+        let mut sources = Vec::new();
+        for source in loads.on(s) {
+            sources.push((source.clone(), channels.len()));
+            channels.extend(source.channels().into_iter().flatten());
+        }
+        let motions = channels.len();
+        let first = |wanted| history.position(wanted);
+        let motion = first(Channel::Coordinate(s, 0)).zip(first(Channel::Acceleration(s, 0)));
+        channels.extend(motion.iter().flat_map(|(q, a)| (*q..q + dofs).chain(*a..a + dofs)));
+        let mut values = Vec::with_capacity(rows.len() * channels.len());
+        for row in rows {
+            let sample = history.sample(*row);
+            values.extend(channels.iter().map(|c| sample[*c]));
+        }
+        let mut out = LoadStates { sources, motions, width: channels.len(), values, corners: Vec::new() };
         out.corners = out.all_corners(ends);
         out
     }
 
     fn all_corners(&self, ends: &[(usize, f64)]) -> Vec<f64> {
         let mut corners = Vec::new();
-        let mut before: Option<LoadState> = None;
+        let mut before: Option<LoadState<'_>> = None;
         for row in 0..self.len() {
             let state = self.at_row(row);
             for (load, (a, b)) in before.iter().flat_map(|s| &s.loads).zip(&state.loads).enumerate() {
@@ -91,43 +130,62 @@ impl<'a> LoadStates<'a> {
 
     /// Number of rows.
     pub fn len(&self) -> usize {
-        self.rows.len()
+        self.values.len() / self.width
     }
 
-    fn sample(&self, row: usize) -> &'a [f64] {
-        self.history.sample(self.rows[row])
+    fn row(&self, row: usize) -> &[f64] {
+        &self.values[row * self.width..(row + 1) * self.width]
     }
 
     /// The state at a row.
-    pub fn at_row(&self, row: usize) -> LoadState {
-        self.state(self.sample(row))
+    pub fn at_row(&self, row: usize) -> LoadState<'_> {
+        self.state(StateValues::Row(self.row(row)))
     }
 
     /// The state at a time that is counted in rows, between the first and the last.
-    pub fn at(&self, position: f64) -> LoadState {
+    pub fn at(&self, position: f64) -> LoadState<'_> {
+        match self.between(position) {
+            Ok(row) => self.at_row(row),
+            Err(between) => self.state(StateValues::Between(between)),
+        }
+    }
+
+    /// The coordinate of a load at a time that is counted in rows.
+    fn coordinate(&self, load: usize, position: f64) -> f64 {
+        match self.between(position) {
+            Ok(row) => self.load(load, &|c| self.row(row)[c]).x,
+            Err(between) => self.load(load, &|c| between.value(c)).x,
+        }
+    }
+
+    /// A load by the values of a row.
+    fn load(&self, load: usize, value: &dyn Fn(usize) -> f64) -> RailLoad {
+        let (source, first) = &self.sources[load];
+        let count: usize = source.channels().into_iter().map(|range| range.len()).sum();
+        let mut own = [0.0; 4];
+        own[..count].iter_mut().enumerate().for_each(|(k, own)| *own = value(first + k));
+        source.load(&own)
+    }
+
+    /// What interpolates at a time that is counted in rows; at a row its number instead.
+    fn between(&self, position: f64) -> Result<usize, Between<'_>> {
         let last = self.len() - 1;
         let row = (position.max(0.0) as usize).min(last.saturating_sub(1));
         let fraction = position - row as f64;
         if fraction <= 0.0 || last == 0 {
-            return self.at_row(row);
+            return Ok(row);
         }
         if fraction >= 1.0 {
-            return self.at_row(row + 1);
+            return Ok(row + 1);
         }
-        let ends = [self.sample(row), self.sample(row + 1)];
-        let mut out = ends[0].to_vec();
-        out[0] = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
-        let starts = self.starts(row, position);
-        let cubics = starts.map(|start| start.map(|start| Cubic::new(self.four(start), out[0])));
-        for &c in &self.channels {
-            let smooth = cubics.iter().flatten().find_map(|cubic| cubic.value(c));
-            out[c] = smooth.unwrap_or_else(|| ends[0][c] + fraction * (ends[1][c] - ends[0][c]));
-        }
-        self.state(&out)
+        let ends = [self.row(row), self.row(row + 1)];
+        let time = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
+        let cubics = self.starts(row, position).map(|start| Some(Cubic::new(self.four(start?), time)));
+        Err(Between { ends, fraction, cubics })
     }
 
-    fn four(&self, start: usize) -> [&'a [f64]; 4] {
-        std::array::from_fn(|k| self.sample(start + k))
+    fn four(&self, start: usize) -> [&[f64]; 4] {
+        std::array::from_fn(|k| self.row(start + k))
     }
 
     /// First rows of the polynomials for a position behind `row`, best first: four rows without a corner between them.
@@ -154,7 +212,7 @@ impl<'a> LoadStates<'a> {
 
     /// The state just before or just after a corner; the state at the time itself if it is none. Where another corner is too
     /// near for a polynomial, forces are those of the next row on this side, and loads stand where they are at the corner.
-    pub fn limit(&self, position: f64, is_after: bool) -> LoadState {
+    pub fn limit(&self, position: f64, is_after: bool) -> LoadState<'_> {
         let corner = self.corner_from(position - 1e-6).filter(|corner| corner - position < 1e-6);
         let Some(corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
         let (row, start) = if is_after {
@@ -169,20 +227,19 @@ impl<'a> LoadStates<'a> {
         let Some(start) = start.filter(|start| self.is_clear(*start)) else { return self.moved(row, here) };
         let between = here.time;
         let cubic = Cubic::new(self.four(start), between);
-        let mut out = self.sample(row).to_vec();
+        let mut out = self.row(row).to_vec();
         out[0] = between;
-        for &c in &self.channels {
-            out[c] = cubic.value(c).unwrap_or(out[c]);
+        for (c, out) in out.iter_mut().enumerate().skip(1) {
+            *out = cubic.value(c).unwrap_or(*out);
         }
-        self.state(&out)
+        self.state(StateValues::Limit(out))
     }
 
     /// The forces and motions of a row with the places of all loads at another time.
-    fn moved(&self, row: usize, at: LoadState) -> LoadState {
+    fn moved(&self, row: usize, at: LoadState<'_>) -> LoadState<'_> {
         let mut out = self.at_row(row);
         out.time = at.time;
         out.loads.iter_mut().zip(at.loads).for_each(|(load, own)| load.x = own.x);
-        out.wheels.iter_mut().zip(at.wheels).for_each(|(load, own)| load.x = own.x);
         out
     }
 
@@ -200,7 +257,7 @@ impl<'a> LoadStates<'a> {
         let scale = low.abs().max(high.abs());
         for _ in 0..24 {
             let middle = (a * high - b * low) / (high - low);
-            let value = self.at(row as f64 + middle).loads[load].x - x;
+            let value = self.coordinate(load, row as f64 + middle) - x;
             if value.abs() <= 1e-12 * scale {
                 return middle;
             }
@@ -215,18 +272,40 @@ impl<'a> LoadStates<'a> {
         0.5 * (a + b)
     }
 
-    fn state(&self, sample: &[f64]) -> LoadState {
-        let mut wheels = self.loads.at(sample);
-        wheels.retain(|load| load.structure == self.s);
-        let loads = wheels.iter().map(|w| RailLoad { rail: w.rail, x: w.x, force: w.force }).collect();
-        let part = |from: usize, n: usize| sample[from..from + n].to_vec();
-        let (dofs, accelerations) =
-            self.dofs.map_or_else(Default::default, |(q, a, n)| (part(q, n), part(a, n)));
-        LoadState { time: sample[0], loads, wheels, dofs, accelerations }
+    fn state<'s>(&self, values: StateValues<'s>) -> LoadState<'s> {
+        let value = |c: usize| match &values {
+            StateValues::Row(values) => values[c],
+            StateValues::Limit(values) => values[c],
+            StateValues::Between(between) => between.value(c),
+        };
+        let loads = (0..self.sources.len()).map(|load| self.load(load, &value)).collect();
+        let dofs = self.motions..self.motions + (self.width - self.motions) / 2;
+        LoadState { time: value(0), loads, values, dofs }
+    }
+}
+
+/// A time between two rows.
+#[derive(Clone)]
+struct Between<'a> {
+    ends: [&'a [f64]; 2],
+    fraction: f64,
+    /// Best first.
+    cubics: [Option<Cubic<'a>>; 3],
+}
+
+impl Between<'_> {
+    /// Value `c` of a row.
+    fn value(&self, c: usize) -> f64 {
+        let linear = || self.ends[0][c] + self.fraction * (self.ends[1][c] - self.ends[0][c]);
+        if c == 0 {
+            return linear();
+        }
+        self.cubics.iter().flatten().find_map(|cubic| cubic.value(c)).unwrap_or_else(linear)
     }
 }
 
 /// The Lagrange polynomials through four rows at one time.
+#[derive(Clone)]
 struct Cubic<'a> {
     rows: [&'a [f64]; 4],
     weights: [f64; 4],

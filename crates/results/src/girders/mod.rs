@@ -21,7 +21,7 @@
 //!
 //! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
 //!
-//! Files, lowest first: solved, peaks, kept_rows, instants, fibres, sections, distributed, girder, scan, refine, deflections, spans,
+//! Files, lowest first: solved, peaks, kept_rows, instants, fibres, sections, points, distributed, girder, scan, refine, deflections, spans,
 //! stresses, structure, rows, this one.
 
 mod deflections;
@@ -31,6 +31,7 @@ mod girder;
 mod instants;
 mod kept_rows;
 mod peaks;
+mod points;
 mod refine;
 mod rows;
 mod scan;

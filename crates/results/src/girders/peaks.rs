@@ -89,14 +89,26 @@ pub(super) fn largest(
     count: usize,
     function: &mut dyn FnMut(f64) -> f64,
 ) -> (f64, f64) {
-    let [mut a, mut b] = ends;
-    let at_ends = ends.map(|place| (function(place), place));
-    let larger = |one: (f64, f64), other: (f64, f64)| if other.0 > one.0 { other } else { one };
     // of equal values the known one counts
-    let outside = larger(known, larger(at_ends[0], at_ends[1]));
+    let outside = ends.map(|place| (function(place), place)).into_iter().fold(known, larger);
+    larger(outside, largest_between(ends, known, count, function))
+}
+
+fn larger(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
+    if other.0 > one.0 { other } else { one }
+}
+
+/// The same without the values at the ends.
+pub(super) fn largest_between(
+    ends: [f64; 2],
+    known: (f64, f64),
+    count: usize,
+    function: &mut dyn FnMut(f64) -> f64,
+) -> (f64, f64) {
+    let [mut a, mut b] = ends;
     let near = NEAR * (b - a);
     if near <= 0.0 {
-        return outside;
+        return known;
     }
     // the best, the second and the third of the places, as (value, place)
     let start = a + GOLDEN * (b - a);
@@ -133,7 +145,7 @@ pub(super) fn largest(
             }
         }
     }
-    larger(outside, best[0])
+    larger(known, best[0])
 }
 
 /// The vertex of the parabola through three values at places; `None` if they lie on a line.

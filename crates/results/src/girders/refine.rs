@@ -5,7 +5,7 @@ use trains::{GirderResponse, SectionSide};
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
 use super::instants::LoadState;
-use super::peaks::{Peak, largest};
+use super::peaks::{Peak, largest, largest_between};
 use super::scan::{SIGNS, Scan};
 
 /// Largest number of evaluations for the peak between two rows.
@@ -123,7 +123,7 @@ impl Refinement<'_> {
     }
 
     /// The state in which a value was found.
-    pub fn state_of(&self, found: &GirderValue) -> LoadState {
+    pub fn state_of(&self, found: &GirderValue) -> LoadState<'_> {
         let states = &self.girders.states;
         let Some(is_after) = found.is_after else { return states.at(found.position) };
         let mut state = states.limit(found.position, is_after);
@@ -133,18 +133,27 @@ impl Refinement<'_> {
         state
     }
 
-    /// The largest value in the two intervals beside the row of a peak; the value at the row where the values beside it
-    /// show that no larger one lies between the rows.
+    /// The largest value in the two intervals beside the row of a peak, at whose ends it is not larger; the value at the row
+    /// where the values beside it show that no larger one lies between the rows.
     pub fn over_time(
         &self,
         (peak, stride): (&Peak, usize),
         quantity: usize,
         value: &mut dyn FnMut(f64) -> f64,
     ) -> (f64, f64) {
-        if peak.height - peak.value <= 1e-2 * self.accuracy * self.size(quantity) {
-            return (peak.value, (peak.row * stride) as f64);
+        let known = (peak.value, (peak.row * stride) as f64);
+        let ends = self.rows_beside(known.1, stride);
+        if peak.height - peak.value <= 1e-2 * self.accuracy * self.size(quantity) || ends[1] <= ends[0] {
+            return known;
         }
-        self.near_in_time((peak.row * stride) as f64, stride, value)
+        largest_between(ends, known, EVALUATIONS, value)
+    }
+
+    /// The times `stride` rows before a row and behind it, within the run.
+    fn rows_beside(&self, position: f64, stride: usize) -> [f64; 2] {
+        let last = (self.girders.states.len() - 1) as f64;
+        let row = position.round();
+        [(row - stride as f64).max(0.0), (row + stride as f64).min(last)]
     }
 
     /// The largest value from `stride` rows before a time to as many behind it.
@@ -154,10 +163,8 @@ impl Refinement<'_> {
         stride: usize,
         value: &mut dyn FnMut(f64) -> f64,
     ) -> (f64, f64) {
-        let last = (self.girders.states.len() - 1) as f64;
         let own = (value(position), position);
-        let row = position.round();
-        let ends = [(row - stride as f64).max(0.0), (row + stride as f64).min(last)];
+        let ends = self.rows_beside(position, stride);
         if ends[1] <= ends[0] {
             return own;
         }

@@ -10,17 +10,12 @@ use trains::GirderResponse;
 use super::GirderExtremes;
 use super::solved::SolvedMembers;
 use super::spans::SpanValue;
-use super::structure::{MAX_VALUES, PreparedGirders, RowChoice, Rows, SpanExtremes};
+use super::structure::{PreparedGirders, RowChoice, Rows, SpanExtremes};
 use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of rows, and of values of a history, to which a repetition is raised.
 const MAX_ROWS: [usize; 2] = [40_000, 20_000_000];
-/// Choices of the ends of steps, one after the other. Also where the number of values decides, the second has more.
-const CHOICES: [RowChoice; 2] = [
-    RowChoice::Needed { tolerance: 1e-4, most: MAX_VALUES },
-    RowChoice::Needed { tolerance: 1e-5, most: 3 * MAX_VALUES },
-];
 /// Largest number of repetitions.
 const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.
@@ -86,7 +81,7 @@ pub(crate) fn of_run(
     let all = Evaluation { scene, input, foundations, girders: &girders };
     let (found, finer) = match steps.is_empty() {
         true => all.by_repetition(history, repeat),
-        false => (all.by_steps(steps), None),
+        false => (all.attempt(steps, RowChoice::Needed), None),
     };
     let history = if steps.is_empty() { finer.as_ref().unwrap_or(history) } else { steps };
     let loads = WheelLoadReader::new(scene, input, history);
@@ -120,7 +115,7 @@ pub(crate) fn of_run(
 struct Attempt {
     /// By structure.
     spans: Vec<SpanExtremes>,
-    /// Largest change from every second row to all rows, relative to the largest value of its kind.
+    /// Largest change from a coarser choice of rows, relative to the largest value of its kind.
     change: Change,
     /// Largest number of rows that are all evaluated.
     most_rows: usize,
@@ -164,16 +159,10 @@ struct Evaluation<'a> {
 }
 
 impl Evaluation<'_> {
-    /// The extremes from the ends of steps, and by how much they change from fewer to more of them.
-    fn by_steps(&self, steps: &History) -> Attempt {
-        let [few, more] = CHOICES.map(|choice| self.attempt_at(steps, choice));
-        Attempt { change: self.change(&more, &few), ..more }
-    }
-
     /// The extremes at the rows of a history, and if needed at those of repetitions of the run, the last of which is returned
     /// as well.
     fn by_repetition(&self, history: &History, repeat: &mut Repetition<'_>) -> (Attempt, Option<History>) {
-        let mut found = self.attempt(history);
+        let mut found = self.attempt(history, RowChoice::Every);
         let (mut rows, mut finer) = (1, None);
         for _ in 0..REPETITIONS {
             let own = finer.as_ref().unwrap_or(history);
@@ -183,7 +172,7 @@ impl Evaluation<'_> {
             let more = more * rows;
             let Some(repeated) = repeat(more) else { break };
             let before = found.change.fraction;
-            let last = std::mem::replace(&mut found, self.attempt(&repeated));
+            let last = std::mem::replace(&mut found, self.attempt(&repeated, RowChoice::Every));
             let from_last = self.change(&found, &last);
             found.change = found.change.smaller(from_last);
             (rows, finer) = (more, Some(repeated));
@@ -198,33 +187,24 @@ impl Evaluation<'_> {
     /// Largest change of the extremes from one evaluation to the next, relative to the largest value of its kind.
     fn change(&self, next: &Attempt, before: &Attempt) -> Change {
         let each = self.girders.iter().zip(next.spans.iter().zip(&before.spans));
-        let of = |(girders, (next, before)): (&&PreparedGirders<'_>, _)| Change {
+        let of = |(girders, (next, before)): (&&PreparedGirders<'_>, (_, &SpanExtremes))| Change {
             structure: girders.name().to_owned(),
-            ..difference(next, before)
+            ..difference(next, &before.values)
         };
         each.map(of).fold(Change::default(), Change::larger)
     }
 
-    /// The extremes at some rows of a history; their change is not known.
-    fn attempt_at(&self, history: &History, choice: RowChoice) -> Attempt {
-        let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations };
-        let spans = self.girders.iter().map(|girders| girders.spans(rows, choice, self.scene.accuracy));
-        Attempt { spans: spans.collect(), change: Change::default(), most_rows: 0 }
-    }
-
-    /// The extremes at all rows of a history, and by how much they change from every second row.
-    fn attempt(&self, history: &History) -> Attempt {
+    /// The extremes at rows of a history, and by how much they change from a coarser choice of them.
+    fn attempt(&self, history: &History, choice: RowChoice) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
         let rows = Rows { history, loads: &loads, foundations: self.foundations };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {
-            let fine = girders.spans(rows, RowChoice::Every(1), self.scene.accuracy);
-            let coarse = girders.spans(rows, RowChoice::Every(2), self.scene.accuracy);
+            let own = girders.spans(rows, choice, self.scene.accuracy);
             let structure = girders.name().to_owned();
-            change = change.larger(Change { structure, ..difference(&fine, &coarse) });
-            all.push(fine);
+            change = change.larger(Change { structure, ..difference(&own, &own.coarse) });
+            all.push(own);
         }
         let most_rows =
             self.girders.iter().map(|own| own.most_rows(history, &loads)).min().unwrap_or_default();
@@ -234,7 +214,7 @@ impl Evaluation<'_> {
 
 /// Largest difference of the extremes of two evaluations, relative to the largest value of their kind: of forces,
 /// moments or deflections.
-fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> Change {
+fn difference(fine: &SpanExtremes, coarse: &[SpanValue]) -> Change {
     let key = |v: &SpanValue| (v.rail, v.span, v.quantity, v.kind);
     let kind = |quantity: usize| match quantity {
         0 | 2 | 3 => 0,
@@ -246,7 +226,7 @@ fn difference(fine: &SpanExtremes, coarse: &SpanExtremes) -> Change {
     let mut largest = Change::default();
     for value in &fine.values {
         let size = sizes[kind(value.quantity)];
-        let Some(other) = coarse.values.iter().find(|other| key(other) == key(value)) else { continue };
+        let Some(other) = coarse.iter().find(|other| key(other) == key(value)) else { continue };
         if size > 0.0 {
             let change = (value.found.signed - other.found.signed).abs() / size;
             if change > largest.fraction {

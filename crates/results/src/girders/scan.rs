@@ -1,12 +1,14 @@
 //! Values of every section and beside every wheel at all rows of a history, and where wheels pass sections.
 
-use trains::{PassedLoads, SectionSide};
+use splines::Axis;
+use trains::{PassedLoads, RailLoad, SectionSide};
 
 use super::distributed::{FORCES, Quantities};
 use super::fibres::StressRows;
 use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
 use super::peaks::Peak;
+use super::points::{PointBlock, probe};
 
 /// Signs with which the largest and the smallest values are the largest.
 pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
@@ -45,18 +47,56 @@ pub(super) struct Scan {
     pub sizes: [f64; FORCES + 2],
 }
 
+/// A row of girders as a row of a scan.
+struct Target<'s> {
+    scan: &'s mut Scan,
+    row: usize,
+    /// Number of the row among those with deflections.
+    deflections: Option<usize>,
+}
+
+impl<'s> Target<'s> {
+    fn new(scan: &'s mut Scan, girders: &LoadedGirders<'_>, row: usize) -> Target<'s> {
+        let stride = girders.deflection_stride;
+        Target { scan, row, deflections: row.is_multiple_of(stride).then_some(row / stride) }
+    }
+}
+
 impl Scan {
-    /// Scans all rows.
-    pub fn new(girders: &LoadedGirders<'_>) -> Scan {
+    /// Scans all rows of `fine`, and those of `coarse`, which are the rows `chosen` of `fine`.
+    pub fn both(fine: &LoadedGirders<'_>, coarse: &LoadedGirders<'_>, chosen: &[usize]) -> [Scan; 2] {
+        let [mut all, mut few] = [Scan::empty(fine, true), Scan::empty(coarse, true)];
+        let mut next = 0;
+        for row in 0..fine.states.len() {
+            let mut targets = vec![Target::new(&mut all, fine, row)];
+            if chosen.get(next) == Some(&row) {
+                targets.push(Target::new(&mut few, coarse, next));
+                next += 1;
+            }
+            add_row(&mut targets, fine, &fine.states.at_row(row));
+        }
+        [all.finished(fine), few.finished(coarse)]
+    }
+
+    /// Scans all rows for the sections and points alone: without the places of loads.
+    pub fn of_sections(girders: &LoadedGirders<'_>) -> Scan {
+        let mut scan = Scan::empty(girders, false);
+        for row in 0..girders.states.len() {
+            add_row(&mut [Target::new(&mut scan, girders, row)], girders, &girders.states.at_row(row));
+        }
+        scan.finished(girders)
+    }
+
+    fn empty(girders: &LoadedGirders<'_>, has_loads: bool) -> Scan {
         let sections = girders.sections;
         let mut first_span = vec![0];
         for rail in &sections.rails {
             first_span.push(first_span[first_span.len() - 1] + rail.ends.len() + 1);
         }
-        let rows = girders.states.len();
-        let loads = if rows > 0 { girders.states.at_row(0).loads.len() } else { 0 };
+        let is_counted = has_loads && girders.states.len() > 0;
+        let loads = if is_counted { girders.states.at_row(0).loads.len() } else { 0 };
         let spans = first_span[first_span.len() - 1];
-        let mut scan = Scan {
+        Scan {
             sections: vec![ForcePeaks::default(); sections.sections.len()],
             points: vec![Default::default(); sections.points.len()],
             wheels: vec![ForcePeaks::default(); 2 * loads * spans],
@@ -65,23 +105,19 @@ impl Scan {
             passages: Vec::new(),
             stresses: StressRows::new(&sections.stressed, sections.sections.len(), loads),
             sizes: [0.0; FORCES + 2],
-        };
-        let mut before: Option<LoadState> = None;
-        for row in 0..rows {
-            let state = girders.states.at_row(row);
-            scan.add_forces(girders, row, &state);
-            if row.is_multiple_of(girders.deflection_stride) {
-                scan.add_deflections(girders, row / girders.deflection_stride, &state);
-            }
-            if let Some(before) = &before {
-                scan.add_passages(girders, row - 1, before, &state);
-            }
-            before = Some(state);
         }
-        let forces = scan.sections.iter_mut().chain(&mut scan.wheels).flatten().flatten();
-        let deflections = scan.points.iter_mut().chain(&mut scan.under).flatten().flatten();
+    }
+
+    /// Ends all sequences, and adds the sections that loads pass between the rows.
+    fn finished(mut self, girders: &LoadedGirders<'_>) -> Scan {
+        for row in 1..girders.states.len() {
+            let [before, after] = [row - 1, row].map(|row| girders.states.at_row(row));
+            self.add_passages(girders, row - 1, &before, &after);
+        }
+        let forces = self.sections.iter_mut().chain(&mut self.wheels).flatten().flatten();
+        let deflections = self.points.iter_mut().chain(&mut self.under).flatten().flatten();
         forces.chain(deflections).for_each(Peak::finish);
-        scan
+        self
     }
 
     /// Index of the peaks beside a load in a span of a rail.
@@ -95,73 +131,19 @@ impl Scan {
         load * self.first_span[self.first_span.len() - 1] + self.first_span[rail] + span
     }
 
-    /// Adds the forces of all sections at a row, and of those just before and just behind each load.
-    fn add_forces(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState) {
-        let sections = girders.sections;
-        let mut passed = PassedLoads::default();
-        for (index, member) in girders.members.members().enumerate() {
-            let Some(rail) = sections.rails.iter().position(|rail| rail.rail == member.rail) else {
-                continue;
-            };
-            girders.members.load(index, &state.loads, &mut passed);
-            let fibres = sections.stressed.of(index);
-            for &section in &sections.of_member[index] {
-                let place = sections.sections[section].place;
-                let values = girders.sum(index, place, state, &passed, None);
-                add(&mut self.sections[section], &mut self.sizes, row, &values);
-                self.stresses.add_section(section, fibres, row, &values);
-            }
-            for (load, place) in passed.places() {
-                let x = girders.members.coordinate(index, place);
-                // at the end of a member the side of the load is that of the member
-                let is_first = x - member.x[0] < member.x[1] - x;
-                let side = if is_first { SectionSide::Behind } else { SectionSide::Before };
-                let span = sections.rails[rail].span(x, side);
-                for is_behind in [false, true] {
-                    let values = girders.sum(index, place, state, &passed, Some((load, is_behind)));
-                    let at = self.wheel(load, is_behind, rail, span);
-                    add(&mut self.wheels[at], &mut self.sizes, row, &values);
-                    self.stresses.add_wheel((load, is_behind), fibres, row, &values);
-                }
-            }
-        }
-    }
-
-    /// Adds the deflections of all points at a row, and those under each load on a member.
-    fn add_deflections(&mut self, girders: &LoadedGirders<'_>, row: usize, state: &LoadState) {
-        let sections = girders.sections;
-        let mut first = 0;
-        for (rail, outline) in sections.rails.iter().enumerate() {
-            let count = outline.places.len();
-            let on = |load: &usize| {
-                let load = state.loads[*load];
-                load.rail == outline.rail && load.x >= outline.range[0] && load.x <= outline.range[1]
-            };
-            let loads: Vec<usize> = (0..state.loads.len()).filter(on).collect();
-            let mut places = outline.places.clone();
-            places.extend(loads.iter().map(|load| state.loads[*load].x));
-            let mut under = Vec::new();
-            for (index, load) in loads.iter().enumerate() {
-                let x = places[count + index];
-                let spans = outline.spans_at(x).filter(|span| girders.is_carried(rail, x, *span));
-                under.extend(spans.map(|span| (index, self.under(*load, rail, span))));
-            }
-            for plane in 0..2 {
-                let Some(all) = girders.deflections(rail, &places, plane, state) else { continue };
-                let own = self.points[first..first + count].iter_mut().zip(&all);
-                own.for_each(|(peaks, value)| add_signed(&mut peaks[plane], row, *value));
-                for (index, at) in &under {
-                    add_signed(&mut self.under[*at][plane], row, all[count + index]);
-                }
-                let size = &mut self.sizes[FORCES + plane];
-                *size = all.iter().fold(*size, |most, value| most.max(value.abs()));
-            }
-            first += count;
-        }
+    fn add_size(&mut self, quantity: usize, values: &[f64]) {
+        let size = &mut self.sizes[quantity];
+        *size = values.iter().fold(*size, |most, value| most.max(value.abs()));
     }
 
     /// Adds the sections that loads pass between two rows.
-    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize, a: &LoadState, b: &LoadState) {
+    fn add_passages(
+        &mut self,
+        girders: &LoadedGirders<'_>,
+        row: usize,
+        a: &LoadState<'_>,
+        b: &LoadState<'_>,
+    ) {
         let sections = girders.sections;
         for (load, (from, to)) in a.loads.iter().zip(&b.loads).enumerate() {
             if from.force == [0.0; 3] && to.force == [0.0; 3] {
@@ -190,6 +172,93 @@ impl Scan {
                     self.passages.push(passage);
                 }
             }
+        }
+    }
+}
+
+/// Adds the values of a row to one or two scans.
+fn add_row(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &LoadState<'_>) {
+    add_forces(targets, girders, state);
+    if targets.iter().any(|target| target.deflections.is_some()) {
+        add_deflections(targets, girders, state);
+    }
+}
+
+/// Adds the forces of all sections at a row, and of those just before and just behind each load.
+fn add_forces(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &LoadState<'_>) {
+    let sections = girders.sections;
+    let has_loads = targets.iter().any(|target| !target.scan.wheels.is_empty());
+    let mut passed = PassedLoads::default();
+    for (index, member) in girders.members.members().enumerate() {
+        let Some(rail) = sections.rails.iter().position(|rail| rail.rail == member.rail) else {
+            continue;
+        };
+        if !has_loads && sections.of_member[index].is_empty() {
+            continue;
+        }
+        girders.members.load(index, &state.loads, &mut passed);
+        let fibres = sections.stressed.of(index);
+        for &section in &sections.of_member[index] {
+            let place = sections.sections[section].place;
+            let values = girders.sum(index, place, state, &passed, None);
+            for Target { scan, row, .. } in targets.iter_mut() {
+                add(&mut scan.sections[section], &mut scan.sizes, *row, &values);
+                scan.stresses.add_section(section, fibres, *row, &values);
+            }
+        }
+        if !has_loads {
+            continue;
+        }
+        for (load, place) in passed.places() {
+            let x = girders.members.coordinate(index, place);
+            // at the end of a member the side of the load is that of the member
+            let is_first = x - member.x[0] < member.x[1] - x;
+            let side = if is_first { SectionSide::Behind } else { SectionSide::Before };
+            let span = sections.rails[rail].span(x, side);
+            for is_behind in [false, true] {
+                let values = girders.sum(index, place, state, &passed, Some((load, is_behind)));
+                for Target { scan, row, .. } in targets.iter_mut() {
+                    let at = scan.wheel(load, is_behind, rail, span);
+                    add(&mut scan.wheels[at], &mut scan.sizes, *row, &values);
+                    scan.stresses.add_wheel((load, is_behind), fibres, *row, &values);
+                }
+            }
+        }
+    }
+}
+
+/// Adds the deflections of all points at a row, and those under each load on a member.
+fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &LoadState<'_>) {
+    let (mut probes, mut under) = (Vec::new(), Vec::new());
+    let has_loads = targets.iter().any(|target| !target.scan.under.is_empty());
+    for block in girders.points.blocks().iter().filter(|_| has_loads) {
+        let outline = &girders.sections.rails[block.rail];
+        for (load, RailLoad { rail, x, .. }) in state.loads.iter().enumerate() {
+            if *rail == outline.rail && *x >= outline.range[0] && *x <= outline.range[1] {
+                let spans = outline.spans_at(*x).filter(|span| girders.is_carried(block.rail, *x, *span));
+                under.extend(spans.map(|span| (probes.len(), load, block.rail, span)));
+                probes.push(probe(*rail, *x, block.plane));
+            }
+        }
+    }
+    let Some(all) = girders.points.at(state, &probes) else { return };
+    let (fixed, moving) = all.split_at(all.len() - probes.len());
+    let plane_of = |index: usize| usize::from(probes[index].axis == Axis::Lateral);
+    for Target { scan, deflections, .. } in targets.iter_mut() {
+        let Some(row) = *deflections else { continue };
+        for PointBlock { plane, points, values, .. } in girders.points.blocks() {
+            let own = &fixed[values.clone()];
+            for (peaks, value) in scan.points[points.clone()].iter_mut().zip(own) {
+                add_signed(&mut peaks[*plane], row, *value);
+            }
+            scan.add_size(FORCES + plane, own);
+        }
+        for (index, value) in moving.iter().enumerate() {
+            scan.add_size(FORCES + plane_of(index), &[*value]);
+        }
+        for &(index, load, rail, span) in &under {
+            let at = scan.under(load, rail, span);
+            add_signed(&mut scan.under[at][plane_of(index)], row, moving[index]);
         }
     }
 }

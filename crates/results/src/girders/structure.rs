@@ -1,13 +1,14 @@
 //! The girders of one structure: extremes of its spans, and envelopes at places.
 
 use formats::scene::Scene;
-use sim::{Foundation, History};
+use sim::{Channel, Foundation, History};
 use trains::{GirderResponse, MemberForces};
 
 use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
 use super::instants::LoadStates;
 use super::kept_rows::kept_rows;
+use super::points::PointDeflections;
 use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
@@ -20,7 +21,10 @@ use crate::response::WheelLoadReader;
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Largest number of values that a scan evaluates; of longer histories it takes fewer rows.
-pub(super) const MAX_VALUES: usize = 2_000_000;
+const MAX_VALUES: usize = 2_000_000;
+/// Tolerances within which loads are straight lines between the rows that are needed, and the largest number of values of
+/// these rows, finer and coarser. Also where the number of values decides, the finer ones are more.
+const NEEDED: [(f64, usize); 2] = [(1e-5, 3 * MAX_VALUES), (1e-4, MAX_VALUES)];
 /// Number of rows above which deflections are evaluated at fewer rows.
 const MAX_DEFLECTIONS: usize = 500;
 /// The same for the ends of steps, between which deflections are less even.
@@ -44,14 +48,14 @@ pub(super) struct Rows<'a> {
     pub foundations: &'a [Foundation],
 }
 
-/// A choice among the rows of a history.
-#[derive(Clone, Copy, Debug)]
+/// A choice among the rows of a history, with a coarser one, to see by how much extremes change.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum RowChoice {
-    /// Every row, every second one and so on; fewer where there are too many values.
-    Every(usize),
-    /// Those between which loads differ from straight lines by more than a tolerance, relative to the largest load. It is
-    /// raised until there are no more than `most` values of all rows.
-    Needed { tolerance: f64, most: usize },
+    /// Every row and every second one; fewer where there are too many values.
+    Every,
+    /// Those between which loads differ from straight lines by more than the tolerances [`NEEDED`], finer and coarser,
+    /// relative to the largest load. They are raised until there are no more than [`MAX_VALUES`] of all rows.
+    Needed,
 }
 
 /// Rows of a history that are evaluated.
@@ -60,13 +64,17 @@ pub(super) struct ChosenRows {
     pub rows: Vec<usize>,
     /// Every how many rows of the history were taken, where they were not chosen by need.
     pub stride: usize,
-    /// Every how many of these rows deflections are evaluated.
-    deflection_stride: usize,
+    /// Indices of those of the coarser choice.
+    coarse: Vec<usize>,
+    /// Number of rows above which deflections are evaluated at fewer of them.
+    most_deflections: usize,
 }
 
 /// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
 pub(super) struct SpanExtremes {
     pub values: Vec<SpanValue>,
+    /// Those of the coarser choice of rows.
+    pub coarse: Vec<SpanValue>,
     /// The scan from which they follow.
     scan: Scan,
     pub sizes: [f64; FORCES + 2],
@@ -122,62 +130,71 @@ impl<'a> PreparedGirders<'a> {
     }
 
     fn chosen(&self, Rows { history, loads, foundations }: Rows<'_>, choice: RowChoice) -> ChosenRows {
-        let width = self.width(history, loads);
-        let (rows, stride, most) = match choice {
-            RowChoice::Needed { tolerance, most } => {
-                let own = (self.s, foundations[self.s].dofs());
-                (kept_rows(history, loads, own, tolerance, most / width.max(1)), 1, MAX_STEPS)
+        let width = self.width(history, loads).max(1);
+        let all: Vec<usize> = (0..history.len()).collect();
+        if choice == RowChoice::Needed {
+            // places, forces, displacements and accelerations
+            let of_loads =
+                |k: usize| loads.on(self.s).flat_map(|source| source.channels()[k].clone()).collect();
+            let mut kinds: Vec<Vec<usize>> = vec![of_loads(0), of_loads(1)];
+            for first in [Channel::Coordinate(self.s, 0), Channel::Acceleration(self.s, 0)] {
+                let dofs = foundations[self.s].dofs();
+                kinds.extend(history.position(first).map(|first| (first..first + dofs).collect()));
             }
-            RowChoice::Every(factor) => {
-                let stride = factor * (history.len() * width).div_ceil(MAX_VALUES).max(1);
-                let mut rows: Vec<usize> = (0..history.len()).step_by(stride).collect();
-                let last = history.len().saturating_sub(1);
-                if rows.last().is_some_and(|row| *row != last) {
-                    rows.push(last);
-                }
-                (rows, stride, MAX_DEFLECTIONS)
-            }
-        };
-        let deflection_stride = (rows.len() / most).max(1);
-        ChosenRows { rows, stride, deflection_stride }
+            let needed = |rows: &[usize], (tolerance, most): (f64, usize)| {
+                let samples: Vec<&[f64]> = rows.iter().map(|row| history.sample(*row)).collect();
+                kept_rows(&samples, kinds.clone(), tolerance, most / width)
+            };
+            let rows = needed(&all, NEEDED[0]);
+            let coarse = needed(&rows, NEEDED[1]);
+            return ChosenRows { rows, stride: 1, coarse, most_deflections: MAX_STEPS };
+        }
+        let stride = (history.len() * width).div_ceil(MAX_VALUES).max(1);
+        let rows = every(&all, stride);
+        let coarse = every(&(0..rows.len()).collect::<Vec<_>>(), 2);
+        ChosenRows { rows, stride, coarse, most_deflections: MAX_DEFLECTIONS }
     }
 
     fn loaded<'b>(
         &'b self,
-        Rows { history, loads, foundations }: Rows<'b>,
-        sections: &'b Sections,
-        chosen: &ChosenRows,
+        Rows { foundations, .. }: Rows<'b>,
+        (sections, points): (&'b Sections, &'b PointDeflections<'b>),
+        states: LoadStates,
+        most_deflections: usize,
     ) -> LoadedGirders<'b> {
-        let foundation = &foundations[self.s];
-        let ends: Vec<(usize, f64)> =
-            self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
-        let own = (self.s, foundation.dofs());
-        let mut girders = LoadedGirders {
-            foundation,
+        LoadedGirders {
+            foundation: &foundations[self.s],
             members: self.members,
             distributed: &self.distributed,
             sections,
-            states: LoadStates::new(history, loads, own, &ends, chosen.rows.clone()),
-            deflects: [foundation.parts.is_none()
-                && (foundation.structure.is_some() || foundation.compliance.is_some());
-                2],
-            deflection_stride: chosen.deflection_stride,
-        };
-        if girders.deflects[1] {
-            girders.deflects[1] = girders.has_deflections(1);
+            points,
+            deflection_stride: (states.len() / most_deflections).max(1),
+            states,
         }
-        girders
+    }
+
+    /// The states of the structure at rows of the history.
+    fn states(&self, Rows { history, loads, foundations }: Rows<'_>, rows: &[usize]) -> LoadStates {
+        let ends: Vec<(usize, f64)> =
+            self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
+        LoadStates::new(history, loads, (self.s, foundations[self.s].dofs()), &ends, rows)
     }
 
     /// Extremes of all spans, at some of the rows.
     pub fn spans(&self, rows: Rows<'_>, choice: RowChoice, accuracy: f64) -> SpanExtremes {
         let chosen = self.chosen(rows, choice);
-        let girders = self.loaded(rows, &self.sections, &chosen);
-        let scan = Scan::new(&girders);
-        let sizes = scan.sizes;
-        let refinement = Refinement { girders: &girders, scan: &scan, sizes, accuracy };
-        let values = refinement.spans();
-        SpanExtremes { values, scan, sizes, chosen }
+        let few: Vec<usize> = chosen.coarse.iter().map(|index| chosen.rows[*index]).collect();
+        let states = self.states(rows, &chosen.rows);
+        let points = PointDeflections::new(&rows.foundations[self.s], &self.sections, &states);
+        let places = (&self.sections, &points);
+        let fine = self.loaded(rows, places, states, chosen.most_deflections);
+        let coarse = self.loaded(rows, places, self.states(rows, &few), chosen.most_deflections);
+        let [scan, few] = Scan::both(&fine, &coarse, &chosen.coarse);
+        let values = |girders: &LoadedGirders<'_>, scan: &Scan| {
+            Refinement { girders, scan, sizes: scan.sizes, accuracy }.spans()
+        };
+        let (values, coarse) = (values(&fine, &scan), values(&coarse, &few));
+        SpanExtremes { values, coarse, sizes: scan.sizes, scan, chosen }
     }
 
     /// The extremes as results, and the envelopes at all places and at those of the extremes.
@@ -187,21 +204,34 @@ impl<'a> PreparedGirders<'a> {
         found: &SpanExtremes,
         accuracy: f64,
     ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses) {
-        let sizes = found.sizes;
-        let girders = self.loaded(rows, &self.sections, &found.chosen);
+        let (sizes, most) = (found.sizes, found.chosen.most_deflections);
+        let (foundation, states) = (&rows.foundations[self.s], self.states(rows, &found.chosen.rows));
+        let points = PointDeflections::new(foundation, &self.sections, &states);
+        let girders = self.loaded(rows, (&self.sections, &points), states, most);
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let stresses = refinement.stresses(&found.values);
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
-        let girders = self.loaded(rows, &sections, &found.chosen);
-        let scan = Scan::new(&girders);
+        let states = girders.states;
+        let points = PointDeflections::new(foundation, &sections, &states);
+        let girders = self.loaded(rows, (&sections, &points), states, most);
+        let scan = Scan::of_sections(&girders);
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
         // places in order; quantities keep theirs
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
         (extremes, all, stresses)
     }
+}
+
+/// Every so many of the rows, and the last one.
+fn every(rows: &[usize], stride: usize) -> Vec<usize> {
+    let mut out: Vec<usize> = rows.iter().copied().step_by(stride).collect();
+    if out.last() != rows.last() {
+        out.extend(rows.last());
+    }
+    out
 }
 
 /// An extreme of a span as a result.

@@ -1,7 +1,10 @@
 //! Loads on rails by wheels and end stops at one output time, and the displacements of the rails under these loads.
 
+use std::ops::Range;
+
 use sim::{Channel, Foundation, History};
-use splines::{Axis, Error, Probe};
+use splines::{Axis, Error, PlaceDisplacements, Probe};
+use trains::RailLoad;
 
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
@@ -24,85 +27,75 @@ pub struct WheelLoad {
 ///
 /// The force of a prescribed motion does not act on a rail and is not included.
 pub struct WheelLoadReader {
-    wheels: Vec<Wheel>,
-    stops: Vec<Stop>,
+    sources: Vec<LoadSource>,
 }
 
-struct Stop {
-    channel: usize,
+/// Where the load of a wheel or of an end stop is read from.
+#[derive(Clone, Debug)]
+pub(crate) struct LoadSource {
     structure: usize,
     rail: usize,
-    x: f64,
-    /// 1 where the body approaches from smaller x, -1 from larger x.
-    side: f64,
+    /// Consecutive channels: position, vertical, lateral and traction of a wheel, or the force of a stop.
+    channels: Range<usize>,
+    /// Coordinate of a stop, and 1 where the body approaches from smaller x, -1 from larger x; `None` for a wheel.
+    stop: Option<[f64; 2]>,
 }
 
-struct Wheel {
-    structure: usize,
-    rail: usize,
-    /// First of four consecutive channels: position, vertical, lateral, traction.
-    first: usize,
+impl LoadSource {
+    /// Its channels: those of the position, and those of the forces.
+    pub fn channels(&self) -> [Range<usize>; 2] {
+        let Range { start, end } = self.channels.clone();
+        let forces = start + usize::from(self.stop.is_none());
+        [start..forces, forces..end]
+    }
+
+    /// The load by the values of its channels.
+    pub fn load(&self, values: &[f64]) -> RailLoad {
+        let (x, force) = match self.stop {
+            Some([x, side]) => (x, [side * values[0], 0.0, 0.0]),
+            None => (values[0], [values[3], 0.0 - values[1], values[2]]),
+        };
+        RailLoad { rail: self.rail, x, force }
+    }
 }
 
 impl WheelLoadReader {
     /// A reader for every wheel of `input`, in its order, and for the end stops of `scene` that stand on rails.
     #[must_use]
     pub fn new(scene: &Scene, input: &SimulationInput, history: &History) -> WheelLoadReader {
-        let channel = |wanted: Channel| history.channels().iter().position(|c| *c == wanted);
         let wheels = input.wheels.iter().enumerate().map(|(w, wheel)| {
             let rail = &scene.rails[wheel.rail];
-            Wheel {
-                structure: rail.structure,
-                rail: rail.rail,
-                first: channel(Channel::Position(w)).unwrap_or_default(),
-            }
+            let first = history.position(Channel::Position(w)).unwrap_or_default();
+            LoadSource { structure: rail.structure, rail: rail.rail, channels: first..first + 4, stop: None }
         });
         let meetings =
             scene.stops.iter().flat_map(|stop| stop.points.iter().map(move |meeting| (stop, meeting)));
         let stops = meetings.enumerate().filter_map(|(index, (stop, meeting))| {
             let rail = &scene.rails[stop.rail?];
-            Some(Stop {
-                channel: channel(Channel::Stop(index))?,
+            let channel = history.position(Channel::Stop(index))?;
+            Some(LoadSource {
                 structure: rail.structure,
                 rail: rail.rail,
-                x: stop.place.clamp(rail.range[0], rail.range[1]),
-                side: meeting.side,
+                channels: channel..channel + 1,
+                stop: Some([stop.place.clamp(rail.range[0], rail.range[1]), meeting.side]),
             })
         });
-        WheelLoadReader { wheels: wheels.collect(), stops: stops.collect() }
+        WheelLoadReader { sources: wheels.chain(stops).collect() }
     }
 
-    /// The channels that the loads are read from.
-    pub(crate) fn channels(&self) -> Vec<usize> {
-        let wheels = self.wheels.iter().flat_map(|wheel| wheel.first..wheel.first + 4);
-        wheels.chain(self.stops.iter().map(|stop| stop.channel)).collect()
-    }
-
-    /// The channels that the loads on a structure are read from: those of positions, and those of forces.
-    pub(crate) fn channels_on(&self, structure: usize) -> [Vec<usize>; 2] {
-        let wheels = self.wheels.iter().filter(|wheel| wheel.structure == structure);
-        let stops = self.stops.iter().filter(|stop| stop.structure == structure);
-        let forces = wheels.clone().flat_map(|wheel| wheel.first + 1..wheel.first + 4);
-        [wheels.map(|wheel| wheel.first).collect(), forces.chain(stops.map(|stop| stop.channel)).collect()]
+    /// Where the loads on a structure are read from, in their order.
+    pub(crate) fn on(&self, structure: usize) -> impl Iterator<Item = &LoadSource> + Clone {
+        self.sources.iter().filter(move |source| source.structure == structure)
     }
 
     /// Loads of all wheels at a sample of the history, in their order, then those of the end stops.
     #[must_use]
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
-        let mut loads: Vec<WheelLoad> = self
-            .wheels
-            .iter()
-            .map(|wheel| {
-                let [x, vertical, lateral, traction] = std::array::from_fn(|k| sample[wheel.first + k]);
-                let force = [traction, 0.0 - vertical, lateral];
-                WheelLoad { structure: wheel.structure, rail: wheel.rail, x, force }
-            })
-            .collect();
-        loads.extend(self.stops.iter().map(|stop| {
-            let force = [stop.side * sample[stop.channel], 0.0, 0.0];
-            WheelLoad { structure: stop.structure, rail: stop.rail, x: stop.x, force }
-        }));
-        loads
+        let load = |source: &LoadSource| {
+            let RailLoad { rail, x, force } = source.load(&sample[source.channels.clone()]);
+            WheelLoad { structure: source.structure, rail, x, force }
+        };
+        self.sources.iter().map(load).collect()
     }
 }
 
@@ -147,7 +140,9 @@ impl LoadedStructure<'_> {
         let foundation = &self.built.foundation;
         let sample = self.history.sample(row);
         let q = self.start().map_or(&[][..], |at| &sample[at..at + foundation.dofs()]);
-        match displacements(foundation, probes, on, q) {
+        let loads: Vec<RailLoad> =
+            on.iter().map(|&WheelLoad { rail, x, force, .. }| RailLoad { rail, x, force }).collect();
+        match displacements(foundation, probes, &loads, q) {
             Ok(moved) => Ok(Some(moved)),
             Err(Error::NoStiffness { .. }) => Ok(None),
             Err(error) => Err(error),
@@ -171,23 +166,19 @@ pub(crate) fn spread(count: usize, most: usize) -> impl Iterator<Item = usize> {
 pub(crate) fn displacements(
     foundation: &Foundation,
     probes: &[Probe],
-    loads: &[WheelLoad],
+    loads: &[RailLoad],
     q: &[f64],
 ) -> Result<Vec<f64>, Error> {
     let mut out = vec![0.0; probes.len()];
     if let Some(compliance) = &foundation.compliance {
-        let mut forces = Vec::new();
-        for load in loads {
-            for (axis, force) in
-                [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force)
-            {
-                if force != 0.0 && (axis != Axis::Longitudinal || foundation.is_loaded_along) {
-                    forces.push((Probe { rail: load.rail, x: load.x, axis }, force));
-                }
-            }
-        }
-        compliance.displacements(probes, &forces, &mut out)?;
+        compliance.displacements(probes, &components(loads, foundation.is_loaded_along), &mut out)?;
     }
+    add_motions(foundation, probes, q, &mut out)?;
+    Ok(out)
+}
+
+/// Adds Phi q at the probes.
+fn add_motions(foundation: &Foundation, probes: &[Probe], q: &[f64], out: &mut [f64]) -> Result<(), Error> {
     if let (Some(structure), false) = (&foundation.structure, q.is_empty()) {
         let (mut value, mut slope) = (vec![0.0; q.len()], vec![0.0; q.len()]);
         for (out, probe) in out.iter_mut().zip(probes) {
@@ -195,5 +186,66 @@ pub(crate) fn displacements(
             *out += value.iter().zip(q).map(|(phi, q)| phi * q).sum::<f64>();
         }
     }
-    Ok(out)
+    Ok(())
+}
+
+/// The components of loads that are not zero; those along the rails only where the structure is loaded along them.
+fn components(loads: &[RailLoad], is_loaded_along: bool) -> Vec<(Probe, f64)> {
+    let mut out = Vec::with_capacity(3 * loads.len());
+    for load in loads {
+        for (axis, force) in [Axis::Longitudinal, Axis::Vertical, Axis::Lateral].into_iter().zip(load.force) {
+            if force != 0.0 && (axis != Axis::Longitudinal || is_loaded_along) {
+                out.push((Probe { rail: load.rail, x: load.x, axis }, force));
+            }
+        }
+    }
+    out
+}
+
+/// The same displacements of fixed places, prepared for many loads and motions.
+pub(crate) struct PlaceMotions<'a> {
+    foundation: &'a Foundation,
+    compliance: Option<Box<dyn PlaceDisplacements + 'a>>,
+    /// Phi: for each degree of freedom the values at all places.
+    shapes: Vec<f64>,
+    count: usize,
+}
+
+impl<'a> PlaceMotions<'a> {
+    /// The places of `probes` on a structure.
+    ///
+    /// # Errors
+    /// A probe beyond its rail, or in a direction in which the structure is unrestrained.
+    pub fn new(foundation: &'a Foundation, probes: &[Probe]) -> Result<PlaceMotions<'a>, Error> {
+        let compliance = foundation.compliance.as_ref().map(|own| own.at_places(probes)).transpose()?;
+        let (count, dofs) = (probes.len(), foundation.dofs());
+        let mut shapes = vec![0.0; dofs * count];
+        if let Some(structure) = &foundation.structure {
+            let (mut value, mut slope) = (vec![0.0; dofs], vec![0.0; dofs]);
+            for (k, probe) in probes.iter().enumerate() {
+                structure.shapes.row(*probe, &mut value, &mut slope)?;
+                shapes.iter_mut().skip(k).step_by(count).zip(&value).for_each(|(own, value)| *own = *value);
+            }
+        }
+        Ok(PlaceMotions { foundation, compliance, shapes, count })
+    }
+
+    /// The displacements under loads, with the degrees of freedom `q`, none where they are not known; then those of the
+    /// probes `also`, which may be others at each call.
+    ///
+    /// # Errors
+    /// A load or a probe beyond its rail, or in a direction in which the structure is unrestrained.
+    pub fn under(&self, loads: &[RailLoad], q: &[f64], also: &[Probe]) -> Result<Vec<f64>, Error> {
+        let mut out = vec![0.0; self.count + also.len()];
+        let foundation = self.foundation;
+        if let Some(compliance) = &self.compliance {
+            compliance.under(&components(loads, foundation.is_loaded_along), also, &mut out)?;
+        }
+        let (fixed, others) = out.split_at_mut(self.count);
+        for (q, own) in q.iter().zip(self.shapes.chunks(self.count.max(1))) {
+            fixed.iter_mut().zip(own).for_each(|(sum, phi)| *sum += phi * q);
+        }
+        add_motions(foundation, also, q, others)?;
+        Ok(out)
+    }
 }

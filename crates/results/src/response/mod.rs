@@ -18,8 +18,8 @@ pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
 pub(crate) use influence::{dead_load, inertia};
+pub(crate) use loaded::{LoadSource, PlaceMotions, displacements, spread};
 pub use loaded::{WheelLoad, WheelLoadReader};
-pub(crate) use loaded::{displacements, spread};
 pub use modes::SceneMode;
 pub use serviceability::{Deflection, Drift};
 

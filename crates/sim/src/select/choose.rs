@@ -94,6 +94,8 @@ struct Trial {
     record: Record,
     /// The accuracy of the run.
     accuracy: f64,
+    /// Its number, from 1.
+    number: usize,
 }
 
 impl Trial {
@@ -124,8 +126,9 @@ struct Open {
     structure: usize,
     tolerance: f64,
     basis: ModalBasis,
-    /// Estimates from the wheel forces of the last run.
+    /// Estimates from the wheel forces of the last run, the number of this run, and the number of modes.
     tails: Vec<TailError>,
+    tails_of: Option<(usize, usize)>,
     /// Index of its choice.
     choice: usize,
 }
@@ -206,7 +209,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             match self.provider.modes(structure, MODES[0]) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > 0 => {
                     let (tolerance, tails) = (tolerance.value, Vec::new());
-                    open.push(Open { structure, tolerance, basis, tails, choice });
+                    open.push(Open { structure, tolerance, basis, tails, tails_of: None, choice });
                 }
                 // no mode that wheels excite: nothing of the mass moves
                 Ok(Some(_)) => {
@@ -242,7 +245,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let history = run.history.clone().every(self.scene.output_parts, is_ended);
             record = self.provider.observe(&history)?;
         }
-        Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record, accuracy })
+        Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record, accuracy, number: self.runs })
     }
 
     /// Steps 2 to 4 of the head of this module, from the run `first` with influence functions.
@@ -459,15 +462,18 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         limit: f64,
     ) {
         loop {
-            let loaded = Loaded {
-                scene: &self.scene,
-                structure: own.structure,
-                foundations: compliances,
-                history: &trial.run.history,
-                record: &trial.record,
-            };
-            own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
             let known = own.basis.structure.dynamics.dofs();
+            if own.tails_of != Some((trial.number, known)) {
+                let loaded = Loaded {
+                    scene: &self.scene,
+                    structure: own.structure,
+                    foundations: compliances,
+                    history: &trial.run.history,
+                    record: &trial.record,
+                };
+                own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
+                own.tails_of = Some((trial.number, known));
+            }
             let found = own.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
             let is_known = found.is_some_and(|tail| BEYOND * tail.kept as f64 <= known as f64);
             if is_known || own.basis.is_whole || known >= MODES[1] {

@@ -268,6 +268,11 @@ impl<T: RealNumber> ClampedElement<T> {
 }
 
 impl ClampedElement {
+    /// A unit force along rail direction `axis` in the member's own axes.
+    pub fn load(&self, axis: usize) -> &AxisLoad {
+        &self.loads[axis]
+    }
+
     /// [`ClampedElement::value`] with its first derivatives by s and t.
     #[inline(always)]
     pub fn pair(

@@ -3,18 +3,14 @@
 use super::element::RailElement;
 use super::load::AxisLoad;
 
-/// Displacement of the rail along rail direction `axis` at the place `s` of the member, and its derivative by s, under
+/// Displacement of the rail along the direction of `load` at the place `s` of the member, and its derivative by s, under
 /// a uniform load of intensity one along the local y axis of the member, then along its local z axis, with both ends
 /// of the member clamped:
 ///
 /// w = s^2 (l - s)^2/(24 EI) + s (l - s)/(2 GAs),    rotation = s (l - s) (l - 2 s)/(12 EI)
 ///
 /// Zero in planes without stiffness.
-pub(crate) fn uniform_load(element: &RailElement, axis: usize, s: f64) -> [[f64; 2]; 2] {
-    if element.is_rigid_arm() {
-        return [[0.0; 2]; 2];
-    }
-    let load = AxisLoad::new(element, &element.member_axes(), axis);
+pub(crate) fn uniform_load(element: &RailElement, load: &AxisLoad, s: f64) -> [[f64; 2]; 2] {
     let f = &element.flexibility;
     let l = element.length;
     let (rest, middle) = (l - s, l - 2.0 * s);

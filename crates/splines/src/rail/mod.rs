@@ -20,7 +20,7 @@ mod shape;
 mod track;
 
 pub use element::{ElementMember, Flexibility, RailElement};
-pub(crate) use element::{IDENTITY, LocalPlace};
+pub(crate) use element::{IDENTITY, LocalPlace, MemberPlace};
 pub use functions::ElementFunctions;
 pub(crate) use member_motion::EndForm;
 pub use member_motion::MemberMotion;

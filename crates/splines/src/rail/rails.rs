@@ -211,11 +211,6 @@ impl Rails {
         Ok(self.cubics(span.element, axis).planar.as_ref().map(found))
     }
 
-    /// The element that carries a probe, the place in it, and 1/(its extent in x).
-    pub(crate) fn place(&self, p: Probe) -> Result<(usize, LocalPlace, f64), Error> {
-        self.stiff_span(p).map(|span| (span.element, span.local(p.x), span.scale))
-    }
-
     /// The rows at both ends of an element along a rail direction; slopes by the fraction of the element.
     pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [ShapeRow; 2] {
         [0, 1].map(|end| {
@@ -258,10 +253,16 @@ impl Rails {
     /// As [`Rails::row`].
     pub fn uniform_load(&self, p: Probe) -> Result<(usize, [[f64; 2]; 2]), Error> {
         let span = self.stiff_span(p)?;
+        Ok((span.element, self.uniform_load_on(span, p)))
+    }
+
+    /// The displacements of [`Rails::uniform_load`] where the element that carries the probe is known.
+    pub(crate) fn uniform_load_on(&self, span: &Span, p: Probe) -> [[f64; 2]; 2] {
+        let Some(clamped) = self.clamped(span.element) else { return [[0.0; 2]; 2] };
         let s = span.local(p.x).on_member(span.length, span.reversed).s;
         let rate = if span.reversed { -span.length * span.scale } else { span.length * span.scale };
-        let out = uniform_load(&self.elements[span.element], p.axis.component(), s);
-        Ok((span.element, out.map(|[value, slope]| [value, slope * rate])))
+        let out = uniform_load(&self.elements[span.element], clamped.load(p.axis.component()), s);
+        out.map(|[value, slope]| [value, slope * rate])
     }
 
     /// Displacement at a probe along its axis by a motion of the member that carries it, and its derivative by the rail
@@ -404,7 +405,7 @@ impl Rails {
 
     /// The element that carries a probe, if it has stiffness along the probe's axis.
     #[inline]
-    fn stiff_span(&self, p: Probe) -> Result<&Span, Error> {
+    pub(crate) fn stiff_span(&self, p: Probe) -> Result<&Span, Error> {
         let span = self.span(p.rail, p.x)?;
         if self.prepared[span.element].without_stiffness[p.axis.component()] {
             return Err(Error::NoStiffness { rail: p.rail, x: p.x, axis: p.axis });

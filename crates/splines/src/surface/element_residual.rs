@@ -1,6 +1,6 @@
 //! A surface less what deflections of members under uniform loads account for.
 
-use crate::compliance::{Compliance, Influence};
+use crate::compliance::{Compliance, Influence, PlaceDisplacements};
 use crate::error::Error;
 use crate::probe::Probe;
 
@@ -32,7 +32,29 @@ impl ElementResidual {
         let is_less = squares.iter().flatten().any(|&square| square != 0.0);
         ElementResidual { whole, squares, is_less }
     }
+
+    fn deflections(&self, at: &[Probe]) -> Result<Vec<Deflection>, Error> {
+        at.iter().map(|probe| self.whole.rails().uniform_load(*probe)).collect()
+    }
+
+    /// Takes the part of the motions from displacements of places under loads.
+    fn take(&self, places: &[Deflection], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        let rails = self.whole.rails();
+        for (probe, force) in loads {
+            let (own, other) = rails.uniform_load(*probe)?;
+            let squares = self.squares.get(own).copied().unwrap_or_default();
+            for ((element, one), out) in places.iter().zip(out.iter_mut()) {
+                if rails.clamped_on_one_member(*element, own).is_some() {
+                    *out -= force * (0..2).map(|k| squares[k] * one[k][0] * other[k][0]).sum::<f64>();
+                }
+            }
+        }
+        Ok(())
+    }
 }
+
+/// The element of a place, and the deflections there under both uniform loads, with slopes.
+type Deflection = (usize, [[f64; 2]; 2]);
 
 impl Compliance for ElementResidual {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
@@ -61,22 +83,15 @@ impl Compliance for ElementResidual {
 
     fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
         self.whole.displacements(at, loads, out)?;
+        if self.is_less { self.take(&self.deflections(at)?, loads, out) } else { Ok(()) }
+    }
+
+    fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
+        let whole = self.whole.at_places(at)?;
         if !self.is_less {
-            return Ok(());
+            return Ok(whole);
         }
-        let rails = self.whole.rails();
-        let loaded = loads.iter().map(|(probe, force)| Ok((rails.uniform_load(*probe)?, *force)));
-        let loaded = loaded.collect::<Result<Vec<_>, Error>>()?;
-        for (&p, out) in at.iter().zip(out) {
-            let (element, one) = rails.uniform_load(p)?;
-            for ((own, other), force) in &loaded {
-                if rails.clamped_on_one_member(element, *own).is_some() {
-                    let squares = self.squares.get(*own).copied().unwrap_or_default();
-                    *out -= force * (0..2).map(|k| squares[k] * one[k][0] * other[k][0]).sum::<f64>();
-                }
-            }
-        }
-        Ok(())
+        Ok(Box::new(LesserPlaces { of: self, whole, deflections: self.deflections(at)? }))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {
@@ -89,5 +104,21 @@ impl Compliance for ElementResidual {
 
     fn is_symmetric(&self) -> bool {
         self.whole.is_symmetric()
+    }
+}
+
+/// Fixed places with the deflections there.
+struct LesserPlaces<'a> {
+    of: &'a ElementResidual,
+    whole: Box<dyn PlaceDisplacements + 'a>,
+    deflections: Vec<Deflection>,
+}
+
+impl PlaceDisplacements for LesserPlaces<'_> {
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        self.whole.under(loads, also, out)?;
+        let (out, others) = out.split_at_mut(self.deflections.len());
+        self.of.take(&self.deflections, loads, out)?;
+        self.of.take(&self.of.deflections(also)?, loads, others)
     }
 }

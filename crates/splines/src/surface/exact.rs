@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use super::places::{SurfacePlaces, restrained_row};
 use super::planar::{self, PlanarProbe};
-use crate::compliance::{Compliance, Differentiable, Influence, Partials};
+use crate::compliance::{Compliance, Differentiable, Influence, Partials, PlaceDisplacements};
 use crate::error::Error;
 use crate::probe::Probe;
 use crate::rail::{Rails, ShapeRow};
@@ -192,14 +193,7 @@ impl ExactSurface {
 
     /// The shape row of a probe in whose direction the structure has stiffness.
     pub(super) fn restrained_row(&self, at: Probe) -> Result<ShapeRow, Error> {
-        let mut row = ShapeRow::EMPTY;
-        self.rails.row_into(at, &mut row)?;
-        let is_free =
-            |(&dof, value): (&usize, &f64)| *value != 0.0 && self.nodal[(dof, dof)] == f64::INFINITY;
-        if row.indices().iter().zip(row.values()).any(is_free) {
-            return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
-        }
-        Ok(row)
+        restrained_row(&self.rails, &self.nodal, at)
     }
 
     /// Adds Green's function between probes in one element and mirrors the values.
@@ -316,6 +310,10 @@ impl Compliance for ExactSurface {
             *out = nodal + own.sum::<f64>();
         }
         Ok(())
+    }
+
+    fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
+        Ok(Box::new(SurfacePlaces::new(&self.rails, &self.nodal, at)?))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {

@@ -1,8 +1,8 @@
 //! Compliance surfaces that follow from the elements of rails and the compliance of their node states: exact
 //! influence coefficients, and what is derived from them.
 //!
-//! Order: `planar` (the fast path of the exact surface), `exact`, `displacement_lines` (displacements of
-//! fixed places under loads anywhere), `effects` (reactions and internal forces),
+//! Order: `planar` (the fast path of the exact surface), `places` (displacements of fixed places under loads that change),
+//! `exact`, `displacement_lines` (displacements of fixed places under unit loads anywhere), `effects` (reactions and internal forces),
 //! `shapes` (given motions of the rails), `residual` (a surface less what such motions account for),
 //! `element_residual` (the same for deflections of single members),
 //! `uncoupled` (a compliance without some of its couplings).
@@ -11,6 +11,7 @@ mod displacement_lines;
 mod effects;
 mod element_residual;
 mod exact;
+mod places;
 mod planar;
 mod residual;
 mod shapes;

@@ -1,6 +1,6 @@
 //! Residual flexibility: a surface less what given motions account for.
 
-use crate::compliance::{Compliance, Influence};
+use crate::compliance::{Compliance, Influence, PlaceDisplacements};
 use crate::error::Error;
 use crate::probe::Probe;
 use crate::vector::dot;
@@ -78,8 +78,11 @@ impl Compliance for ResidualFlexibility {
         for (j, other) in values.chunks_exact(count).enumerate() {
             let rows = values.chunks_exact(count).zip(slopes.chunks_exact(count));
             for (i, (value, slope)) in rows.enumerate() {
-                out.value[(i, j)] -= dot(value, other);
                 out.slope[(i, j)] -= dot(slope, other);
+                if i >= j {
+                    out.value[(i, j)] -= dot(value, other);
+                    out.value[(j, i)] = out.value[(i, j)];
+                }
             }
         }
         Ok(())
@@ -87,18 +90,23 @@ impl Compliance for ResidualFlexibility {
 
     fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
         self.whole.displacements(at, loads, out)?;
-        let count = self.taken.count();
-        let (mut value, mut slope) = (vec![0.0; count], vec![0.0; count]);
-        let mut taken = vec![0.0; count];
-        for (probe, force) in loads {
-            self.taken.row(*probe, &mut value, &mut slope)?;
-            taken.iter_mut().zip(&value).for_each(|(sum, shape)| *sum += shape * force);
-        }
+        let taken = self.taken.under(loads)?;
+        let (mut value, mut slope) = (vec![0.0; taken.len()], vec![0.0; taken.len()]);
         for (probe, out) in at.iter().zip(out) {
             self.taken.row(*probe, &mut value, &mut slope)?;
             *out -= dot(&value, &taken);
         }
         Ok(())
+    }
+
+    fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
+        let count = self.taken.count();
+        let mut slope = vec![0.0; count];
+        let mut shapes = vec![0.0; count * at.len()];
+        for (probe, value) in at.iter().zip(shapes.chunks_mut(count.max(1))) {
+            self.taken.row(*probe, value, &mut slope)?;
+        }
+        Ok(Box::new(ResidualPlaces { whole: self.whole.at_places(at)?, taken: &self.taken, shapes }))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {
@@ -111,5 +119,30 @@ impl Compliance for ResidualFlexibility {
 
     fn is_symmetric(&self) -> bool {
         self.whole.is_symmetric()
+    }
+}
+
+/// Fixed places with the values of the shapes there.
+struct ResidualPlaces<'a> {
+    whole: Box<dyn PlaceDisplacements + 'a>,
+    taken: &'a RailShapes,
+    /// Place by place.
+    shapes: Vec<f64>,
+}
+
+impl PlaceDisplacements for ResidualPlaces<'_> {
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        self.whole.under(loads, also, out)?;
+        let taken = self.taken.under(loads)?;
+        let (out, others) = out.split_at_mut(out.len() - also.len());
+        for (own, out) in self.shapes.chunks(taken.len().max(1)).zip(out) {
+            *out -= dot(own, &taken);
+        }
+        let (mut value, mut slope) = (vec![0.0; taken.len()], vec![0.0; taken.len()]);
+        for (probe, out) in also.iter().zip(others) {
+            self.taken.row(*probe, &mut value, &mut slope)?;
+            *out -= dot(&value, &taken);
+        }
+        Ok(())
     }
 }

@@ -125,16 +125,28 @@ impl RailShapes {
     /// # Errors
     /// A probe beyond its rail, or in a direction that nothing resists.
     pub fn row(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
-        let (element, place, scale) = self.rails.place(at)?;
+        let span = self.rails.stiff_span(at)?;
         let count = self.count();
         if count == 0 {
             return Ok(());
         }
         let axis = at.axis.component();
-        let of = self.elements[element][axis].get_or_init(|| self.along(element, axis));
-        let reversed = self.rails.elements()[element].is_reversed();
+        let of = self.elements[span.element][axis].get_or_init(|| self.along(span.element, axis));
+        let reversed = self.rails.elements()[span.element].is_reversed();
+        let (place, scale) = (span.local(at.x), span.scale);
         of.fill(count, hermite(place, scale), || quotient_weights(place, reversed, scale), value, slope);
         Ok(())
+    }
+
+    /// Sum over the loads of force times displacement of each shape.
+    pub(super) fn under(&self, loads: &[(Probe, f64)]) -> Result<Vec<f64>, Error> {
+        let mut out = vec![0.0; self.count()];
+        let (mut value, mut slope) = (out.clone(), out.clone());
+        for (probe, force) in loads {
+            self.row(*probe, &mut value, &mut slope)?;
+            out.iter_mut().zip(&value).for_each(|(sum, shape)| *sum += shape * force);
+        }
+        Ok(out)
     }
 
     /// All shapes along an element.

@@ -1,6 +1,6 @@
 //! A compliance without some of its couplings, as in models that treat each rail or each direction alone.
 
-use crate::compliance::{Compliance, Influence};
+use crate::compliance::{Compliance, Influence, PlaceDisplacements};
 use crate::error::Error;
 use crate::probe::Probe;
 
@@ -69,6 +69,60 @@ impl<C: Compliance> Uncoupled<C> {
     pub const fn new(whole: C, couplings: Couplings) -> Self {
         Uncoupled { whole, couplings }
     }
+
+    /// Indices of the probes in groups between which no couplings are kept.
+    fn groups(&self, at: &[Probe]) -> Vec<Vec<usize>> {
+        let mut out: Vec<Vec<usize>> = Vec::new();
+        for (i, probe) in at.iter().enumerate() {
+            match out.iter_mut().find(|group| self.couplings.keep(&at[group[0]], probe)) {
+                Some(group) => group.push(i),
+                None => out.push(vec![i]),
+            }
+        }
+        out
+    }
+
+    /// The loads whose couplings with a probe are kept.
+    fn loads_of(&self, probe: &Probe, loads: &[(Probe, f64)]) -> Vec<(Probe, f64)> {
+        loads.iter().filter(|load| self.couplings.keep(probe, &load.0)).copied().collect()
+    }
+}
+
+/// Fixed places, group by group.
+struct UncoupledPlaces<'a, C> {
+    of: &'a Uncoupled<C>,
+    groups: Vec<PlaceGroup<'a>>,
+}
+
+struct PlaceGroup<'a> {
+    /// One of its probes.
+    first: Probe,
+    places: Box<dyn PlaceDisplacements + 'a>,
+    /// Indices of its places among all.
+    indices: Vec<usize>,
+}
+
+impl<C: Compliance> PlaceDisplacements for UncoupledPlaces<'_, C> {
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        let count = out.len() - also.len();
+        let mut is_done = vec![false; also.len()];
+        for PlaceGroup { first, places, indices } in &self.groups {
+            let own: Vec<usize> =
+                (0..also.len()).filter(|i| self.of.couplings.keep(first, &also[*i])).collect();
+            let others: Vec<Probe> = own.iter().map(|i| also[*i]).collect();
+            let mut values = vec![0.0; indices.len() + own.len()];
+            places.under(&self.of.loads_of(first, loads), &others, &mut values)?;
+            let all = indices.iter().copied().chain(own.iter().map(|i| count + i));
+            all.zip(values).for_each(|(i, value)| out[i] = value);
+            own.into_iter().for_each(|i| is_done[i] = true);
+        }
+        // probes that no place is coupled with
+        for i in (0..also.len()).filter(|i| !is_done[*i]) {
+            let on = self.of.loads_of(&also[i], loads);
+            self.of.whole.displacements(&also[i..=i], &on, &mut out[count + i..=count + i])?;
+        }
+        Ok(())
+    }
 }
 
 impl<C: Compliance> Compliance for Uncoupled<C> {
@@ -86,22 +140,23 @@ impl<C: Compliance> Compliance for Uncoupled<C> {
 
     /// Each group of probes between which couplings are kept, with the loads in it, is evaluated on its own.
     fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
-        let mut is_done = vec![false; at.len()];
-        for first in 0..at.len() {
-            if is_done[first] {
-                continue;
-            }
-            let kept = |probe: &Probe| self.couplings.keep(&at[first], probe);
-            let group: Vec<usize> = (first..at.len()).filter(|i| kept(&at[*i])).collect();
+        for group in self.groups(at) {
             let places: Vec<Probe> = group.iter().map(|i| at[*i]).collect();
-            let on: Vec<(Probe, f64)> = loads.iter().filter(|load| kept(&load.0)).copied().collect();
+            let on = self.loads_of(&places[0], loads);
             let mut own = vec![0.0; places.len()];
             self.whole.displacements(&places, &on, &mut own)?;
-            for (i, value) in group.into_iter().zip(own) {
-                (out[i], is_done[i]) = (value, true);
-            }
+            group.into_iter().zip(own).for_each(|(i, value)| out[i] = value);
         }
         Ok(())
+    }
+
+    fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
+        let prepared = |indices: Vec<usize>| {
+            let places: Vec<Probe> = indices.iter().map(|i| at[*i]).collect();
+            Ok(PlaceGroup { first: places[0], places: self.whole.at_places(&places)?, indices })
+        };
+        let groups = self.groups(at).into_iter().map(prepared).collect::<Result<_, Error>>()?;
+        Ok(Box::new(UncoupledPlaces { of: self, groups }))
     }
 
     fn breaks(&self, rail: usize) -> Vec<f64> {

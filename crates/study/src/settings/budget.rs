@@ -70,7 +70,7 @@ impl StudyBudget {
             steps: vec![256, 1024],
             modes: vec![1, 2, 4, 8],
             elements: vec![1, 2],
-            parts: vec![2, 8, 32],
+            parts: vec![2, 8, 16],
             stations: vec![7, 19, 73],
             references: vec![(1e-4, 4), (1e-5, 8), (1e-6, 16)],
             meshes: vec![(1e-4, 2), (1e-5, 4)],
