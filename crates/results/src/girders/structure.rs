@@ -8,6 +8,7 @@ use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
 use super::instants::LoadStates;
 use super::kept_rows::kept_rows;
+use super::reactions::{GirderReaction, Reactions};
 use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
@@ -33,6 +34,7 @@ pub(super) struct PreparedGirders<'a> {
     members: &'a MemberForces,
     sections: Sections,
     distributed: DistributedForces,
+    reactions: Reactions,
 }
 
 /// The history of a run from which extremes are found.
@@ -97,7 +99,9 @@ impl<'a> PreparedGirders<'a> {
         let load = (scene.gravity, scene.output.dead_load);
         let distributed = DistributedForces::new(solved, built, members, &sections, load)
             .map_err(|source| failed(source.into()))?;
-        Ok(Some(PreparedGirders { scene, s, members, sections, distributed }))
+        let reactions = Reactions::new((scene, s), solved, built, members, load)
+            .map_err(|source| failed(source.into()))?;
+        Ok(Some(PreparedGirders { scene, s, members, sections, distributed, reactions }))
     }
 
     /// Index of the structure.
@@ -180,18 +184,19 @@ impl<'a> PreparedGirders<'a> {
         SpanExtremes { values, scan, sizes, chosen }
     }
 
-    /// The extremes as results, and the envelopes at all places and at those of the extremes.
+    /// The extremes of spans and reactions as results, and the envelopes at all places and at those of the extremes.
     pub fn results(
         &self,
         rows: Rows<'_>,
         found: &SpanExtremes,
         accuracy: f64,
-    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses) {
+    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses, Vec<GirderReaction>) {
         let sizes = found.sizes;
         let girders = self.loaded(rows, &self.sections, &found.chosen);
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let stresses = refinement.stresses(&found.values);
+        let reactions = refinement.reactions(&self.reactions);
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
@@ -200,7 +205,7 @@ impl<'a> PreparedGirders<'a> {
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
         // places in order; quantities keep theirs
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
-        (extremes, all, stresses)
+        (extremes, all, stresses, reactions)
     }
 }
 
