@@ -98,7 +98,7 @@ fn a_crane_rail_adds_its_height_and_its_mass() {
 }
 
 /// Hand calculation: 600 x 300 mm, flanges 20 mm, web 10 mm: A = 0.0176 m2, I_vertical = (0.3 * 0.6^3 - 0.29 * 0.56^3)/12,
-/// I_lateral = (0.04 * 0.3^3 + 0.56 * 0.01^3)/12. Numbers beside the shape win, and the mass is that of the density.
+/// I_lateral = (0.04 * 0.3^3 + 0.56 * 0.01^3)/12, J = sum of s t^3/3 over the centre lines, 0.58 m of the web. Numbers beside the shape win, and the mass is that of the density.
 #[test]
 fn a_girder_takes_the_dimensions_of_its_plates() {
     let folder = folder();
@@ -114,9 +114,10 @@ fn a_girder_takes_the_dimensions_of_its_plates() {
     };
     let (area, lateral) = (0.0176, (0.04 * 0.3f64.powi(3) + 0.56 * 0.01f64.powi(3)) / 12.0);
     let vertical = (0.3 * 0.6f64.powi(3) - 0.29 * 0.56f64.powi(3)) / 12.0;
+    let torsion = (0.6 * 0.02f64.powi(3) + 0.58 * 0.01f64.powi(3)) / 3.0;
     let by_hand = |vertical: f64, mass: f64| {
         spec(
-            json!({"A": area, "I_vertical": vertical, "I_lateral": lateral, "J": 1e-6, "mass_per_length": mass}),
+            json!({"A": area, "I_vertical": vertical, "I_lateral": lateral, "J": torsion, "mass_per_length": mass}),
         )
     };
     let (drawn, said) = solved(&folder, &spec(json!({"shape": shape, "density": 7.85})), &["--modes", "2"]);
