@@ -121,6 +121,17 @@ fn the_reaction_of_a_cantilever_is_in_equilibrium_with_wheels_weight_and_inertia
         println!("cantilever, {kind}: {value:.3} N, {exact:.3} N by equilibrium");
         assert!((value - exact).abs() < 2e-5 * WEIGHT, "{kind}: {value}, not {exact}");
     }
+    let response = &ran.outcomes[0].response;
+    for (column, envelope) in response.columns.iter().zip(&response.envelopes) {
+        let own = |is_max: bool| {
+            let all = ran.outcomes[0].girders.reactions.iter();
+            let mut own = all.filter(|own| own.is_max == is_max && own.column == column.name);
+            own.next().map(|own| own.value).expect("a reaction for every column of one")
+        };
+        let slack = 1e-9 * WEIGHT;
+        assert!(own(true) >= envelope.max.value - slack, "{}", column.name);
+        assert!(own(false) <= envelope.min.value + slack, "{}", column.name);
+    }
     assert!(most - weight > 1.05 * WEIGHT, "the car bounces: {most}");
 }
 

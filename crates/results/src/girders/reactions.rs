@@ -17,7 +17,7 @@ use super::instants::LoadState;
 use super::peaks::Peak;
 use super::refine::Refinement;
 use super::scan::SIGNS;
-use crate::response::{dead_load, inertia, relative_direction};
+use crate::response::{ColumnEnvelope, dead_load, inertia, relative_direction};
 use foundations::{BuiltFoundation, SolvedModel};
 
 /// Directions of the components of a load.
@@ -46,9 +46,22 @@ pub struct GirderReaction {
     pub dead: f64,
     /// Time.
     pub time: f64,
+    /// Name of the column that a history may have of it.
+    pub column: String,
 }
 
 impl GirderReaction {
+    /// Takes the extreme of the column of the history where it is larger: steps that are left out of the rows may be output
+    /// times.
+    pub(crate) fn extend_to(&mut self, columns: &[ColumnEnvelope]) {
+        let Some(known) = columns.iter().find(|known| known.column == self.column) else { return };
+        let (at, sign) = if self.is_max { (&known.max, 1.0) } else { (&known.min, -1.0) };
+        // equal values but for rounding keep their time
+        if sign * (at.value - self.value) > ROUNDING * at.value.abs() {
+            (self.value, self.time) = (at.value, at.time);
+        }
+    }
+
     /// The reaction as a row of the extremes of case `number`.
     #[must_use]
     pub fn json(&self, number: usize) -> Value {
@@ -69,6 +82,7 @@ impl GirderReaction {
 struct Reaction {
     structure: usize,
     support: String,
+    column: String,
     direction: Dof,
     relative: Option<Direction>,
     /// The supports and springs of which it is the sum, as rows of the influence lines.
@@ -113,9 +127,19 @@ impl Reactions {
                     if !parts.is_empty() {
                         let support = format!("{}.{}", structure.name, ground.name);
                         let relative = relative_direction(model, &solved.rails, direction);
+                        let column = format!("{support}.{}", spec.dof_word(direction));
                         let (dead, inertia) = (0.0, Vec::new());
                         let structure = s;
-                        all.push(Reaction { structure, support, direction, relative, parts, dead, inertia });
+                        all.push(Reaction {
+                            structure,
+                            support,
+                            column,
+                            direction,
+                            relative,
+                            parts,
+                            dead,
+                            inertia,
+                        });
                     }
                 }
             }
@@ -183,7 +207,7 @@ fn corners(lines: &InfluenceLines) -> Vec<(usize, f64)> {
     let elements = lines.rails().elements();
     let mut ordinates = vec![0.0; lines.len()];
     // Of each element and direction: values and slopes at both ends of the cubics through four ordinates.
-    let mut ends: Vec<Vec<[[f64; 2]; 2]>> = Vec::new();
+    let mut ends: Vec<Vec<EndValues>> = Vec::new();
     let mut sizes = vec![0.0_f64; lines.len()];
     for element in elements {
         let mut own = Vec::new();
@@ -209,7 +233,7 @@ fn corners(lines: &InfluenceLines) -> Vec<(usize, f64)> {
                 continue;
             }
             let lengths = [left, right].map(|element| element.x[1] - element.x[0]);
-            let differs = |(k, (left, right)): (usize, (&[[f64; 2]; 2], &[[f64; 2]; 2]))| {
+            let differs = |(k, (left, right)): (usize, (&EndValues, &EndValues))| {
                 let allowed = CORNER * sizes[k % sizes.len()];
                 let slope = (left[1][1] / lengths[0] - right[0][1] / lengths[1]).abs();
                 (left[1][0] - right[0][0]).abs() > allowed || slope * lengths[0].min(lengths[1]) > allowed
@@ -237,8 +261,11 @@ fn inside(element: &RailElement, fraction: f64) -> f64 {
     }
 }
 
+/// Value and slope at both ends of an element.
+type EndValues = [[f64; 2]; 2];
+
 /// Value and slope, per length of the element, at both ends of the cubic through the ordinates at [`FRACTIONS`].
-fn end_values([a, b, c, d]: [f64; 4]) -> [[f64; 2]; 2] {
+fn end_values([a, b, c, d]: [f64; 4]) -> EndValues {
     [
         [a, 0.5 * (-11.0 * a + 18.0 * b - 9.0 * c + 2.0 * d)],
         [d, 0.5 * (11.0 * d - 18.0 * c + 9.0 * b - 2.0 * a)],
@@ -247,6 +274,19 @@ fn end_values([a, b, c, d]: [f64; 4]) -> [[f64; 2]; 2] {
 
 /// A value of a reaction: sign times value, and the time counted in rows.
 type Found = (f64, f64);
+/// Before any value is known.
+const NONE: Found = (f64::NEG_INFINITY, 0.0);
+
+/// Keeps the larger values of both signs.
+fn keep_larger(known: &mut [[Found; 2]], values: &[f64], position: f64) {
+    for (known, value) in known.iter_mut().zip(values) {
+        for (known, sign) in known.iter_mut().zip(SIGNS) {
+            if sign * value > known.0 {
+                *known = (sign * value, position);
+            }
+        }
+    }
+}
 
 impl Refinement<'_> {
     /// The extremes of all reactions.
@@ -254,7 +294,8 @@ impl Refinement<'_> {
         let states = &self.girders.states;
         let count = reactions.all.len();
         let mut peaks = vec![[Peak::default(); 2]; count];
-        let mut passages: Vec<[Option<Found>; 2]> = vec![[None; 2]; count];
+        let mut rows = vec![[NONE; 2]; count];
+        let mut passages = vec![[NONE; 2]; count];
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
         let mut sizes = [0.0_f64; 2];
         let mut before: Option<LoadState> = None;
@@ -266,36 +307,40 @@ impl Refinement<'_> {
                 let size = &mut sizes[usize::from(reaction.direction >= Dof::Rx)];
                 *size = size.max(value.abs());
             }
+            keep_larger(&mut rows, &values, row as f64);
             if let Some(before) = &before {
                 for (position, state) in self.passed_corners(reactions, row - 1, [before, &state]) {
                     reactions.fill(&state, &mut ordinates, &mut values);
-                    for (found, value) in passages.iter_mut().zip(&values) {
-                        for (found, sign) in found.iter_mut().zip(SIGNS) {
-                            if found.is_none_or(|(known, _)| sign * value > known) {
-                                *found = Some((sign * value, position));
-                            }
-                        }
-                    }
+                    keep_larger(&mut passages, &values, position);
                 }
             }
             before = Some(state);
         }
         let mut out = Vec::new();
-        for (index, (mut peaks, passages)) in peaks.into_iter().zip(passages).enumerate() {
+        for (index, mut peaks) in peaks.into_iter().enumerate() {
             peaks.iter_mut().for_each(Peak::finish);
             let reaction = &reactions.all[index];
             let size = sizes[usize::from(reaction.direction >= Dof::Rx)];
             let most = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.value.abs()));
-            for (kind, (peak, passage)) in peaks.iter().zip(passages).enumerate() {
+            for (kind, peak) in peaks.iter().enumerate() {
+                let refined = |position: f64| {
+                    self.near_in_time(position, 1, &mut |position| {
+                        SIGNS[kind] * reactions.value(index, &states.at(position))
+                    })
+                };
                 let mut found = (peak.value, peak.row as f64);
                 // a value that is only rounding has no crest
                 if most > ROUNDING * size {
-                    found = self.near_in_time(found.1, 1, &mut |position| {
-                        SIGNS[kind] * reactions.value(index, &states.at(position))
-                    });
+                    found = refined(found.1);
+                    // the crest beside the row of the largest value may be lower than the parabola of the peak says
+                    if rows[index][kind].0 > found.0 + ROUNDING * size {
+                        found = refined(rows[index][kind].1);
+                    }
                 }
-                let larger = passage.filter(|(value, _)| *value > found.0 + ROUNDING * size);
-                let (signed, position) = larger.unwrap_or(found);
+                if passages[index][kind].0 > found.0 + ROUNDING * size {
+                    found = passages[index][kind];
+                }
+                let (signed, position) = found;
                 let value = if signed.abs() <= ROUNDING * size { 0.0 } else { SIGNS[kind] * signed };
                 out.push(GirderReaction {
                     structure: reaction.structure,
@@ -306,6 +351,7 @@ impl Refinement<'_> {
                     value: value + 0.0,
                     dead: reaction.dead + 0.0,
                     time: states.at(position).time,
+                    column: reaction.column.clone(),
                 });
             }
         }

@@ -225,10 +225,9 @@ impl InfluenceLines {
         }
         let element = &self.rails.elements()[row.element];
         let carrier = element.member.filter(|_| !element.is_rigid_arm());
-        if let (Some(carrier), Some(section)) = (carrier, section) {
-            if section.member == carrier.id {
-                sum += MemberLoad::new(element, at, &row).with_ends_held(section);
-            }
+        let own = carrier.zip(section.as_ref()).filter(|(carrier, section)| section.member == carrier.id);
+        if let Some((_, section)) = own {
+            sum += MemberLoad::new(element, at, &row).with_ends_held(section);
         }
         if sum.is_finite() {
             Ok(sum)
