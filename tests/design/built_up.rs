@@ -151,6 +151,7 @@ fn lateral_limits_count_where_vertical_forces_bend_sideways() {
     let found = solved(&spec, &design);
     let rows = lateral(&found);
     assert_eq!(rows.len(), 1, "{rows:?}");
+    assert_eq!(rows[0]["loads"], json!("vertical wheel loads alone, which move the rail sideways"));
     close(value(&rows[0], "value"), 0.3 * 5.0 * 8.0 / (4.0 * 8.1e7 * 3.6e-6), "lateral deflection");
     assert!(!found["left_out"].to_string().contains("no train has lateral forces"), "{}", found["left_out"]);
 }

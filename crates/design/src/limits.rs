@@ -1,6 +1,6 @@
 //! Limits of codes against the results of a design, and loads for fatigue.
 
-use formats::design::{CODE_PARTS, Design, DesignCase, DesignTrain, DesignWheel, TILTING};
+use formats::design::{CODE_PARTS, Design, DesignTrain, DesignWheel, TILTING};
 use formats::units::{Dimension, Scale, Units};
 use practice::duty::{equivalent_load, fatigue_factor};
 use practice::factor::PHI1;
@@ -11,6 +11,9 @@ use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse, SolvedCase};
 
 /// Lateral deflections below this fraction of the largest deflection are rounding.
 const ROUNDING: f64 = 1e-9;
+
+/// Loads of a lateral deflection where no train of the case has lateral forces.
+const VERTICAL_ALONE: &str = "vertical wheel loads alone, which move the rail sideways";
 
 /// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
 /// and without factors, as the codes want them.
@@ -23,20 +26,22 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
             continue;
         }
         let sizes = solved.envelopes.deflections.iter().map(|found| found.governing.value.abs());
+        let is_thrust = case.trains.iter().any(|&train| design.trains[train].has_lateral_forces());
         let least = ROUNDING * sizes.fold(0.0, f64::max);
         for deflection in &solved.envelopes.deflections {
             let moves = deflection.governing.value.abs() > least;
             for limit in &design.practice.limits {
-                let Some(quantity) = words(limit, deflection.quantity, moves, (design, case)) else {
+                let Some(quantity) = words(limit, deflection.quantity, moves || is_thrust) else {
                     continue;
                 };
+                let is_sideways = deflection.quantity == GirderResponse::LateralDeflection;
                 let span = (deflection.ends[1] - deflection.ends[0]) * metric;
                 let Ok(allowed) = limit.allowable(span) else { continue };
                 out.push(LimitCheck {
                     clause: limit.clause,
                     quantity,
                     formula: limit.formula(),
-                    loads: limit.loads,
+                    loads: if is_sideways && !is_thrust { VERTICAL_ALONE } else { limit.loads },
                     value: deflection.governing.value.abs(),
                     limit: allowed / metric,
                     case: number + 1,
@@ -50,21 +55,15 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
     out
 }
 
-/// What a limit bounds, where it bounds this deflection of a runway under the loads of the case. A lateral deflection that is not
-/// zero counts also where no lateral force acts: inclined or eccentric rails and unsymmetric structures move sideways under
-/// vertical forces.
-fn words(
-    limit: &DeflectionLimit,
-    quantity: GirderResponse,
-    moves: bool,
-    (design, case): (&Design, &DesignCase),
-) -> Option<&'static str> {
-    let is_thrust = || case.trains.iter().any(|&train| design.trains[train].has_lateral_forces());
+/// What a limit bounds, where it bounds this deflection of a runway; `is_lateral` is whether lateral deflections count. One that
+/// is not zero counts also where no lateral force acts: inclined or eccentric rails and unsymmetric structures move sideways
+/// under vertical forces.
+fn words(limit: &DeflectionLimit, quantity: GirderResponse, is_lateral: bool) -> Option<&'static str> {
     match (limit.displacement, quantity) {
         (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
             Some("vertical deflection")
         }
-        (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if moves || is_thrust() => {
+        (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if is_lateral => {
             Some("lateral deflection")
         }
         _ => None,
