@@ -4,7 +4,7 @@
 //! The libraries perform the work itself: `formats` reads files, `foundations` and `results` compute, and `deck`,
 //! `report` and `study` produce the output.
 //!
-//! Wings, lowest first: cli, clock, exit, progress, manifest, journal, output, folder, crosscheck, commands
+//! Wings, lowest first: cli, clock, exit, progress, interrupt, manifest, journal, output, folder, crosscheck, commands
 
 pub mod cli;
 pub mod clock;

@@ -97,6 +97,41 @@ fn a_crane_rail_adds_its_height_and_its_mass() {
     assert!(said.contains("rail_height is 285 mm"), "{said}");
 }
 
+/// Hand calculation: 600 x 300 mm, flanges 20 mm, web 10 mm: A = 0.0176 m2, I_vertical = (0.3 * 0.6^3 - 0.29 * 0.56^3)/12,
+/// I_lateral = (0.04 * 0.3^3 + 0.56 * 0.01^3)/12, J = sum of s t^3/3 over the centre lines, 0.58 m of the web. Numbers beside the shape win, and the mass is that of the density.
+#[test]
+fn a_girder_takes_the_dimensions_of_its_plates() {
+    let folder = folder();
+    let shape = json!({"kind": "I", "length": "mm", "height": 600, "width": 300, "flange": 20, "web": 10});
+    let spec = |keys: Value| {
+        let mut spec = json!({
+            "format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
+            "girder": {"spans": [8], "E": 2.1e8, "G": 8.1e7}, "stations": [0, 2, 4, 8],
+        });
+        let girder = spec["girder"].as_object_mut().expect("an object");
+        girder.extend(keys.as_object().expect("an object").clone());
+        spec
+    };
+    let (area, lateral) = (0.0176, (0.04 * 0.3f64.powi(3) + 0.56 * 0.01f64.powi(3)) / 12.0);
+    let vertical = (0.3 * 0.6f64.powi(3) - 0.29 * 0.56f64.powi(3)) / 12.0;
+    let torsion = (0.6 * 0.02f64.powi(3) + 0.58 * 0.01f64.powi(3)) / 3.0;
+    let by_hand = |vertical: f64, mass: f64| {
+        spec(
+            json!({"A": area, "I_vertical": vertical, "I_lateral": lateral, "J": torsion, "mass_per_length": mass}),
+        )
+    };
+    let (drawn, said) = solved(&folder, &spec(json!({"shape": shape, "density": 7.85})), &["--modes", "2"]);
+    let (plain, _) = solved(&folder, &by_hand(vertical, 7.85 * area), &["--modes", "2"]);
+    assert_grids_agree(&drawn, &plain, 1e-12);
+    for k in 0..2 {
+        let hz = |grid: &Value| grid["modes"]["modes"][k]["hz"].as_f64().expect("a frequency");
+        assert_near(format_args!("mode {}", k + 1), "numbers by hand", hz(&plain), hz(&drawn), 1e-10);
+    }
+    assert!(said.contains("note: girder: its shape has A = 0.0176 m^2"), "{said}");
+    let (own, _) = solved(&folder, &spec(json!({"shape": shape, "I_vertical": 1e-3})), &[]);
+    assert_grids_agree(&own, &solved(&folder, &by_hand(1e-3, 0.0), &[]).0, 1e-12);
+}
+
 #[test]
 fn a_composite_rail_is_a_part_of_the_plane_section() {
     let folder = folder();

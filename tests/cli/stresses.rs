@@ -201,3 +201,56 @@ fn what_stresses_of_a_run_lack_is_named() {
     assert!(notes.contains("no direct stress on rail girder.rail: section"), "{notes}");
     assert!(page(&folder).contains("No direct stress of a girder is known"));
 }
+
+/// Hand calculation: A65 (5490 mm2, 319e4 mm4, centroid 30.84 mm above its base) on HEB 400, 0.2 m above the axis, moves the centroid
+/// up by e = h A_r/A, h = 0.23084 m. At the top edge sigma = -200 (0.2 - e)/I - 20/(0.024 * 0.3^2/6) with the top flange alone
+/// sideways, I = I_g + I_r + A_g h e.
+#[test]
+fn stresses_of_a_run_know_the_rail_in_the_section() {
+    let mut spec = beam();
+    for (key, value) in
+        [("crane_rail", json!("A65")), ("composite", json!(true)), ("rail_height", json!(0.2))]
+    {
+        spec["girder"][key] = value;
+    }
+    let folder = ran(&spec, &scene(&json!({"lateral_section": "top flange"})));
+    let summary = summary(&folder);
+    let (rail, h) = (5490e-6, 0.23084);
+    let e = h * rail / (0.02 + rail);
+    let second = 5.8e-4 + 319e-8 + 0.02 * h * e;
+    let known = -200.0 * (0.2 - e) / second - 20.0 / (0.024 * 0.09 / 6.0);
+    close(value(only(&summary), "value"), known, 1e-6, "top edge");
+}
+
+/// Hand calculation: a beam that tapers from 400 to 800 mm in four parts. The stress of a part is the larger one of those at both of
+/// its ends, here at the lower one, with the moments where it occurs: sigma = -M (h/2)/I(h) - M_l/(0.02 * 0.2^2/6).
+#[test]
+fn stresses_of_a_run_know_the_dimensions_of_a_tapered_member() {
+    let section = |name: &str, height: f64| {
+        json!({"name": name, "material": "S235",
+               "shape": {"kind": "I", "length": "mm", "height": height, "width": 200, "flange": 20, "web": 10}})
+    };
+    let spec = json!({
+        "format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
+        "points": [[0, 0, 0], [8, 0, 0]], "cells": [{"type": "line", "data": [[0, 1]]}],
+        "cell_data": {"section": [[0]], "section_b": [[1]], "orientation": [[[0, 1, 0]]]}, "parts": 4,
+        "materials": [{"name": "S235", "E": 2.1e8, "G": 8.1e7, "fy": 2.35e5}],
+        "sections": [section("low", 400.0), section("high", 800.0)],
+        "supports": [{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}, {"point": 1, "fix": ["uy", "uz", "rx"]}],
+        "rails": {"rail": {"axis": [1, 0, 0], "segments": [{"cell": [0, 0]}], "stations": [0, 4, 8]}}
+    });
+    let folder = ran(&spec, &scene(&json!({"lateral_section": "top flange"})));
+    let summary = summary(&folder);
+    let rows = summary["stresses"].as_array().expect("stresses");
+    assert_eq!(rows.len(), 4, "{rows:?}");
+    for (part, row) in rows.iter().enumerate() {
+        let x = value(row, "x");
+        assert!((2.0 * part as f64 - 1e-9..=2.0 * part as f64 + 2.0 + 1e-9).contains(&x), "{row}");
+        let h: f64 = 0.4 + 0.1 * part as f64;
+        let second = (0.2 * h.powi(3) - 0.19 * (h - 0.04).powi(3)) / 12.0;
+        let shape = x * (8.0 - x) / 8.0;
+        let known = -100.0 * shape * 0.5 * h / second - 10.0 * shape / (0.02 * 0.04 / 6.0);
+        close(value(row, "value"), known, 1e-6, "a part");
+        assert_eq!(row["section"], json!("low to high"));
+    }
+}

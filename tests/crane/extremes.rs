@@ -14,7 +14,8 @@ fn extremes(dt: f64) -> (BTreeMap<String, f64>, Vec<String>) {
     scene["output"] = json!({"dt": dt, "reactions": false, "sections": false, "stresses": false});
     let (_, summary) = run(&scene);
     let of = |extreme: &Value| {
-        let words = ["rail", "span", "quantity", "plane", "kind"].map(|key| extreme[key].to_string());
+        let words = ["rail", "span", "quantity", "plane", "support", "direction", "kind"]
+            .map(|key| extreme[key].to_string());
         (words.join(" "), extreme["value"].as_f64().expect("a value"))
     };
     let notes = summary["notes"].as_array().into_iter().flatten();
@@ -33,7 +34,7 @@ fn extremes_do_not_depend_on_the_output_interval_after_a_strike() {
     assert_eq!(coarse.len(), fine.len());
     let word = |key: &str| {
         let is = |word: &&str| key.contains(*word);
-        *["normal", "shear", "torsion", "moment", "deflection"]
+        *["normal", "shear", "torsion", "moment", "deflection", "reaction"]
             .iter()
             .find(|word| is(word))
             .expect("a quantity")
@@ -42,6 +43,7 @@ fn extremes_do_not_depend_on_the_output_interval_after_a_strike() {
     let kind = |key: &str| match word(key) {
         "normal" | "shear" => 0,
         "torsion" | "moment" => 1,
+        "reaction" => usize::from(["rx", "ry", "rz"].iter().any(|word| key.contains(&format!("\"{word}\"")))),
         _ => 2,
     };
     let mut sizes = [0.0_f64; 3];

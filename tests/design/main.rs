@@ -1,5 +1,6 @@
 //! `girderway design` from its files to its tables.
 
+mod built_up;
 mod details;
 mod lines;
 mod mill;

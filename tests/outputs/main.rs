@@ -14,6 +14,7 @@ use splines::{Axis, Probe};
 
 mod browser;
 mod motion;
+mod reactions;
 mod statics;
 
 /// Units, and a girder of the given spans with every stiffness and mass.

@@ -11,7 +11,7 @@ const GAUSS: [[f64; 2]; 4] = [
 ];
 
 /// Integral of m phi_k along the girder for each freedom: momentum per unit speed, from the shapes alone.
-fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
+pub(super) fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     let Some(structure) = &laid.foundation.structure else { return Vec::new() };
     let n = laid.foundation.dofs();
     if let Some(MotionBasis::Parts(parts)) = &laid.basis {

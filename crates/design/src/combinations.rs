@@ -1,6 +1,6 @@
 //! Cases from the groups of crane loads of a code.
 
-use formats::design::{CODE_PARTS, Design, DesignCase, TROLLEY_DRIVES, WHOLE};
+use formats::design::{CODE_PARTS, Design, DesignCase, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE};
 use practice::combination::{CraneLoad, DynamicFactors, GroupUse, LoadFactor, LoadGroup, eurocode_groups};
 use practice::factor::{Release, phi5, test_load};
 use practice::limit_choice::code_name;
@@ -38,6 +38,7 @@ fn combined(design: &Design) -> (Vec<DesignCase>, Vec<String>) {
         }
     };
     left_out.extend(wind(&groups));
+    left_out.extend(remaining(&groups));
     for group in &groups {
         let own = design.cases.iter().filter(|case| case.factors.is_empty());
         let fitting = own.filter(|case| !group.is_single_crane || case.trains.len() == 1);
@@ -72,6 +73,17 @@ fn wind(groups: &[LoadGroup]) -> Option<String> {
     Some(format!(
         "{code}, groups {}: wind in service, which a design does not have, is not included",
         names.join(", ")
+    ))
+}
+
+/// The groups whose hoisted load is the part that remains without the payload, which is left out.
+fn remaining(groups: &[LoadGroup]) -> Option<String> {
+    let remains = |group: &&LoadGroup| group.loads.iter().any(|own| own.factor == LoadFactor::Remaining);
+    let group = groups.iter().find(remains)?;
+    Some(format!(
+        "{}, group {}: the part eta of the hoisted load that remains without the payload, which a design does not give, is \
+         taken as 0",
+        group.clause.standard, group.name
     ))
 }
 
@@ -128,8 +140,8 @@ fn factors(
         ),
         (
             CraneLoad::Tilting,
-            false,
-            "a tilting force needs a load or an attachment that is guided, which a design does not describe",
+            wheels().any(DesignWheel::tilts),
+            "no wheel has a `tilting` force, which a crane has whose load or lifting attachment is guided",
         ),
     ];
     if let Some((.., why)) = needed.iter().find(|(load, is_there, _)| of(*load) != 0.0 && !is_there) {
@@ -156,6 +168,8 @@ fn factors(
     ];
     let trolley = of(CraneLoad::TrolleyDrives);
     out.extend((trolley != 0.0).then(|| (TROLLEY_DRIVES.to_owned(), trolley)));
+    let tilting = of(CraneLoad::Tilting);
+    out.extend((tilting != 0.0).then(|| (TILTING.to_owned(), tilting)));
     let in_parts = wheels().any(|wheel| wheel.vertical.iter().any(|(name, _)| name != WHOLE));
     if in_parts {
         out.extend([("crane".to_owned(), crane), ("hoist".to_owned(), hoist)]);

@@ -43,9 +43,11 @@ fn stress(design: &Design, check: &StressCheck) -> Value {
         "side": side_word(g.side),
         "forces": named(&check.forces),
     });
-    if let (Some(bound), Some(fibre)) = (check.bound, check.fibre) {
+    if let Some(fibre) = check.fibre {
         out["sampled"] = json!(true);
-        out["bound"] = json!(bound);
+        if let Some(bound) = check.bound {
+            out["bound"] = json!(bound);
+        }
         out["fibre"] = json!(fibre);
         out["parts"] = Value::Object(named(&check.parts));
         out["lateral_section"] = json!(check.lateral_section.map(LateralSection::word));

@@ -3,8 +3,10 @@
 use fea::{Model, Rail};
 use formats::LateralSection;
 use formats::spec::Spec;
+use formats::units::Length;
+use formats::vector::dot;
 
-use crate::fibres::Fibres;
+use crate::fibres::{CompositeRail, Fibres};
 use crate::placed::rail_axes;
 
 /// Fibres of the members under the rails.
@@ -18,13 +20,9 @@ impl GirderSections {
     /// The sections of all rails of a spec with its model; `lateral` is what resists lateral moments.
     #[must_use]
     pub fn new(spec: &Spec, lateral: LateralSection, model: &Model, rails: &[Rail]) -> GirderSections {
-        let composite =
-            |rail: usize| spec.crane_rails.get(rail).copied().flatten().is_some_and(|own| own.is_composite);
-        let holds = |rail: &Rail, member: usize| rail.segments.iter().any(|segment| segment.member == member);
         let fibres = |rail: usize, member: usize| {
-            let combined =
-                rails.iter().enumerate().any(|(other, own)| composite(other) && holds(own, member));
-            Fibres::new(spec, model, member, rail_axes(&rails[rail], model.up), lateral, combined)
+            let part = (0..rails.len()).find_map(|own| composite_rail(spec, model, &rails[own], own, member));
+            Fibres::new(spec, model, member, rail_axes(&rails[rail], model.up), lateral, part)
         };
         let of_rail = |(index, rail): (usize, &Rail)| {
             let mut members: Vec<usize> = rail.segments.iter().map(|segment| segment.member).collect();
@@ -55,15 +53,13 @@ impl GirderSections {
 
     /// Whether any member of any rail has fibres with a strength.
     pub(crate) fn have_strength(&self) -> bool {
-        (0..self.rails.len()).any(|rail| {
-            self.distinct(rail).iter().any(|own| own.yield_strength.is_some() && !own.is_composite)
-        })
+        (0..self.rails.len()).any(|rail| self.distinct(rail).iter().any(|own| own.yield_strength.is_some()))
     }
 
     /// What keeps sections of a rail from having direct stresses, each reason once.
     #[must_use]
     pub fn lacks_stress(&self, rail: usize) -> Vec<String> {
-        self.reasons(rail, composite)
+        self.reasons(rail, |_| None)
     }
 
     /// What keeps sections of a rail from having stresses, each reason once; `needs_strength` for utilisations.
@@ -72,7 +68,7 @@ impl GirderSections {
             let is_weak = own.yield_strength.is_none();
             is_weak.then(|| format!("the material of section {} has no yield strength `fy`", own.name))
         };
-        self.reasons(rail, |own| if needs_strength { composite(own).or_else(|| weak(own)) } else { None })
+        self.reasons(rail, |own| if needs_strength { weak(own) } else { None })
     }
 
     /// Why sections of a rail have no fibres, and what else `missing` finds, each reason once in the order of members.
@@ -89,9 +85,24 @@ impl GirderSections {
     }
 }
 
-/// Why the fibres of a section are not those of its plates, where a crane rail is a part of it.
-fn composite(own: &Fibres) -> Option<String> {
-    own.is_composite.then(|| format!("the crane rail is a part of section {} (`composite`)", own.name))
+/// The crane rail of rail `index` where it is a part of the section of a member. Its segments lie at the height of the rail's top.
+fn composite_rail(
+    spec: &Spec,
+    model: &Model,
+    rail: &Rail,
+    index: usize,
+    member: usize,
+) -> Option<CompositeRail> {
+    let carried = spec.crane_rails.get(index).copied().flatten().filter(|own| own.is_composite)?;
+    let segment = rail.segments.iter().find(|segment| segment.member == member)?;
+    let (plane, centroid) = carried.profile.plane_section().ok()?;
+    let one = Length::Millimetre.in_units_of(spec.units.length);
+    let top = dot(segment.offset, rail_axes(rail, model.up)[1]);
+    Some(CompositeRail {
+        area: plane.area * one.powi(2),
+        second: [plane.i_vertical, plane.i_lateral].map(|second| second * one.powi(4)),
+        height: top + (centroid - carried.profile.height) * one,
+    })
 }
 
 /// Lines of what is left out, where several rails lack the same: `what on rails a, b: why`.

@@ -1,6 +1,6 @@
 //! Limits of codes against the results of a design, and loads for fatigue.
 
-use formats::design::{CODE_PARTS, Design, DesignCase, DesignTrain, DesignWheel};
+use formats::design::{CODE_PARTS, Design, DesignTrain, DesignWheel, TILTING};
 use formats::units::{Dimension, Scale, Units};
 use practice::duty::{equivalent_load, fatigue_factor};
 use practice::factor::PHI1;
@@ -8,6 +8,12 @@ use practice::limits::{DeflectionLimit, LimitedDisplacement};
 use trains::GirderResponse;
 
 use crate::outcome::{FatigueLoads, LimitCheck, RailPairResponse, SolvedCase};
+
+/// Lateral deflections below this fraction of the largest deflection are rounding.
+const ROUNDING: f64 = 1e-9;
+
+/// Loads of a lateral deflection where no train of the case has lateral forces.
+const VERTICAL_ALONE: &str = "vertical wheel loads alone, which move the rail sideways";
 
 /// Checks the limits of the design's code: deflections of spans from the chords between their ends, under the trains alone
 /// and without factors, as the codes want them.
@@ -19,16 +25,23 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
         if !case.factors.is_empty() {
             continue;
         }
+        let sizes = solved.envelopes.deflections.iter().map(|found| found.governing.value.abs());
+        let is_thrust = case.trains.iter().any(|&train| design.trains[train].has_lateral_forces());
+        let least = ROUNDING * sizes.fold(0.0, f64::max);
         for deflection in &solved.envelopes.deflections {
+            let moves = deflection.governing.value.abs() > least;
             for limit in &design.practice.limits {
-                let Some(quantity) = words(limit, deflection.quantity, design, case) else { continue };
+                let Some(quantity) = words(limit, deflection.quantity, moves || is_thrust) else {
+                    continue;
+                };
+                let is_sideways = deflection.quantity == GirderResponse::LateralDeflection;
                 let span = (deflection.ends[1] - deflection.ends[0]) * metric;
                 let Ok(allowed) = limit.allowable(span) else { continue };
                 out.push(LimitCheck {
                     clause: limit.clause,
                     quantity,
                     formula: limit.formula(),
-                    loads: limit.loads,
+                    loads: if is_sideways && !is_thrust { VERTICAL_ALONE } else { limit.loads },
                     value: deflection.governing.value.abs(),
                     limit: allowed / metric,
                     case: number + 1,
@@ -42,19 +55,15 @@ pub(crate) fn check_limits(design: &Design, cases: &[SolvedCase]) -> Vec<LimitCh
     out
 }
 
-/// What a limit bounds, where it bounds this deflection of a runway under the loads of the case.
-fn words(
-    limit: &DeflectionLimit,
-    quantity: GirderResponse,
-    design: &Design,
-    case: &DesignCase,
-) -> Option<&'static str> {
-    let is_thrust = || case.trains.iter().any(|&train| design.trains[train].has_lateral_forces());
+/// What a limit bounds, where it bounds this deflection of a runway; `is_lateral` is whether lateral deflections count. One that
+/// is not zero counts also where no lateral force acts: inclined or eccentric rails and unsymmetric structures move sideways
+/// under vertical forces.
+fn words(limit: &DeflectionLimit, quantity: GirderResponse, is_lateral: bool) -> Option<&'static str> {
     match (limit.displacement, quantity) {
         (LimitedDisplacement::RunwayVertical, GirderResponse::VerticalDeflection) => {
             Some("vertical deflection")
         }
-        (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if is_thrust() => {
+        (LimitedDisplacement::RunwayLateral, GirderResponse::LateralDeflection) if is_lateral => {
             Some("lateral deflection")
         }
         _ => None,
@@ -62,14 +71,20 @@ fn words(
 }
 
 /// Limits of the code that a design cannot check, and groups of loads that it cannot form, with the reasons; `pairs` are the
-/// responses of pairs of rails.
-pub(crate) fn left_out(design: &Design, groups: &[String], pairs: &[RailPairResponse]) -> Vec<String> {
+/// responses of pairs of rails, `rows` the limits that are checked.
+pub(crate) fn left_out(
+    design: &Design,
+    groups: &[String],
+    pairs: &[RailPairResponse],
+    rows: &[LimitCheck],
+) -> Vec<String> {
     let mut out = Vec::new();
     for limit in &design.practice.limits {
         let why = match limit.displacement {
             LimitedDisplacement::RunwayVertical => continue,
             LimitedDisplacement::RunwayLateral
-                if design.trains.iter().any(DesignTrain::has_lateral_forces) =>
+                if design.trains.iter().any(DesignTrain::has_lateral_forces)
+                    || rows.iter().any(|row| row.quantity == "lateral deflection") =>
             {
                 continue;
             }
@@ -126,7 +141,7 @@ pub(crate) fn fatigue_loads(design: &Design) -> Vec<FatigueLoads> {
                 let factor = dynamic[usize::from(name == CODE_PARTS[1])];
                 equivalent_load(*force, lambda, factor).unwrap_or(0.0)
             };
-            vertical.iter().map(part).sum()
+            vertical.iter().filter(|(name, _)| name != TILTING).map(part).sum()
         })
     };
     let loads = |train: &DesignTrain| FatigueLoads {

@@ -1,6 +1,6 @@
 //! Trains of a case with its factors.
 
-use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, TROLLEY_DRIVES, WHOLE};
+use formats::design::{Design, DesignCase, DesignTrain, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE};
 use trains::{Train, TrainCase, TrainWheel};
 
 /// Which forces of the trains act.
@@ -20,17 +20,20 @@ pub enum LoadKind {
     Skewing,
     /// Lateral forces of the trolley's drives.
     TrolleyDrives,
+    /// Vertical and lateral forces of a crane that tilts against an obstacle.
+    Tilting,
 }
 
 impl LoadKind {
     /// The kinds that are listed by themselves.
-    pub const SINGLE: [LoadKind; 6] = [
+    pub const SINGLE: [LoadKind; 7] = [
         LoadKind::Vertical,
         LoadKind::SideThrust,
         LoadKind::Traction,
         LoadKind::Buffer,
         LoadKind::Skewing,
         LoadKind::TrolleyDrives,
+        LoadKind::Tilting,
     ];
 }
 
@@ -58,13 +61,17 @@ fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
     };
     let (buffer, skewing) =
         (on_request(LoadKind::Buffer, "buffer"), on_request(LoadKind::Skewing, "skewing"));
+    let tilting = on_request(LoadKind::Tilting, TILTING);
     // These follow from weights that may be given for other rows: they are listed only in cases that factor them.
     let trolley = share(LoadKind::TrolleyDrives) * case.factor(TROLLEY_DRIVES);
     let wheel = |wheel: &DesignWheel| TrainWheel {
         rail: wheel.rail,
         x: wheel.x,
-        vertical: share(LoadKind::Vertical) * vertical(wheel, case),
-        lateral: lateral * wheel.lateral + skewing * wheel.skewing + trolley * wheel.trolley_drives,
+        vertical: share(LoadKind::Vertical) * vertical(wheel, case) + tilting * tilting_part(wheel),
+        lateral: lateral * wheel.lateral
+            + skewing * wheel.skewing
+            + trolley * wheel.trolley_drives
+            + tilting * wheel.tilting,
         longitudinal: longitudinal * wheel.longitudinal + buffer * wheel.buffer,
         eccentricity: wheel.eccentricity,
     };
@@ -77,13 +84,20 @@ fn train(train: &DesignTrain, case: &DesignCase, kind: LoadKind) -> Train {
     }
 }
 
-/// Vertical force of a wheel: each part with the factor of its name or, where the case has none, that of `vertical`.
+/// Vertical force of a wheel: each part with the factor of its name or, where the case has none, that of `vertical`; without that
+/// of tilting.
 fn vertical(wheel: &DesignWheel, case: &DesignCase) -> f64 {
     let factor = |name: &str| {
         let own = case.factors.iter().find(|(known, _)| known == name);
         own.map_or_else(|| case.factor(WHOLE), |(_, factor)| *factor)
     };
-    wheel.vertical.iter().map(|(name, force)| factor(name) * force).sum()
+    let parts = wheel.vertical.iter().filter(|(name, _)| name != TILTING);
+    parts.map(|(name, force)| factor(name) * force).sum()
+}
+
+/// Change of the vertical force of a wheel while the crane tilts.
+fn tilting_part(wheel: &DesignWheel) -> f64 {
+    wheel.vertical.iter().filter(|(name, _)| name == TILTING).map(|(_, force)| force).sum()
 }
 
 /// Whether any wheel of a case has a force of a kind.
@@ -93,5 +107,6 @@ pub(crate) fn has(design: &Design, case: &DesignCase, kind: LoadKind) -> bool {
         LoadKind::Vertical => wheel.vertical != 0.0,
         LoadKind::SideThrust | LoadKind::Skewing | LoadKind::TrolleyDrives => wheel.lateral != 0.0,
         LoadKind::Traction | LoadKind::Buffer => wheel.longitudinal != 0.0,
+        LoadKind::Tilting => wheel.vertical != 0.0 || wheel.lateral != 0.0,
     })
 }

@@ -119,7 +119,8 @@ pub struct StressCheck {
     pub value: f64,
     /// The strength: f_y for direct stress, f_y/sqrt(3) for shear stress.
     pub strength: f64,
-    /// A utilisation that no state of the case exceeds; `None` for shear stress, whose extremes are exact.
+    /// A utilisation that no state of the case exceeds; `None` for shear stress, whose extremes are exact, and where members are
+    /// tapered.
     pub bound: Option<f64>,
     /// The fibre, by its edge: `top` or `bottom`, `+z` or `-z`.
     pub fibre: Option<&'static str>,

@@ -64,7 +64,7 @@ pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignErr
     let mut limits = check_limits(design, &solved);
     limits.extend(details.limits);
     let error_bound = structure.frame().certificate().error_bound;
-    let mut left_out = left_out(design, &groups_left_out(design), &details.pairs);
+    let mut left_out = left_out(design, &groups_left_out(design), &details.pairs, &limits);
     left_out.extend(details.left_out);
     Ok(DesignResult {
         cases: solved,

@@ -3,7 +3,8 @@
 //! The direct stress sigma = N/A + M_v z/I_v + M_l y/I_l of a fibre has no envelope of its own here: it is evaluated with the
 //! coincident forces of the states that govern normal force and moments over spans and at the places of envelopes. The largest
 //! is therefore a lower bound of the largest of all states; the sum of the extremes of the three forces over a span, whether
-//! or not they occur at once, is an upper bound.
+//! or not they occur at once, is an upper bound; there is none over spans with tapered members, whose sections are those of the
+//! place.
 
 use formats::design::Design;
 use trains::{EnvelopeValue, Error, GirderResponse, Governing, SpanExtreme, TrainCase};
@@ -44,18 +45,21 @@ impl StressBasis<'_> {
     /// What is left out for want of data.
     pub fn left_out(&self) -> Vec<String> {
         let rails = self.design.spec.rails();
-        let (mut lacks, mut no_web) = (Vec::new(), Vec::new());
+        let (mut lacks, mut no_web, mut in_rail) = (Vec::new(), Vec::new(), Vec::new());
         for (rail, outline) in rails.iter().enumerate() {
             let name = || outline.name.clone();
             lacks.extend(self.sections.lacks(rail, true).into_iter().map(|why| (name(), why)));
             let all = self.sections.distinct(rail);
-            let open = all
-                .iter()
-                .filter(|own| own.yield_strength.is_some() && !own.is_composite && own.plates.is_none());
+            let open = all.iter().filter(|own| own.yield_strength.is_some() && own.plates().is_none());
             no_web.extend(open.map(|own| (name(), format!("section {} is no upright I section", own.name))));
+            let has_rail = |own: &&Fibres| own.yield_strength.is_some() && own.is_composite;
+            if all.into_iter().any(|own| has_rail(&own)) {
+                in_rail.push((name(), "the spec does not have its strength".to_owned()));
+            }
         }
         let mut out = by_reason("stress utilisation", &lacks);
         out.extend(by_reason("shear stress in the web", &no_web));
+        out.extend(by_reason("direct stress of a crane rail that is a part of the section,", &in_rail));
         out
     }
 
@@ -86,7 +90,9 @@ impl StressBasis<'_> {
                 let member = forces.carrying()[carrier].member;
                 let Some((fibres, strength)) = self.strong(rail, member) else { continue };
                 let three = DIRECT.map(|quantity| all[index(quantity)]);
-                let Some(worst) = fibres.worst(three).filter(|worst| worst.value().is_finite()) else {
+                let place = place_on(forces.carrying()[carrier].x, governing.x);
+                let Some(worst) = fibres.worst_at(place, three).filter(|worst| worst.value().is_finite())
+                else {
                     continue;
                 };
                 if best.as_ref().is_some_and(|best| best.utilisation() >= worst.value().abs() / strength) {
@@ -131,6 +137,9 @@ impl StressBasis<'_> {
                 .iter()
                 .filter(|c| c.rail == rail && c.x[0] < window[1] && c.x[1] > window[0]);
             let strong: Vec<(&Fibres, f64)> = here.filter_map(|c| self.strong(rail, c.member)).collect();
+            if strong.iter().any(|(fibres, _)| fibres.is_tapered()) {
+                return None;
+            }
             for corner in 0..8 {
                 let three = [normal[corner & 1], vertical[corner >> 1 & 1], lateral[corner >> 2]];
                 for (fibres, strength) in &strong {
@@ -148,7 +157,8 @@ impl StressBasis<'_> {
         for (_, governing) in self.states(case, rail, &[GirderResponse::VerticalShear]) {
             let Some(carrier) = forces.carrier_at(rail, governing.x, governing.side) else { continue };
             let Some((fibres, fy)) = self.strong(rail, forces.carrying()[carrier].member) else { continue };
-            let Some(area) = fibres.web_area() else { continue };
+            let place = place_on(forces.carrying()[carrier].x, governing.x);
+            let Some(area) = fibres.web_area_at(place) else { continue };
             let (stress, strength) = (governing.value / area, fy / 3f64.sqrt());
             if best.as_ref().is_some_and(|best| best.utilisation() >= stress.abs() / strength) {
                 continue;
@@ -163,7 +173,7 @@ impl StressBasis<'_> {
     }
 
     fn strong(&self, rail: usize, member: usize) -> Option<(&Fibres, f64)> {
-        let fibres = self.sections.of(rail, member).filter(|own| !own.is_composite)?;
+        let fibres = self.sections.of(rail, member)?;
         Some((fibres, fibres.yield_strength?))
     }
 
@@ -199,6 +209,11 @@ impl StressBasis<'_> {
         let end = |k: Option<usize>, beyond: f64| k.and_then(|k| ends.get(k)).copied().unwrap_or(beyond);
         [end(span.checked_sub(1), f64::NEG_INFINITY), end(Some(span), f64::INFINITY)]
     }
+}
+
+/// A place between the ends of a member as a fraction of its length.
+fn place_on([from, to]: [f64; 2], x: f64) -> f64 {
+    ((x - from) / (to - from)).clamp(0.0, 1.0)
 }
 
 /// Number of the span in which a coordinate lies: 0 before the first, from 1 on, and one more behind the last. An end belongs to

@@ -1,6 +1,6 @@
 //! `envelope.csv` and `reactions.csv`.
 
-use formats::design::{Design, TROLLEY_DRIVES};
+use formats::design::{Design, TILTING, TROLLEY_DRIVES};
 use trains::{Governing, TrainPosition};
 
 use crate::loads::LoadKind;
@@ -109,6 +109,7 @@ pub const fn load_word(kind: LoadKind) -> &'static str {
         LoadKind::Buffer => "buffer",
         LoadKind::Skewing => "skewing",
         LoadKind::TrolleyDrives => TROLLEY_DRIVES,
+        LoadKind::Tilting => TILTING,
     }
 }
 

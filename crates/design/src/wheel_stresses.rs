@@ -57,8 +57,8 @@ fn seats<'a>(basis: &StressBasis<'a>, rail: usize) -> Result<Vec<Seat<'a>>, Stri
     let carried = carried.ok_or("name the `crane_rail`")?;
     let mut out = Vec::new();
     for fibres in basis.sections.distinct(rail) {
-        let Some(plates) = &fibres.plates else { continue };
-        out.push(seat(basis, fibres, plates, &carried)?);
+        let Some(plates) = fibres.plates() else { continue };
+        out.push(seat(basis, fibres, &plates, &carried)?);
     }
     match out.is_empty() {
         false => Ok(out),

@@ -350,8 +350,10 @@ fn one_solve_an_effect_gives_what_one_solve_a_load_gives() {
         for (i, value) in column.iter().enumerate() {
             let error = (value - by_loads[(i, j)]).abs();
             assert!(error < 1e-8 * by_loads.column(j).amax(), "{:?} {p:?}: {value}", effects[i]);
+            assert_eq!(lines.value(i, p), Ok(*value), "{:?} {p:?} alone", effects[i]);
         }
     }
+    assert!(lines.value(effects.len(), at[0]).is_err(), "there is no such effect");
 }
 
 #[test]

@@ -130,8 +130,9 @@ fn run_case(
         left = left.checked_sub(1)?;
         repeated(&scene, &input, &run, &foundations, rows)
     };
-    let girders =
+    let mut girders =
         girders::of_run(&prepared, (&scene, &input), [&run.history, &run.steps], &foundations, &mut repeat);
+    girders.reactions.iter_mut().for_each(|reaction| reaction.extend_to(&response.envelopes));
     run.steps = History::default();
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let spans = SpanResponse { history: &run.history, solved: &solved, deflections: &response.deflections };

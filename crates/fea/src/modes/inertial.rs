@@ -9,6 +9,7 @@ use crate::error::Error;
 use crate::factor::SparseLoad;
 use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
+use crate::modes::inertia_motions::InertiaMotions;
 use crate::modes::interior::InteriorMotion;
 use crate::modes::mass::{release_shapes, unreleased_mass};
 use crate::modes::mode::{BETWEEN, Mode};
@@ -72,7 +73,7 @@ impl FactoredFrame {
     ) -> Result<Vec<f64>, Error> {
         let one = |functional: &Functional| {
             let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
-            weight.forces.work(&adjoint) + self.held_effect(m, functional, &weight.forces)
+            weight.forces.work(&adjoint) + self.held_effect(m, functional, &weight.forces, &[])
         };
         Ok(self.functionals(m, effects)?.iter().map(one).collect())
     }
@@ -107,13 +108,13 @@ impl FactoredFrame {
         let functionals = self.functionals(m, effects)?;
         let reference = |body: usize| self.bodies.list[body].reference;
         let mut shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
-        self.add_interior_motions(m, modes, &mut shapes);
+        let between = self.add_interior_motions(m, modes, &mut shapes);
         let mut out = DMatrix::zeros(effects.len(), modes.len());
         if functionals.len() <= shapes.len() {
             for (e, functional) in functionals.iter().enumerate() {
                 let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
                 for (k, forces) in shapes.iter().enumerate() {
-                    out[(e, k)] = forces.work(&adjoint) + self.held_effect(m, functional, forces);
+                    out[(e, k)] = forces.work(&adjoint) + self.held_effect(m, functional, forces, &between);
                 }
             }
         } else {
@@ -121,7 +122,7 @@ impl FactoredFrame {
                 let motions = self.motions_under(forces);
                 for (e, functional) in functionals.iter().enumerate() {
                     let elastic = functional.strain.evaluate(&motions);
-                    out[(e, k)] = elastic + self.held_effect(m, functional, forces);
+                    out[(e, k)] = elastic + self.held_effect(m, functional, forces, &between);
                 }
             }
         }
@@ -186,23 +187,31 @@ impl FactoredFrame {
         out
     }
 
-    /// Adds the forces of the motions of members between their ends in modes.
-    fn add_interior_motions(&self, m: &Model, modes: &[Mode], out: &mut [InertiaForces]) {
+    /// Adds the forces of the motions of members between their ends in modes, and returns these motions by member and plane.
+    fn add_interior_motions(
+        &self,
+        m: &Model,
+        modes: &[Mode],
+        out: &mut [InertiaForces],
+    ) -> Vec<[Option<MotionsBetween>; 2]> {
+        let mut all = vec![[None, None]; self.elements.len()];
         for motion in InteriorMotion::all(m, &self.elements, &self.bodies) {
             let InteriorMotion { member, plane, .. } = motion;
             let element = &self.elements[member];
             let b = transformation(element, &self.bodies);
             let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
-            let coupling = end_forces(m, element, &motion);
+            let own = MotionsBetween::new(m, element, &motion);
             for (forces, mode) in out.iter_mut().zip(modes) {
                 let Some(amplitudes) = mode.between.get(member).map(|planes| planes[plane]) else { continue };
                 forces.between[member][plane] = amplitudes;
-                let force = ends.transpose() * (coupling * SVector::from(amplitudes));
+                let force = ends.transpose() * (own.end_forces * SVector::from(amplitudes));
                 for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
                     forces.on_bodies[body] += force.fixed_rows::<6>(6 * end);
                 }
             }
+            all[member][plane] = Some(own);
         }
+        all
     }
 
     fn add_rigid_mass(&self, mass: &PointMass, motions: &[Vec<Vector6>], out: &mut [InertiaForces]) {
@@ -219,15 +228,29 @@ impl FactoredFrame {
     }
 
     /// The part of an effect of forces M a that does not follow from the motions of the bodies: less what acts on the
-    /// effect directly, plus what the mass of its own member adds between the fixed ends.
-    fn held_effect(&self, m: &Model, functional: &Functional, forces: &InertiaForces) -> f64 {
-        let own = functional.section.as_ref().map_or(0.0, |section| self.own_member(m, section, forces));
+    /// effect directly, plus what the mass of its own member adds between the fixed ends. `between` has the motions of the
+    /// members between their ends, where the forces have any.
+    fn held_effect(
+        &self,
+        m: &Model,
+        functional: &Functional,
+        forces: &InertiaForces,
+        between: &[[Option<MotionsBetween>; 2]],
+    ) -> f64 {
+        let own = functional.section.as_ref();
+        let own = own.map_or(0.0, |section| self.own_member(m, section, forces, between.get(section.member)));
         own - functional.direct.evaluate(&forces.on_bodies)
     }
 
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
     /// integral of m N a over the part before the section.
-    fn own_member(&self, m: &Model, section: &splines::InternalForce, forces: &InertiaForces) -> f64 {
+    fn own_member(
+        &self,
+        m: &Model,
+        section: &splines::InternalForce,
+        forces: &InertiaForces,
+        motions: Option<&[Option<MotionsBetween>; 2]>,
+    ) -> f64 {
         let (ends, between) = (&forces.end_accelerations[section.member], &forces.between[section.member]);
         let (element, member) = (&self.elements[section.member], &m.members[section.member]);
         let pair = self.bodies.pair(element.points);
@@ -238,14 +261,14 @@ impl FactoredFrame {
         let distributed =
             DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
         let mut fixed = unreleased_mass(element, cross_section, m.theory, member.kind) * ends;
-        let mut inertia = [None, None];
-        if *between != [[0.0; BETWEEN]; 2] {
-            for motion in InteriorMotion::of_member(m, section.member, element) {
-                fixed += end_forces(m, element, &motion) * SVector::from(between[motion.plane]);
-                inertia[motion.plane] = Some(motion.inertia_motions(m, element));
-            }
+        let moved = [0, 1].map(|plane| {
+            let own = motions.and_then(|motions| motions[plane].as_ref())?;
+            (between[plane] != [0.0; BETWEEN]).then_some((own, &between[plane]))
+        });
+        for (own, amplitudes) in moved.into_iter().flatten() {
+            fixed += own.end_forces * SVector::from(*amplitudes);
         }
-        let added = [0, 1].map(|k| inertia[k].as_ref().map(|inertia| inertia.sum(&between[k])));
+        let added = moved.map(|of| of.map(|(own, amplitudes)| own.inertia.sum(amplitudes)));
         let end_forces: f64 = section.ends.iter().zip(fixed.iter()).map(|(a, b)| a * b).sum();
         let to = section.place * element.length;
         end_forces
@@ -261,18 +284,27 @@ impl FactoredFrame {
     }
 }
 
-/// Products of inertia of the motions between the ends of a member in one plane with its motion by each degree of freedom
-/// of its flexible ends, local axes: degrees of freedom x motions.
-fn end_forces(m: &Model, element: &Element, motion: &InteriorMotion) -> SMatrix<f64, 12, BETWEEN> {
-    let mut out = SMatrix::<f64, 12, BETWEEN>::zeros();
-    out.set_column(0, &motion.coupling);
-    let inertia = motion.inertia_motions(m, element);
-    for (row, degree) in motion.ends(element).into_iter().enumerate() {
-        for (k, product) in inertia.stiffness[row].iter().enumerate() {
-            out[(degree.0, 1 + k)] = degree.1 * product;
+/// The motions between the ends of a member in one plane.
+#[derive(Clone, Debug)]
+struct MotionsBetween {
+    inertia: InertiaMotions,
+    /// Products of their inertia with the motion of the member by each degree of freedom of its flexible ends, local axes:
+    /// degrees of freedom x motions.
+    end_forces: SMatrix<f64, 12, BETWEEN>,
+}
+
+impl MotionsBetween {
+    fn new(m: &Model, element: &Element, motion: &InteriorMotion) -> MotionsBetween {
+        let mut end_forces = SMatrix::<f64, 12, BETWEEN>::zeros();
+        end_forces.set_column(0, &motion.coupling);
+        let inertia = motion.inertia_motions(m, element);
+        for (row, degree) in motion.ends(element).into_iter().enumerate() {
+            for (k, product) in inertia.stiffness[row].iter().enumerate() {
+                end_forces[(degree.0, 1 + k)] = degree.1 * product;
+            }
         }
+        MotionsBetween { inertia, end_forces }
     }
-    out
 }
 
 impl InertiaForces {

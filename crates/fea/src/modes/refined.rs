@@ -25,7 +25,7 @@ const FREQUENCY_MARGIN: f64 = 1.1;
 const MESH_ACCURACY: f64 = 1e-9;
 
 /// Largest estimated error of a frequency, relative, up to which a mesh is taken to resolve the shape of the mode.
-const RESOLVED: f64 = 1.0 / 500.0;
+const RESOLVED: f64 = 0.05;
 /// Steps of the iteration for the asymptotic frequency.
 const FREQUENCY_STEPS: usize = 40;
 /// Fraction of the modes of a mesh that is kept whatever their errors: on a uniform girder, those up to this estimate.

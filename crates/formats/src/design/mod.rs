@@ -12,5 +12,5 @@ pub(crate) use raw::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNa
 pub use read::FORMAT;
 pub use values::{
     CODE_PARTS, Design, DesignCase, DesignDead, DesignPractice, DesignSection, DesignTrain, DesignWheel,
-    TROLLEY_DRIVES, WHOLE,
+    TILTING, TROLLEY_DRIVES, WHOLE,
 };

@@ -98,6 +98,9 @@ pub(crate) struct RawTrainWheel {
     pub longitudinal: Option<f64>,
     /// Lateral force of this wheel along +z from skewing of the crane; acts only with a factor of its own.
     pub skewing: Option<f64>,
+    /// Lateral force of this wheel along +z while the crane tilts against an obstacle; acts only with a factor of its own, like
+    /// the part `tilting` of `vertical`.
+    pub tilting: Option<f64>,
     /// Distance of its forces from the line of the rail along +z, length, in place of that of the train.
     pub eccentricity: Option<f64>,
     /// Rail on which it stands, by default that of the train.
@@ -117,7 +120,7 @@ pub(crate) struct RawNamedCase {
     /// Order of the trains along the rail: "any" (default) or "given".
     pub order: Option<String>,
     /// Factors of the loads: `dead`, `vertical`, parts of vertical forces by name, `lateral`, `longitudinal`, by default
-    /// 1; `skewing`, `buffer` and `trolley drives`, by default 0.
+    /// 1; `skewing`, `buffer`, `trolley drives` and `tilting`, by default 0.
     #[serde(default)]
     pub factors: Entries<f64>,
 }

@@ -8,7 +8,7 @@ use fea::{Model, Rail};
 use super::practice;
 use super::raw::{RawCase, RawDead, RawDesign, RawForces, RawNamedCase, RawSectionCut, RawTrain};
 use super::values::{
-    Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, TROLLEY_DRIVES, WHOLE,
+    Design, DesignCase, DesignDead, DesignSection, DesignTrain, DesignWheel, TILTING, TROLLEY_DRIVES, WHOLE,
 };
 use crate::check::Check;
 use crate::limits::{CASE_TRAINS, TRAIN_WHEELS, TRAINS};
@@ -28,7 +28,8 @@ pub const FORMAT: &str = "girderway-design/1";
 const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Names of loads that every case may factor, beside those of parts of vertical forces.
-const LOADS: [&str; 7] = ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer", TROLLEY_DRIVES];
+const LOADS: [&str; 8] =
+    ["dead", WHOLE, "lateral", "longitudinal", "skewing", "buffer", TROLLEY_DRIVES, TILTING];
 
 impl Design {
     /// Reads a design and the spec that it names.
@@ -252,6 +253,7 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
         let longitudinal = own_number(given.longitudinal, "longitudinal", Dimension::FORCE, longitudinal);
         let eccentricity = own_number(given.eccentricity, "eccentricity", Dimension::LENGTH, eccentricity);
         let skewing = own_number(given.skewing, "skewing", Dimension::FORCE, None);
+        let tilting = own_number(given.tilting, "tilting", Dimension::FORCE, None);
         let vertical = vertical(&given.vertical, &here, check);
         let rail = own.unwrap_or(0);
         wheels.push(DesignWheel {
@@ -263,6 +265,7 @@ fn train(raw: &RawTrain, rails: &[RailOutline], at: &Place<'_>, check: &mut Chec
             skewing,
             buffer,
             trolley_drives: 0.0,
+            tilting,
             eccentricity,
         });
     }
@@ -304,7 +307,7 @@ fn vertical(raw: &Option<RawForces>, at: &Place<'_>, check: &mut Check<'_>) -> V
             for (name, force) in &parts.0 {
                 let here = place.key(name);
                 check_name(name, &here, check.faults);
-                if LOADS.contains(&name.as_str()) {
+                if name != TILTING && LOADS.contains(&name.as_str()) {
                     let fault =
                         Fault::new(&here, format!("\"{name}\" cannot be the name of a part")).at_key();
                     check.faults.add(fault.hint("it names another load in the factors of a case"));
@@ -445,7 +448,7 @@ fn case(
         .flat_map(|&k| &trains[k].wheels)
         .flat_map(|wheel| &wheel.vertical)
         .map(|(name, _)| name.as_str())
-        .filter(|name| *name != WHOLE)
+        .filter(|name| *name != WHOLE && *name != TILTING)
         .collect();
     parts.sort_unstable();
     parts.dedup();

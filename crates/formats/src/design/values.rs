@@ -16,6 +16,9 @@ use crate::units::Units;
 /// Name of the lateral force of the trolley's drives in factors.
 pub const TROLLEY_DRIVES: &str = "trolley drives";
 
+/// Name of the forces of a crane that tilts, in factors and as a part of vertical forces.
+pub const TILTING: &str = "tilting";
+
 /// Name of the part of a vertical force that is given as a number.
 pub const WHOLE: &str = "vertical";
 
@@ -129,18 +132,33 @@ pub struct DesignWheel {
     /// Its share in the lateral force of the trolley's drives, 0.1 (Q + T) of EN 1991-3, 2.7.5, along +z; 0 where the train
     /// does not give both weights.
     pub trolley_drives: f64,
+    /// Lateral force along +z while the crane tilts against an obstacle; a change of the vertical force is its part `tilting`.
+    pub tilting: f64,
     /// Distance of the forces from the line of the rail along +z.
     pub eccentricity: f64,
 }
 
-/// Parts of vertical forces that codes factor apart: the weight of the crane and the hoisted load.
+/// Parts of vertical forces that codes factor apart: the weight of the crane and the hoisted load. A third one, [`TILTING`], acts
+/// only with a factor of its own.
 pub const CODE_PARTS: [&str; 2] = ["crane", "hoist"];
 
 impl DesignWheel {
     /// Whether its vertical force is given in the parts that codes factor apart.
     #[must_use]
     pub fn has_code_parts(&self) -> bool {
-        self.vertical.iter().all(|(name, _)| CODE_PARTS.contains(&name.as_str()))
+        self.vertical.iter().all(|(name, _)| name == TILTING || CODE_PARTS.contains(&name.as_str()))
+    }
+
+    /// Whether it has a force from tilting of the crane.
+    #[must_use]
+    pub fn tilts(&self) -> bool {
+        self.tilting != 0.0 || self.vertical.iter().any(|(name, force)| name == TILTING && *force != 0.0)
+    }
+
+    /// Its vertical force without factors.
+    #[must_use]
+    pub fn whole_vertical(&self) -> f64 {
+        self.vertical.iter().filter(|(name, _)| name != TILTING).map(|(_, force)| force).sum()
     }
 }
 
@@ -168,10 +186,10 @@ pub struct DesignCase {
 }
 
 /// Loads that act only where a case gives them a factor.
-const ON_REQUEST: [&str; 3] = ["skewing", "buffer", TROLLEY_DRIVES];
+const ON_REQUEST: [&str; 4] = ["skewing", "buffer", TROLLEY_DRIVES, TILTING];
 
 impl DesignCase {
-    /// Factor of a load by name; by default 0 for `skewing`, `buffer` and `trolley drives`, and 1 for all others.
+    /// Factor of a load by name; by default 0 for `skewing`, `buffer`, `trolley drives` and `tilting`, and 1 for all others.
     #[must_use]
     pub fn factor(&self, name: &str) -> f64 {
         let default = if ON_REQUEST.contains(&name) { 0.0 } else { 1.0 };

@@ -93,7 +93,9 @@ fn member_outlines(model: &Model, tapers: &[Option<Taper>]) -> Vec<MemberOutline
         let taper = tapers.get(index).copied().flatten();
         MemberOutline {
             section: member.section,
-            is_tapered: taper.is_some_and(|taper| taper.section != member.section),
+            taper: taper
+                .filter(|taper| taper.section != member.section)
+                .map(|taper| (taper.section, [0.0, 1.0])),
         }
     };
     model.members.iter().enumerate().map(own).collect()
@@ -154,7 +156,13 @@ fn in_parts(
         .member_outlines
         .iter()
         .zip(&parts)
-        .flat_map(|(own, parts)| parts.clone().map(|_| *own))
+        .flat_map(|(own, parts)| {
+            let count = parts.len() as f64;
+            (0..parts.len()).map(move |part| MemberOutline {
+                taper: own.taper.map(|(other, _)| (other, [part, part + 1].map(|k| k as f64 / count))),
+                ..*own
+            })
+        })
         .collect();
     (FrameSpec { model, rails, cells, member_outlines, ..frame }, cuts)
 }

@@ -2,8 +2,8 @@
 
 use fea::{BeamTheory, Girder};
 
+use super::girder_section::filled_girder;
 use super::raw::RawGirder;
-use super::rolled;
 use super::structure::range;
 use crate::check::Check;
 use crate::limits::{SPANS, STATIONS};
@@ -20,7 +20,7 @@ pub(super) fn read(
     check: &mut Check<'_>,
 ) -> Girder {
     let at = root.key("girder");
-    let raw = &rolled::filled_girder(raw, &at, check);
+    let raw = &filled_girder(raw, &at, check);
     let before = check.faults.0.len();
     let (spans, overhangs) = read_lengths(raw, &at, check);
     // stations can only be checked if the lengths are valid

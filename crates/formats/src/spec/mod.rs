@@ -2,7 +2,7 @@
 //!
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
-//! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
+//! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder_section`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
 //! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), places of
 //! solver errors (`locate`), values that are probably wrong (`plausibility`) and rails on ties ([`ties`]).
 
@@ -13,6 +13,7 @@ pub mod cross_section;
 mod cuts;
 mod frame;
 mod girder;
+mod girder_section;
 mod grounds;
 mod locate;
 mod members;
@@ -39,7 +40,10 @@ pub(crate) use block::{Block, Reference};
 pub use cuts::{Cut, CutPlace};
 pub use grounds::SupportedPoint;
 pub use locate::SolveError;
-pub use outline::{MemberOutline, OutlineShape, SectionOutline, SectionPlates, SpecCraneRail};
+pub use outline::{
+    DrawnSection, MemberOutline, OutlineShape, OutlinedMember, SectionOutline, SectionPlates, SpecCraneRail,
+    TaperedSection,
+};
 pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};
 pub use read::{FORMAT, format, stem};
 pub use stress::{Detail, StressPoint};

@@ -2,8 +2,9 @@
 
 use sections::{RailProfile, crane_rail, rolled};
 
+use super::girder_section::filled_girder;
 use super::raw::{RawGirder, RawRail, RawSection, RawSectionShape, RawSpec};
-use super::rolled::{filled_girder, from_si, in_file_units};
+use super::rolled::{from_si, in_file_units};
 use crate::check::Check;
 use crate::text::fault::Faults;
 use crate::text::number::{number, rounded};
@@ -13,7 +14,8 @@ use crate::units::{Dimension, Length, Scale, Units};
 /// Number of digits in notes.
 const DIGITS: usize = 5;
 
-/// Notes on a spec without faults, whose numbers are in `units`; none if it has neither rolled sections nor crane rails.
+/// Notes on a spec without faults, whose numbers are in `units`; none if it has neither rolled sections, a girder with a shape
+/// nor crane rails.
 pub(super) fn of(raw: &RawSpec, units: Units) -> Vec<String> {
     let mut notes = Vec::new();
     if let Some(girder) = &raw.girder {
@@ -44,7 +46,8 @@ fn listed(numbers: &[(&str, Option<f64>, Option<f64>, Dimension)], units: Units)
 /// Notes on the section, the material and the rail of a girder.
 fn of_girder(raw: &RawGirder, units: Units) -> Vec<String> {
     let mut notes = Vec::new();
-    if let Some(section) = raw.section.as_deref().and_then(rolled) {
+    let section = raw.section.as_deref().and_then(rolled);
+    if section.is_some() || raw.shape.is_some() {
         // the girder without its rail: what the section alone gives
         let bare = RawGirder { crane_rail: None, composite: None, ..raw.numbers() };
         let found = filled(&bare, units);
@@ -57,7 +60,12 @@ fn of_girder(raw: &RawGirder, units: Units) -> Vec<String> {
             ("kA_lateral", raw.ka_lateral, found.ka_lateral, Dimension::AREA),
             ("mass_per_length", raw.mass_per_length, found.mass_per_length, Dimension::LINE_MASS),
         ];
-        notes.extend(listed(&numbers, units).map(|words| format!("girder: {} has {words}", section.name)));
+        let name = section.map_or("its shape", |section| section.name);
+        notes.extend(listed(&numbers, units).map(|words| format!("girder: {name} has {words}")));
+    }
+    if section.is_some() {
+        let bare = RawGirder { crane_rail: None, composite: None, ..raw.numbers() };
+        let found = filled(&bare, units);
         let density = found.density.filter(|_| raw.mass_per_length.is_none());
         let steel = [
             ("E", raw.e, found.e, Dimension::STRESS),

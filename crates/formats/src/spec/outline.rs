@@ -2,7 +2,7 @@
 
 use sections::{RailProfile, SectionDimensions, crane_rail, rolled};
 
-use super::raw::{RawGirder, RawSectionShape, RawSpec};
+use super::raw::{RawGirder, RawSection, RawSectionShape, RawSpec};
 use super::shape::{self, Kind};
 use crate::check::Check;
 use crate::text::place::Place;
@@ -15,8 +15,63 @@ pub struct SectionOutline {
     pub name: String,
     /// Its shape; `None` where the spec gives numbers alone.
     pub shape: Option<OutlineShape>,
+    /// Its dimensions, where the spec gives them, so that tapers to another section have dimensions too.
+    pub drawn: Option<DrawnSection>,
     /// Yield strength of its material, where the spec gives it.
     pub yield_strength: Option<f64>,
+}
+
+/// Kind and dimensions of a section, in the units of the spec.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct DrawnSection {
+    kind: Kind,
+    dimensions: [f64; 8],
+}
+
+/// A section between those of the ends of a tapered member. Local y is along its height.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TaperedSection {
+    /// Its shape.
+    pub shape: OutlineShape,
+    /// Area.
+    pub area: f64,
+    /// Integral of z^2.
+    pub iy: f64,
+    /// Integral of y^2.
+    pub iz: f64,
+}
+
+impl DrawnSection {
+    /// The dimensions of a section; `None` where it has no shape of dimensions, or states A, Iy or Iz beside it.
+    fn of_section(raw: &RawSection, check: &Check<'_>) -> Option<DrawnSection> {
+        let is_stated = [raw.area, raw.iy, raw.iz].iter().any(Option::is_some);
+        let (kind, dimensions) = shape::in_model_units(shape::dimensions(raw)?, &check.scale)?;
+        (!is_stated).then_some(DrawnSection { kind, dimensions })
+    }
+
+    /// The section at the fraction `s` of the length of a member that tapers to `other`: dimensions vary linearly. `None` unless
+    /// both are of one kind.
+    #[must_use]
+    pub fn towards(&self, other: &DrawnSection, s: f64) -> Option<TaperedSection> {
+        if self.kind != other.kind {
+            return None;
+        }
+        let dimensions =
+            std::array::from_fn(|k| self.dimensions[k] + (other.dimensions[k] - self.dimensions[k]) * s);
+        let found = shape::properties(self.kind, dimensions)?;
+        let shape = of_shape((self.kind, dimensions))?;
+        Some(TaperedSection { shape, area: found.area, iy: found.i2, iz: found.i1 })
+    }
+}
+
+/// The section of a member as stresses need it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutlinedMember<'a> {
+    /// The section of the cell, of which a tapered one has it at its first end.
+    pub section: &'a SectionOutline,
+    /// Of a part of a tapered cell: the section at the last end of the cell, and the stretch of the part as fractions of the
+    /// cell's length.
+    pub taper: Option<(&'a SectionOutline, [f64; 2])>,
 }
 
 /// Shape of a cross section whose local y axis is along its height.
@@ -71,21 +126,25 @@ pub struct SpecCraneRail {
 }
 
 /// The section of the file that a member has.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MemberOutline {
     /// Index of the section in the file.
     pub section: usize,
-    /// Whether the member is tapered, so that it has this section at its first end only.
-    pub is_tapered: bool,
+    /// Of a part of a tapered cell: the section at the last end of the cell, and the stretch of the part as fractions of the
+    /// cell's length.
+    pub taper: Option<(usize, [f64; 2])>,
 }
 
 /// The outline of the only section of a girder.
 pub(super) fn of_girder(raw: &RawGirder, at: &Place<'_>, check: &mut Check<'_>) -> SectionOutline {
     let fy = check.optional_positive(raw.fy, &at.key("fy"), Dimension::STRESS, "a yield strength");
     let section = raw.section.as_deref().and_then(rolled);
+    let drawn = raw.shape.as_ref().and_then(|raw| of_shape(shape::in_model_units(raw, &check.scale)?));
+    let named = section.map(|section| of_dimensions(&section.dimensions, check.scale.to.length));
     SectionOutline {
         name: section.map_or("girder", |section| section.name).to_owned(),
-        shape: section.map(|section| of_dimensions(&section.dimensions, check.scale.to.length)),
+        shape: named.or(drawn),
+        drawn: None,
         yield_strength: fy,
     }
 }
@@ -100,7 +159,7 @@ pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>
         strengths.push((material.name.as_deref(), fy));
     }
     let length = check.scale.to.length;
-    let outline = |section: &super::raw::RawSection| {
+    let outline = |section: &RawSection| {
         let own = section.material.as_deref();
         let strength = strengths.iter().find(|(name, _)| own.is_some() && *name == own);
         let rolled = match &section.shape {
@@ -114,6 +173,7 @@ pub(super) fn of_sections(raw: &RawSpec, root: &Place<'_>, check: &mut Check<'_>
         SectionOutline {
             name: name.to_owned(),
             shape: named.map(|(_, shape)| shape).or_else(drawn),
+            drawn: DrawnSection::of_section(section, check),
             yield_strength: strength.and_then(|(_, fy)| *fy),
         }
     };

@@ -113,11 +113,14 @@ pub(crate) struct RawGirder {
     pub ka_lateral: Option<f64>,
     /// Height of the rail above the elastic axis, length; by default 0.
     pub rail_height: Option<f64>,
-    /// Mass per length, mass / length; by default 0, with `section` the area times the density.
+    /// Mass per length, mass / length; by default 0, with `section`, or `shape` and `density`, the area times the density.
     pub mass_per_length: Option<f64>,
     /// Name of a rolled section, such as "HEB 400" or "W24x94", from whose dimensions properties that are left out are computed.
     pub section: Option<String>,
-    /// With `section`: mass density, mass / length^3; by default that of steel, as are `E` and `G`.
+    /// Dimensions of a built-up section whose height is vertical, from which properties that are left out are computed; in place
+    /// of `section`.
+    pub shape: Option<RawShape>,
+    /// With `section` or `shape`: mass density, mass / length^3; with `section` by default that of steel, as are `E` and `G`.
     pub density: Option<f64>,
     /// Yield strength, force / length^2; for stresses of a design.
     pub fy: Option<f64>,
@@ -136,6 +139,7 @@ impl RawGirder {
         RawGirder {
             spans: self.spans.clone(),
             section: self.section.clone(),
+            shape: self.shape.clone(),
             crane_rail: self.crane_rail.clone(),
             points: Vec::new(),
             ..*self
@@ -249,7 +253,7 @@ impl RawSection {
 }
 
 /// Dimensions of a cross section. The local y axis is along its height.
-#[derive(Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawShape {
     /// Kind of the shape: "I", "box", "tube" or "bar".

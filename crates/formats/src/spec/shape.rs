@@ -70,7 +70,7 @@ pub(super) fn filled(raw: &RawSection, at: &Place<'_>, check: &mut Check<'_>) ->
 }
 
 /// A, Iy, Iz, J, Asy, Asz of a shape, in the units of the file; `None` and faults if its dimensions are invalid.
-fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6]> {
+pub(super) fn read(raw: &RawShape, at: &Place<'_>, check: &mut Check<'_>) -> Option<[f64; 6]> {
     let kind = check.faults.require(&raw.kind, at, "kind")?;
     let kind = check.faults.one_of(kind, &at.key("kind"), &Kind::WORDS)?;
     let before = check.faults.0.len();
@@ -151,7 +151,7 @@ fn completed(mut dimensions: [f64; 8]) -> [f64; 8] {
 }
 
 /// The properties of a shape in powers of the unit of its dimensions; `None` if no space is left between its plates.
-fn properties(kind: Kind, dimensions: [f64; 8]) -> Option<Properties> {
+pub(super) fn properties(kind: Kind, dimensions: [f64; 8]) -> Option<Properties> {
     let [height, width, flange, web, lower_width, lower_flange, diameter, wall] = completed(dimensions);
     let found = match kind {
         Kind::I => section_properties("I", &[height, lower_width, width, web, lower_flange, flange]),

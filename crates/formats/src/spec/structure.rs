@@ -3,7 +3,7 @@
 use fea::{BeamTheory, Girder, Model, Rail};
 
 use super::cuts::Cut;
-use super::outline::{MemberOutline, SectionOutline, SpecCraneRail};
+use super::outline::{MemberOutline, OutlinedMember, SectionOutline, SpecCraneRail};
 use crate::units::Units;
 
 /// Name of the only rail of the short form.
@@ -124,15 +124,18 @@ impl Spec {
         }
     }
 
-    /// Shape and strength of the section of a member, and whether the member is tapered; `None` for members that the file does
-    /// not have.
+    /// Shape and strength of the section of a member, and how the member tapers; `None` for members that the file does not have.
     #[must_use]
-    pub fn outline(&self, member: usize) -> Option<(&SectionOutline, bool)> {
+    pub fn outline(&self, member: usize) -> Option<OutlinedMember<'_>> {
         match &self.form {
-            Form::Girder(_) => Some((self.outlines.first()?, false)),
+            Form::Girder(_) => Some(OutlinedMember { section: self.outlines.first()?, taper: None }),
             Form::Frame(frame) => {
                 let own = frame.member_outlines.get(member)?;
-                Some((self.outlines.get(own.section)?, own.is_tapered))
+                let taper = match own.taper {
+                    Some((other, stretch)) => Some((self.outlines.get(other)?, stretch)),
+                    None => None,
+                };
+                Some(OutlinedMember { section: self.outlines.get(own.section)?, taper })
             }
         }
     }

@@ -113,11 +113,15 @@ const BENDING: &str =
     "`I_vertical` bends the girder under vertical loads (its strong axis), `I_lateral` sideways";
 
 /// Examples of values whose type is often wrong, by their key.
-const EXAMPLES: [(&str, &str); 15] = [
+const EXAMPLES: [(&str, &str); 16] = [
     ("stations", "such as [0, 1.5, 3, 4.5, 6], where tables have their values"),
     ("spans", "such as [6, 7.5, 6], the distances between supports"),
     ("vertical", "an object with k, or in a design a force or its parts by name"),
     ("units", "such as {\"length\": \"m\", \"force\": \"kN\", \"time\": \"s\"}"),
+    (
+        "shape",
+        "such as {\"kind\": \"bar\", \"height\": 0.4, \"width\": 0.2}; a girder names a rolled section by `section`",
+    ),
     ("position", "rows [time, value], such as [[0, 4]]"),
     ("speed", "rows [time, value], such as [[0, 4]]"),
     ("acceleration", "rows [time, value], such as [[0, 4]]"),

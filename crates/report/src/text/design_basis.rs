@@ -5,7 +5,7 @@ use crate::figures::design::{digits, reading_unit};
 use crate::text::codes::code_with_edition;
 use crate::text::structure_words::structure_facts;
 use ::design::DesignResult;
-use formats::design::{Design, DesignCase, DesignTrain};
+use formats::design::{Design, DesignCase, DesignTrain, DesignWheel};
 use formats::units::Dimension;
 
 /// Largest number of trains and of cases that are listed.
@@ -50,8 +50,7 @@ fn dead_words(design: &Design) -> String {
 fn train_words(design: &Design, train: &DesignTrain) -> String {
     let (force, factor) = reading_unit(design.units, Dimension::FORCE);
     let length = design.units.label(Dimension::LENGTH);
-    let vertical: Vec<f64> =
-        train.wheels.iter().map(|wheel| wheel.vertical.iter().map(|(_, part)| part).sum()).collect();
+    let vertical: Vec<f64> = train.wheels.iter().map(DesignWheel::whole_vertical).collect();
     let range = |values: &[f64], factor: f64| {
         let low = values.iter().copied().fold(f64::INFINITY, f64::min);
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);

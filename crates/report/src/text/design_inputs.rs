@@ -33,7 +33,8 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
         section = section.table(train_table(design, train, [&length, &force]));
     }
     let mut cases = ReportTable {
-        caption: "Load cases; factors not listed are 1, those of skewing and buffer forces 0".to_owned(),
+        caption: "Load cases; factors not listed are 1, those of skewing, buffer and tilting forces 0"
+            .to_owned(),
         columns: ["case", "name", "trains", "gap", "factors"]
             .iter()
             .map(|name| TableColumn::new(*name, ""))

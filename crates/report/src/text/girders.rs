@@ -49,6 +49,9 @@ pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSec
     if !first.girders.extremes.is_empty() {
         section = section.table(spans(scene, first));
     }
+    if !first.girders.reactions.is_empty() {
+        section = section.table(reactions(scene, first));
+    }
     if let Some((table, method)) = girder_stresses::table(document, outcomes) {
         section = section.table(table).paragraph(method);
     }
@@ -123,6 +126,52 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         table.rows.push(row);
     }
     table
+}
+
+/// Largest and smallest reactions of one run.
+fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
+    let all = &outcome.girders.reactions;
+    let unit = scene.units.label(Dimension::FORCE);
+    let columns = vec![
+        TableColumn::new("support", ""),
+        TableColumn::new("direction", ""),
+        TableColumn::new("dead", &unit),
+        TableColumn::new("largest", &unit),
+        TableColumn::new("time", "s"),
+        TableColumn::new("smallest", &unit),
+        TableColumn::new("time", "s"),
+    ];
+    let (mut rows, mut zero) = (Vec::new(), Vec::new());
+    for pair in all.chunks_exact(2) {
+        let [largest, smallest] = [&pair[0], &pair[1]];
+        if largest.value == 0.0 && smallest.value == 0.0 {
+            zero.push(format!("{} {}", largest.support, largest.direction));
+            continue;
+        }
+        let mut row = vec![
+            TableCell::from(largest.support.clone()),
+            TableCell::from(largest.direction.to_string()),
+            TableCell::from(digits(largest.dead, DIGITS)),
+        ];
+        row.extend(
+            pair.iter().flat_map(|own| [own.value, own.time]).map(|n| TableCell::from(digits(n, DIGITS))),
+        );
+        rows.push(row);
+    }
+    let more = if rows.len() > ROWS { ", the first of them; summary.json has all" } else { "" };
+    rows.truncate(ROWS);
+    let without = if zero.is_empty() || zero.len() > ROWS {
+        String::new()
+    } else {
+        format!("; zero: {}", zero.join(", "))
+    };
+    let caption = format!(
+        "Reactions of supports in the run \"{}\": forces and moments on the structure, positive along the global axes; \
+         moments (rx, ry, rz) in {}{more}{without}",
+        outcome.label,
+        scene.units.label(Dimension::MOMENT)
+    );
+    ReportTable { caption, columns, rows }
 }
 
 /// Value, rail, span, place, side and time.

@@ -5,6 +5,7 @@ use crate::figures::responses::ground_reactions;
 use crate::text::design_stresses::stress_unit;
 use crate::text::girders::{GOVERNING, largest};
 use crate::{ReportTable, TableCell, TableColumn};
+use fea::Dof;
 use formats::scene::columns::Direction;
 use formats::scene::{Document, Scene};
 use formats::units::Dimension;
@@ -203,43 +204,56 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
     kinds.into_iter().filter_map(row).collect()
 }
 
-/// Largest and smallest vertical reaction, and the largest lateral one of either sign, of structures on the ground.
+/// A reaction of the ground with its name and time.
+type NamedReaction = (f64, f64, String);
+
+/// Largest and smallest vertical reaction, and the largest lateral and longitudinal ones of either sign, of structures on the
+/// ground.
 fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<GoverningRow> {
     let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
-    let is_ground = ground_reactions(scene);
-    let worst = |outcome: &CaseResult, direction: Direction, sign: f64| {
+    // sign times value is sought; 0 stands for the magnitude
+    let worst = |outcome: &CaseResult, direction: Option<Direction>, sign: f64| {
         let size = |value: f64| if sign == 0.0 { value.abs() } else { sign * value };
-        let mut best: Option<(f64, f64, String)> = None;
-        for (column, envelope) in outcome.response.columns.iter().zip(&outcome.response.envelopes) {
-            if column.direction != Some(direction) || !is_ground(column) {
-                continue;
-            }
-            for extreme in [&envelope.max, &envelope.min] {
-                if best.as_ref().is_none_or(|(known, ..)| size(extreme.value) > size(*known)) {
-                    best = Some((extreme.value, extreme.time, column.name.clone()));
-                }
-            }
-        }
-        best
+        let all = ground_forces(scene, outcome, direction).into_iter();
+        all.reduce(|best, next| if size(next.0) > size(best.0) { next } else { best })
     };
-    let size = worst(first, Direction::Vertical, 0.0).map_or(0.0, |(value, ..)| value.abs());
+    let size = worst(first, Some(Direction::Vertical), 0.0).map_or(0.0, |(value, ..)| value.abs());
     let kinds = [
-        ("largest vertical reaction", Direction::Vertical, 1.0),
-        ("smallest vertical reaction", Direction::Vertical, -1.0),
-        ("largest lateral reaction", Direction::Lateral, 0.0),
+        ("largest vertical reaction", Some(Direction::Vertical), 1.0),
+        ("smallest vertical reaction", Some(Direction::Vertical), -1.0),
+        ("largest lateral reaction", Some(Direction::Lateral), 0.0),
+        ("largest longitudinal reaction", None, 0.0),
     ];
-    let row = |(words, direction, sign): (&str, Direction, f64)| {
+    let row = |(words, direction, sign): (&str, Option<Direction>, f64)| {
         let (value, time, name) =
             worst(first, direction, sign).filter(|(value, ..)| value.abs() > ROUNDING * size)?;
+        let same = others.iter().filter_map(|other| worst(other, direction, sign));
         Some(GoverningRow {
-            others: others
-                .iter()
-                .filter_map(|other| worst(other, direction, sign))
-                .map(|found| found.0)
-                .collect(),
+            others: same.map(|found| found.0).collect(),
             size,
             ..GoverningRow::new(words, (&unit, factor), value, &name, time)
         })
     };
     kinds.into_iter().filter_map(row).collect()
+}
+
+/// The extremes of the forces of the ground in a direction (`None`: along the rails); those of the history's columns for
+/// structures whose girders have no extremes.
+fn ground_forces(scene: &Scene, outcome: &CaseResult, direction: Option<Direction>) -> Vec<NamedReaction> {
+    let mut out = Vec::new();
+    let known = &outcome.girders.reactions;
+    for own in known.iter().filter(|own| scene.structures[own.structure].carrier.is_none()) {
+        if own.relative == direction && own.direction < Dof::Rx {
+            out.push((own.value, own.time, format!("{} {}", own.support, own.direction)));
+        }
+    }
+    let is_ground = ground_reactions(scene);
+    for (column, envelope) in outcome.response.columns.iter().zip(&outcome.response.envelopes) {
+        let is_known = known.iter().any(|own| column.name.starts_with(&format!("{}.", own.support)));
+        if direction.is_some() && column.direction == direction && is_ground(column) && !is_known {
+            let extremes = [&envelope.max, &envelope.min];
+            out.extend(extremes.map(|extreme| (extreme.value, extreme.time, column.name.clone())));
+        }
+    }
+    out
 }

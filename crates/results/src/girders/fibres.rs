@@ -56,7 +56,7 @@ impl StressedSections {
                 Effect::Reaction(_) => None,
             };
             let rail = rails.iter().position(|[_, rail]| *rail == member.rail);
-            let found = rail.zip(own.filter(|own| !own.is_composite));
+            let found = rail.zip(own);
             out.of_member.push(found.map(|(rail, fibres)| {
                 let known = out.all.iter().position(|known| known.rail == rail && known.fibres == *fibres);
                 known.unwrap_or_else(|| {

@@ -19,10 +19,11 @@
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found
 //! again between them; extremes between sections without a wheel that are farther than a section from the largest one.
 //!
+//! The largest and smallest reactions of supports are found at the same rows and refined in the same way (`reactions`).
 //! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
 //!
 //! Files, lowest first: solved, peaks, kept_rows, instants, fibres, sections, points, distributed, girder, scan, refine, deflections, spans,
-//! stresses, structure, rows, this one.
+//! stresses, reactions, structure, rows, this one.
 
 mod deflections;
 mod distributed;
@@ -32,6 +33,7 @@ mod instants;
 mod kept_rows;
 mod peaks;
 mod points;
+mod reactions;
 mod refine;
 mod rows;
 mod scan;
@@ -41,6 +43,7 @@ mod spans;
 mod stresses;
 mod structure;
 
+pub use reactions::GirderReaction;
 pub(crate) use rows::{Prepared, of_run};
 pub(crate) use solved::SolvedMembers;
 pub use stresses::{GirderStress, GirderStresses};
@@ -99,6 +102,8 @@ pub struct GirderEnvelope {
 pub struct GirderExtremes {
     /// Extremes by rail, span and quantity, largest first.
     pub extremes: Vec<GirderExtreme>,
+    /// Extremes of the reactions of the same structures, largest first; all directions of all supports are listed.
+    pub reactions: Vec<GirderReaction>,
     /// Envelopes by rail, place and quantity, largest first.
     pub envelope: Vec<GirderEnvelope>,
     /// Largest direct stresses, where the scene asks for them.
@@ -131,7 +136,8 @@ impl GirderExtremes {
                 "time": found.time,
             })
         };
-        (!self.extremes.is_empty()).then(|| self.extremes.iter().map(one).collect())
+        let reactions = self.reactions.iter().map(|reaction| reaction.json(number));
+        (!self.extremes.is_empty()).then(|| self.extremes.iter().map(one).chain(reactions).collect())
     }
 
     /// The envelopes of case `number`, counted from 1, as comma-separated values; `None` without girders.

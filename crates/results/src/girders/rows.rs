@@ -87,8 +87,9 @@ pub(crate) fn of_run(
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
         let rows = Rows { history, loads: &loads, foundations };
-        let (extremes, envelope, stresses) = girders.results(rows, spans, scene.accuracy);
+        let (extremes, envelope, stresses, reactions) = girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
+        out.reactions.extend(reactions);
         out.envelope.extend(envelope);
         out.stresses.extend(stresses);
         if spans.chosen.stride > 1 {

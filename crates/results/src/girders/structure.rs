@@ -9,6 +9,7 @@ use super::girder::LoadedGirders;
 use super::instants::LoadStates;
 use super::kept_rows::kept_rows;
 use super::points::PointDeflections;
+use super::reactions::{GirderReaction, Reactions};
 use super::refine::{GirderValue, Refinement};
 use super::scan::{SIGNS, Scan};
 use super::sections::Sections;
@@ -37,6 +38,7 @@ pub(super) struct PreparedGirders<'a> {
     members: &'a MemberForces,
     sections: Sections,
     distributed: DistributedForces,
+    reactions: Reactions,
 }
 
 /// The history of a run from which extremes are found.
@@ -105,7 +107,9 @@ impl<'a> PreparedGirders<'a> {
         let load = (scene.gravity, scene.output.dead_load);
         let distributed = DistributedForces::new(solved, built, members, &sections, load)
             .map_err(|source| failed(source.into()))?;
-        Ok(Some(PreparedGirders { scene, s, members, sections, distributed }))
+        let reactions = Reactions::new((scene, s), solved, built, members, load)
+            .map_err(|source| failed(source.into()))?;
+        Ok(Some(PreparedGirders { scene, s, members, sections, distributed, reactions }))
     }
 
     /// Index of the structure.
@@ -197,13 +201,13 @@ impl<'a> PreparedGirders<'a> {
         SpanExtremes { values, coarse, sizes: scan.sizes, scan, chosen }
     }
 
-    /// The extremes as results, and the envelopes at all places and at those of the extremes.
+    /// The extremes of spans and reactions as results, and the envelopes at all places and at those of the extremes.
     pub fn results(
         &self,
         rows: Rows<'_>,
         found: &SpanExtremes,
         accuracy: f64,
-    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses) {
+    ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses, Vec<GirderReaction>) {
         let (sizes, most) = (found.sizes, found.chosen.most_deflections);
         let (foundation, states) = (&rows.foundations[self.s], self.states(rows, &found.chosen.rows));
         let points = PointDeflections::new(foundation, &self.sections, &states);
@@ -211,6 +215,7 @@ impl<'a> PreparedGirders<'a> {
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let stresses = refinement.stresses(&found.values);
+        let reactions = refinement.reactions(&self.reactions);
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
@@ -221,7 +226,7 @@ impl<'a> PreparedGirders<'a> {
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
         // places in order; quantities keep theirs
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
-        (extremes, all, stresses)
+        (extremes, all, stresses, reactions)
     }
 }
 

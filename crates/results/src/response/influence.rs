@@ -326,7 +326,7 @@ impl ColumnList {
                     restraints.iter().filter(is_here).copied().map(Effect::Reaction).collect();
                 if wanted(Kind::Reaction, &name) && !all.is_empty() {
                     let dimension = dimension(dof >= Dof::Rx);
-                    let direction = direction(model, rails, dof);
+                    let direction = relative_direction(model, rails, dof);
                     self.add(Column { name, dimension, kind: Kind::Reaction, direction }, all);
                 }
             }
@@ -430,7 +430,7 @@ const fn dimension(is_moment: bool) -> Dimension {
 
 /// Direction of a reaction relative to the first rail: vertical or lateral if it is within about 25 degrees of that
 /// direction.
-fn direction(model: &Model, rails: &[fea::Rail], dof: Dof) -> Option<Direction> {
+pub(crate) fn relative_direction(model: &Model, rails: &[fea::Rail], dof: Dof) -> Option<Direction> {
     let k = dof as usize;
     let up = Vector3::from(model.up).normalize();
     let side = Vector3::from(rails.first()?.axis).cross(&up).normalize();

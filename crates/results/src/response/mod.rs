@@ -17,7 +17,7 @@ mod serviceability;
 pub use comparison::{ColumnStatistics, RunComparison, rail_sums};
 pub use envelope::{ColumnEnvelope, ColumnExtreme, Sway, Uplift};
 pub use influence::ColumnInfluence;
-pub(crate) use influence::{dead_load, inertia};
+pub(crate) use influence::{dead_load, inertia, relative_direction};
 pub(crate) use loaded::{LoadSource, PlaceMotions, displacements, spread};
 pub use loaded::{WheelLoad, WheelLoadReader};
 pub use modes::SceneMode;

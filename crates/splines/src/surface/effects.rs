@@ -208,6 +208,33 @@ impl InfluenceLines {
             Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis })
         }
     }
+
+    /// One effect per unit force at a probe, along its axis: the same number as [`InfluenceLines::fill`] writes.
+    ///
+    /// # Errors
+    /// Those of [`InfluenceLines::fill`]; an effect that does not exist.
+    pub fn value(&self, effect: usize, at: Probe) -> Result<f64, Error> {
+        let n = self.len();
+        let Some(section) = self.sections.get(effect) else {
+            return Err(Error::EffectShape { rows: effect + 1, columns: 1, expected: [n, 1] });
+        };
+        let row = self.rails.row(at)?;
+        let mut sum = 0.0;
+        for (&index, &shape) in row.indices().iter().zip(row.values()).filter(|(_, shape)| **shape != 0.0) {
+            sum += shape * self.rows[(effect, index)];
+        }
+        let element = &self.rails.elements()[row.element];
+        let carrier = element.member.filter(|_| !element.is_rigid_arm());
+        let own = carrier.zip(section.as_ref()).filter(|(carrier, section)| section.member == carrier.id);
+        if let Some((_, section)) = own {
+            sum += MemberLoad::new(element, at, &row).with_ends_held(section);
+        }
+        if sum.is_finite() {
+            Ok(sum)
+        } else {
+            Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis })
+        }
+    }
 }
 
 /// A unit rail force on a member, in the member's own axes.
