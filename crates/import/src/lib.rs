@@ -68,6 +68,10 @@ pub struct ImportOptions {
     pub spc: Option<u64>,
     /// Names of the cards of a deck that are ignored.
     pub skip: Vec<String>,
+    /// Whether what cannot change the stiffness of the structure is left out of a deck.
+    pub skip_unused: bool,
+    /// Where the mass of members acts; `None` means as the deck states.
+    pub mass: Option<structure::MassDistribution>,
 }
 
 /// A model converted to a beam spec, with warnings.
@@ -194,7 +198,8 @@ fn read_deck(
         return Err(vec![wrong]);
     }
     let empty = ImportedStructure::empty(stem(&name), Units { length, force });
-    bdf::read(path, open, empty, options.spc, &options.skip, findings)
+    let omit = bdf::Omissions { skip: &options.skip, unused: options.skip_unused };
+    bdf::read(path, open, empty, options.spc, omit, options.mass, findings)
         .map_err(|error| unreadable(path, &error))
 }
 
@@ -224,6 +229,8 @@ fn read_mesh(
     let deck = [
         ("--spc", options.spc.is_some()),
         ("--skip", !options.skip.is_empty()),
+        ("--skip-unused", options.skip_unused),
+        ("--mass", options.mass.is_some()),
         ("--force", options.force.is_some()),
     ];
     for (flag, _) in deck.into_iter().filter(|(_, given)| *given) {
@@ -240,7 +247,5 @@ fn read_mesh(
     let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
     let mut empty = ImportedStructure::empty(stem(&name), to);
     empty.up = options.up;
-    // a binary mesh is rejected when its header, which is text, is read
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(msh::read(&text, factor, &sections, empty, findings))
+    Ok(msh::read(&bytes, factor, &sections, empty, findings))
 }

@@ -27,6 +27,8 @@ pub fn run(args: &ImportArgs, global: Global) -> Result<Exit, Failure> {
         sections,
         spc: args.spc,
         skip: args.skip.iter().map(|name| name.trim().to_ascii_uppercase()).collect(),
+        skip_unused: args.skip_unused,
+        mass: args.mass.map(Into::into),
     };
     let imported = import(&args.model, &|path| std::fs::read(path), &options)?;
     for warning in &imported.warnings {

@@ -1,10 +1,10 @@
-//! Grids and coordinate systems (GRID, GRDSET and CORD2R), and the transformation of grids to the basic system.
+//! Grids (GRID and GRDSET), and their transformation to the basic system.
 
 use std::collections::BTreeMap;
 
+use super::coordinates::{BASIC_AXES, CoordinateSystems};
 use super::fields::CardFields;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use formats::vector::{cross, dot, minus, unit};
 
 /// A grid as its card defines it, in its own coordinate system.
 #[derive(Clone, Debug)]
@@ -31,42 +31,11 @@ pub struct GridDefaults {
     fix: [bool; 6],
 }
 
-/// A Cartesian coordinate system defined by three points.
-#[derive(Clone, Debug)]
-pub struct CoordinateCard {
-    /// Position of its card.
-    pub card: FilePlace,
-    /// Number of the coordinate system in which its points are defined.
-    pub reference: u64,
-    /// The origin, a point on the z axis and a point in the x-z plane.
-    pub points: [[f64; 3]; 3],
-}
-
-/// Origin and unit axes of a coordinate system, in the basic system.
-#[derive(Clone, Copy, Debug)]
-pub struct CoordinateFrame {
-    origin: [f64; 3],
-    axes: [[f64; 3]; 3],
-}
-
-const BASIC: CoordinateFrame =
-    CoordinateFrame { origin: [0.0; 3], axes: [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]] };
-
-impl CoordinateFrame {
-    /// Transforms a point to the basic system. If the axes are exactly the basic ones, coordinates are only shifted,
-    /// so that points of the basic system are reproduced without rounding.
-    fn basic(&self, at: [f64; 3]) -> [f64; 3] {
-        if self.axes == BASIC.axes {
-            return [0, 1, 2].map(|k| self.origin[k] + at[k]);
-        }
-        [0, 1, 2].map(|k| {
-            self.origin[k] + at[0] * self.axes[0][k] + at[1] * self.axes[1][k] + at[2] * self.axes[2][k]
-        })
-    }
-
-    /// Whether the axes coincide with those of the basic system, to rounding.
-    fn parallel(&self) -> bool {
-        (0..3).all(|k| dot(self.axes[k], BASIC.axes[k]) > 1.0 - 1e-15)
+impl GridDefaults {
+    /// Number of the coordinate system of grids whose field CP is blank.
+    #[must_use]
+    pub fn cp(&self) -> u64 {
+        self.cp
     }
 }
 
@@ -100,62 +69,76 @@ pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<GridDefaults> {
     Some(GridDefaults { cp: cp?, cd: cd?, fix: fix? })
 }
 
-/// Reads CORD2R.
-pub fn system(card: &mut CardFields<'_, '_>) -> Option<(u64, CoordinateCard)> {
-    let id = card.id(1, "CID")?;
-    let reference = card.whole(2, "RID");
-    let a = card.vector(3, ["A1", "A2", "A3"]);
-    let b = card.vector(6, ["B1", "B2", "B3"]);
-    let c = card.vector(9, ["C1", "C2", "C3"]);
-    card.end(12);
-    Some((id, CoordinateCard { card: card.card.at, reference: reference?, points: [a?, b?, c?] }))
-}
-
 /// A grid in the basic system.
 #[derive(Clone, Copy, Debug)]
 pub struct Resolved {
     /// Coordinates.
     pub at: [f64; 3],
-    /// Degrees of freedom that its card or GRDSET restrains permanently.
+    /// Directions of its displacement components, in the basic system.
+    pub axes: [[f64; 3]; 3],
+    /// Displacement components that its card or GRDSET restrains permanently.
     pub fix: [bool; 6],
+}
+
+/// Largest deviation of a direction from a global axis, in radians, that is taken for rounding.
+const ALIGNED: f64 = 1e-9;
+
+impl Resolved {
+    /// The global degrees of freedom that a set of displacement components restrains; `None` if the components are along
+    /// directions that no set of global axes spans.
+    ///
+    /// The restrained translations span a space whose projector is the sum of a a^T over their directions a. The set of
+    /// global axes spans the same space if the projector is diagonal; rotations likewise.
+    #[must_use]
+    pub fn global(&self, set: &[bool; 6]) -> Option<[bool; 6]> {
+        if self.axes == BASIC_AXES {
+            return Some(*set);
+        }
+        let mut global = [false; 6];
+        for half in [0, 3] {
+            for i in 0..3 {
+                for j in 0..3 {
+                    let chosen = (0..3).filter(|&k| set[half + k]);
+                    let projector: f64 = chosen.map(|k| self.axes[k][i] * self.axes[k][j]).sum();
+                    let wanted = if i == j { projector.round() } else { 0.0 };
+                    if (projector - wanted).abs() > ALIGNED {
+                        return None;
+                    }
+                    global[half + i] |= i == j && wanted != 0.0;
+                }
+            }
+        }
+        Some(global)
+    }
+
+    /// The global degree of freedom along a displacement component, and its sign; `None` if the component is not along
+    /// a global axis.
+    #[must_use]
+    pub fn global_component(&self, component: usize) -> Option<(usize, f64)> {
+        let direction = self.axes[component % 3];
+        let axis = (0..3).find(|&k| (direction[k].abs() - 1.0).abs() <= ALIGNED)?;
+        let is_along = (0..3).all(|k| k == axis || direction[k].abs() <= ALIGNED);
+        is_along.then_some((component - component % 3 + axis, direction[axis].signum()))
+    }
 }
 
 /// Transforms all grids to the basic system.
 pub fn resolve(
     grids: &BTreeMap<u64, GridCard>,
     defaults: GridDefaults,
-    systems: &BTreeMap<u64, CoordinateCard>,
+    systems: &mut CoordinateSystems<'_>,
     findings: &mut ImportFindings,
 ) -> BTreeMap<u64, Resolved> {
-    let frames = frames(systems, findings);
     let mut resolved = BTreeMap::new();
     for (&id, grid) in grids {
         let [cp, cd] = [grid.cp.unwrap_or(defaults.cp), grid.cd.unwrap_or(defaults.cd)];
-        let known = |system: u64, at: FilePlace, name: &str, findings: &mut ImportFindings| {
-            if !systems.contains_key(&system) && system != 0 {
-                let finding = ImportFinding::new(
-                    at,
-                    format!("GRID {id}: {name}"),
-                    "must be 0 or the number of a CORD2R",
-                );
-                findings.error(finding.with_found(system));
-            }
-            frames.get(&system).copied()
-        };
-        let place = known(cp, grid.spots[0], "CP", findings);
-        let turned = known(cd, grid.spots[1], "CD", findings);
-        if turned.is_some_and(|frame| !frame.parallel()) {
-            let about = format!("GRID {id}: CD");
-            let finding =
-                ImportFinding::new(grid.spots[1], about, "must be a system with the axes of the basic one");
-            findings.error(
-                finding.with_found(cd).hint("supports and springs of a beam spec are along the global axes"),
-            );
-        }
-        let Some(frame) = place else { continue };
-        let at = frame.basic(grid.at);
+        let place = systems.frame(cp, grid.spots[0], &format!("GRID {id}: CP"), findings);
+        let turned = systems.frame(cd, grid.spots[1], &format!("GRID {id}: CD"), findings);
+        let (Some(place), Some(turned)) = (place, turned) else { continue };
+        let at = place.basic(grid.at);
         if at.iter().all(|part| part.is_finite()) {
-            resolved.insert(id, Resolved { at, fix: grid.fix.unwrap_or(defaults.fix) });
+            let fix = grid.fix.unwrap_or(defaults.fix);
+            resolved.insert(id, Resolved { at, axes: turned.directions(at), fix });
         } else {
             findings.error(ImportFinding::new(
                 grid.card,
@@ -165,42 +148,4 @@ pub fn resolve(
         }
     }
     resolved
-}
-
-/// Resolves all coordinate systems to the basic system. A system may refer to any other: each pass resolves those
-/// whose reference system is already resolved. The iteration ends when no system remains, or when a pass resolves
-/// none; the remaining systems form a cycle or refer to a missing one, and each of them is an error.
-fn frames(
-    systems: &BTreeMap<u64, CoordinateCard>,
-    findings: &mut ImportFindings,
-) -> BTreeMap<u64, CoordinateFrame> {
-    let mut frames = BTreeMap::from([(0, BASIC)]);
-    let mut left: Vec<(&u64, &CoordinateCard)> = systems.iter().collect();
-    while !left.is_empty() {
-        let before = left.len();
-        left.retain(|(id, system)| {
-            let Some(reference) = frames.get(&system.reference) else { return true };
-            let [a, b, c] = system.points.map(|point| reference.basic(point));
-            let z = unit(minus(b, a));
-            let y = z.and_then(|z| unit(cross(z, minus(c, a))));
-            match (y, z) {
-                (Some(y), Some(z)) => {
-                    frames.insert(**id, CoordinateFrame { origin: a, axes: [cross(y, z), y, z] });
-                }
-                _ => {
-                    let expected = "its three points must not lie on one line";
-                    findings.error(ImportFinding::new(system.card, format!("CORD2R {id}"), expected));
-                }
-            }
-            false
-        });
-        if left.len() == before {
-            for (id, system) in left.drain(..) {
-                let about = format!("CORD2R {id}: RID");
-                let expected = "must refer, directly or through other systems, to the basic system 0";
-                findings.error(ImportFinding::new(system.card, about, expected).with_found(system.reference));
-            }
-        }
-    }
-    frames
 }

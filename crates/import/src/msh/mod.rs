@@ -1,4 +1,4 @@
-//! Meshes of gmsh in text format 4.1, whose line elements become members.
+//! Meshes of gmsh in formats 2.2 and 4.1, text or binary, whose line elements become members.
 //!
 //! Each curve must belong to exactly one physical group that the sections file defines, either as the name of a
 //! section or as an entry of `members`. This group determines section, orientation and releases of the members.
@@ -7,9 +7,12 @@
 //! # Source
 //! Gmsh reference manual, section "MSH file format".
 
+mod binary;
+mod header;
 mod mesh;
 mod sections;
 mod text;
+mod version2;
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -20,19 +23,20 @@ use fea::MemberKind;
 use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
+use header::MeshVersion;
 use mesh::Mesh;
 
 /// Reads a mesh into `empty`, a structure that has a name, units and the upward direction only. `factor` converts
 /// coordinates of the mesh to the unit of length of the structure. Errors are added to the findings.
 #[must_use]
 pub fn read(
-    text: &str,
+    bytes: &[u8],
     factor: f64,
     groups: &Sections,
     empty: ImportedStructure,
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
-    let mesh = Mesh::read(text, findings);
+    let mesh = read_mesh(bytes, findings);
     let mut structure = empty;
     if findings.has_errors() {
         return structure;
@@ -91,6 +95,21 @@ pub fn read(
     }
     structure.cell_sets = sets.into_iter().map(|(name, set)| (name.to_owned(), set)).collect();
     structure
+}
+
+/// Reads the contents of a mesh of any format; its errors are among the findings.
+fn read_mesh(bytes: &[u8], findings: &mut ImportFindings) -> Mesh {
+    let mut mesh = Mesh::default();
+    // the header is text in binary meshes too
+    let text = String::from_utf8_lossy(bytes);
+    if let Some(format) = header::format(&text, findings) {
+        match format.version {
+            _ if format.binary => binary::read(&mut mesh, bytes, format.version, findings),
+            MeshVersion::FourOne => mesh.read_41(&text, findings),
+            MeshVersion::Two => version2::read(&mut mesh, &text, findings),
+        }
+    }
+    mesh
 }
 
 /// The only one of the physical groups `names` of a curve that the sections file defines. If there is no such group
