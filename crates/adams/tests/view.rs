@@ -177,7 +177,8 @@ fn faults_have_their_place() {
 fn a_modified_spline_is_left_out_by_name() {
     let two = "data_element create spline spline_name=.m.soft adams_id=6 x=0,1,2,3 y=0,1,2,3\n\
                data_element create spline spline_name=.m.hard adams_id=7 x=0,1,2,3 y=0,2,4,6\n";
-    let change = "data_element modify spline &\n spline_name = .m.soft &\n y = (EVAL(.m.k * 2)), \\\n (f(a=1)), 3\n";
+    let change =
+        "data_element modify spline &\n spline_name = .m.soft &\n y = (EVAL(.m.k * 2)), \\\n (f(a=1)), 3\n";
     let (tables, modified) = read_with_modified(&format!("{two}{change}{change}")).expect("another remains");
     assert_eq!(tables.splines.iter().map(|spline| spline.id).collect::<Vec<_>>(), [7]);
     assert_eq!(modified, [ModifiedSpline { id: Some(6), name: "soft".into(), line: 3 }]);

@@ -95,7 +95,8 @@ impl ImportFindings {
                     let count = group.len();
                     let what = if kind.is_empty() { "places" } else { kind.as_str() };
                     let line = last.at.line;
-                    let expected = format!("{} ({count} {what} alike, the last in line {line})", first.expected);
+                    let expected =
+                        format!("{} ({count} {what} alike, the last in line {line})", first.expected);
                     errors.push(ImportFinding { expected, ..(*first).clone() });
                 }
                 _ => errors.extend(group.into_iter().cloned()),

@@ -117,7 +117,13 @@ impl TableSet {
             }
             top += row.stations.len();
         }
-        TableSet { name: grid.name.clone(), units: grid.units, tables, products: Vec::new(), left_out: Vec::new() }
+        TableSet {
+            name: grid.name.clone(),
+            units: grid.units,
+            tables,
+            products: Vec::new(),
+            left_out: Vec::new(),
+        }
     }
 
     /// The table with the number `id`.

@@ -11,6 +11,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::fields::CardFields;
 use super::grid::{GridCard, GridDefaults};
+use crate::axes::{BASIC_AXES, combined};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use formats::vector::{cross, dot, minus, unit};
 
@@ -50,25 +51,13 @@ pub struct CoordinateFrame {
     axes: [[f64; 3]; 3],
 }
 
-/// Axes of the basic system.
-pub const BASIC_AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
-
 const BASIC: CoordinateFrame =
     CoordinateFrame { kind: SystemKind::Rectangular, origin: [0.0; 3], axes: BASIC_AXES };
-
-/// Sum of the axes, each multiplied by one component. Vectors along the axes of the basic system are not changed.
-pub fn combined(axes: &[[f64; 3]; 3], parts: [f64; 3]) -> [f64; 3] {
-    if *axes == BASIC_AXES {
-        return parts;
-    }
-    [0, 1, 2].map(|k| parts[0] * axes[0][k] + parts[1] * axes[1][k] + parts[2] * axes[2][k])
-}
 
 /// Cosine and sine of an angle in degrees, exact for multiples of 90 degrees.
 fn cosine_and_sine(degrees: f64) -> [f64; 2] {
     let turn = degrees.rem_euclid(360.0);
-    for (right, values) in
-        [(0.0, [1.0, 0.0]), (90.0, [0.0, 1.0]), (180.0, [-1.0, 0.0]), (270.0, [0.0, -1.0])]
+    for (right, values) in [(0.0, [1.0, 0.0]), (90.0, [0.0, 1.0]), (180.0, [-1.0, 0.0]), (270.0, [0.0, -1.0])]
     {
         if turn == right {
             return values;
@@ -222,11 +211,7 @@ impl<'d> CoordinateSystems<'d> {
                 self.known.insert(top, frame);
                 stack.pop();
             } else if open.iter().any(|need| waiting.contains(need)) || !waiting.insert(top) {
-                self.refuse(
-                    top,
-                    "must be defined by systems or grids that do not depend on it",
-                    findings,
-                );
+                self.refuse(top, "must be defined by systems or grids that do not depend on it", findings);
                 self.known.insert(top, None);
                 stack.pop();
             } else {
@@ -240,9 +225,11 @@ impl<'d> CoordinateSystems<'d> {
     fn needs(&self, id: u64) -> Vec<u64> {
         let mut needs = match self.cards.get(&id).map(|card| &card.points) {
             Some(SystemPoints::Given(reference, _)) => vec![*reference],
-            Some(SystemPoints::Grids(grids)) => {
-                grids.iter().filter_map(|grid| self.grids.get(grid)).map(|grid| self.system_of(grid)).collect()
-            }
+            Some(SystemPoints::Grids(grids)) => grids
+                .iter()
+                .filter_map(|grid| self.grids.get(grid))
+                .map(|grid| self.system_of(grid))
+                .collect(),
             None => Vec::new(),
         };
         needs.retain(|need| *need == 0 || self.cards.contains_key(need));
@@ -279,7 +266,8 @@ impl<'d> CoordinateSystems<'d> {
             SystemPoints::Grids(grids) => {
                 for (point, number) in points.iter_mut().zip(grids) {
                     let grid = self.grids.get(number);
-                    let Some((grid, frame)) = grid.and_then(|grid| Some((grid, frame_of(self.system_of(grid))?)))
+                    let Some((grid, frame)) =
+                        grid.and_then(|grid| Some((grid, frame_of(self.system_of(grid))?)))
                     else {
                         let about = format!("{} {id}", card.name);
                         let expected = "refers to a grid that does not exist or has no coordinate system";

@@ -67,7 +67,9 @@ pub struct Omissions<'a> {
 }
 
 impl Omissions<'_> {
-    fn skips(&self, name: &str) -> bool {
+    /// Whether the user asked to ignore a card, keyword or type of element by its name.
+    #[must_use]
+    pub fn skips(&self, name: &str) -> bool {
         self.skip.iter().any(|skipped| skipped == name)
     }
 }
@@ -127,18 +129,14 @@ impl BulkDeck {
 
     /// Reads GRDSET and returns the defaults of BAROR and BEAMOR. They are read first because they also apply to the
     /// cards before them.
-    fn defaults(
-        &mut self,
-        cards: &[&Card],
-        findings: &mut ImportFindings,
-    ) -> [element::BarDefaults; 2] {
+    fn defaults(&mut self, cards: &[&Card], findings: &mut ImportFindings) -> [element::BarDefaults; 2] {
         let mut found = [element::BarDefaults::default(), element::BarDefaults::default()];
         let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
         for card in cards {
             let mut fields = CardFields { card, findings };
             match card.name.as_str() {
-                "BAROR" => found[0] = element::defaults(&mut fields).unwrap_or_default(),
-                "BEAMOR" => found[1] = element::defaults(&mut fields).unwrap_or_default(),
+                "BAROR" => found[0] = element::defaults(&mut fields),
+                "BEAMOR" => found[1] = element::defaults(&mut fields),
                 "GRDSET" => self.defaults = grid::defaults(&mut fields).unwrap_or_default(),
                 _ => continue,
             }

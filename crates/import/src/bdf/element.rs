@@ -66,15 +66,21 @@ pub struct BarDefaults {
     pub property: Option<u64>,
     orientation: Option<Orientation>,
     systems: Option<ElementSystems>,
+    /// Whether the card could not be read, so that nothing is known of its defaults.
+    is_unreadable: bool,
 }
 
-/// Reads BAROR or BEAMOR.
-pub fn defaults(card: &mut CardFields<'_, '_>) -> Option<BarDefaults> {
+/// Reads BAROR or BEAMOR. A card that cannot be read causes errors of its own alone, not of the elements.
+pub fn defaults(card: &mut CardFields<'_, '_>) -> BarDefaults {
+    read_defaults(card).unwrap_or(BarDefaults { is_unreadable: true, ..BarDefaults::default() })
+}
+
+fn read_defaults(card: &mut CardFields<'_, '_>) -> Option<BarDefaults> {
     let property = if card.blank(2) { Some(None) } else { card.id(2, "PID").map(Some) };
     let orientation = orientation(card)?;
     let systems = systems(card)?;
     card.end(9);
-    Some(BarDefaults { card: card.card.at, property: property?, orientation, systems })
+    Some(BarDefaults { card: card.card.at, property: property?, orientation, systems, is_unreadable: false })
 }
 
 /// Reads OFFT: the letters select the systems of the orientation and of the offsets at A and B. Older programs have
@@ -121,7 +127,7 @@ pub fn bar(card: &mut CardFields<'_, '_>, defaults: &BarDefaults) -> Option<(u64
     let property_default = from_default(card.blank(2) && defaults.property.is_some());
     let own = orientation(card);
     let given = own.map(|given| given.or(defaults.orientation));
-    if given == Some(None) {
+    if given == Some(None) && !defaults.is_unreadable {
         card.refuse(5, "X1", "is missing", "state the orientation as vector X1, X2, X3 or grid G0");
     }
     let systems = systems(card).map(|own| own.or(defaults.systems).unwrap_or_default());

@@ -2,8 +2,9 @@
 
 use std::collections::BTreeMap;
 
-use super::coordinates::{BASIC_AXES, CoordinateSystems};
+use super::coordinates::CoordinateSystems;
 use super::fields::CardFields;
+use crate::axes::BASIC_AXES;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 /// A grid as its card defines it, in its own coordinate system.

@@ -57,7 +57,8 @@ pub fn add(structure: &mut ImportedStructure, masses: &[MemberMass], findings: &
             skew.get_or_insert((mass.card, 0)).1 += 1;
         }
     }
-    let finite = |mass: &ImportedMass| mass.mass.is_finite() && mass.inertia.iter().all(|part| part.is_finite());
+    let finite =
+        |mass: &ImportedMass| mass.mass.is_finite() && mass.inertia.iter().all(|part| part.is_finite());
     if !places.values().all(finite) {
         let at = masses.first().map_or(FilePlace::default(), |mass| mass.card);
         findings.error(ImportFinding::new(at, "mass of elements", "must be within double precision"));

@@ -7,7 +7,6 @@
 //! # Source
 //! NASTRAN quick reference guides: formats of cards, local axes, planes 1 and 2, offsets and pin flags of CBAR.
 
-mod axes;
 mod card;
 mod coordinates;
 mod deck;
@@ -16,10 +15,10 @@ mod field;
 mod fields;
 mod grid;
 mod line;
-mod links;
 mod lump;
 mod lumped;
 mod material;
+mod member;
 mod property;
 mod resolve;
 mod rigid;
@@ -58,8 +57,7 @@ pub fn read(
     if findings.has_errors() {
         return Ok(empty);
     }
-    let of_deck =
-        if deck.coupled_mass { MassDistribution::Distributed } else { MassDistribution::Lumped };
+    let of_deck = if deck.coupled_mass { MassDistribution::Distributed } else { MassDistribution::Lumped };
     let asked = resolve::Asked { spc, mass: mass.unwrap_or(of_deck), unused: omit.unused };
     Ok(resolve::resolve(&deck, empty, asked, findings))
 }

@@ -345,7 +345,8 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         }
         property.end = Some(Box::new(end));
     }
-    if card.card.name == "PBEAML" && !["ROD", "TUBE", "TUBE2", "BAR", "BOX", "H", "I1", "CROSS", "Z"].contains(&shape.as_str())
+    if card.card.name == "PBEAML"
+        && !["ROD", "TUBE", "TUBE2", "BAR", "BOX", "H", "I1", "CROSS", "Z"].contains(&shape.as_str())
     {
         let message = "is taken with its shear centre at its centroid, like PBARL";
         let fault = card.fault(4, "TYPE", message);

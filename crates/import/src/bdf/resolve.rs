@@ -4,11 +4,11 @@
 //! 1. grids: coordinate systems are resolved, and coordinates are transformed to the basic system;
 //! 2. points: the grids to which an element, rigid link, mass or spring refers, in the order of their numbers (a grid
 //!    that only orients an element does not become a point);
-//! 3. members, with the sections and materials that they use (see [`super::section`]);
+//! 3. members (see [`super::member`]), with the sections and materials that they use (see [`super::section`]);
 //! 4. links of all degrees of freedom, and masses;
 //! 5. supports: permanent constraints of grids and the selected SPC set;
 //! 6. springs, whose other end must be ground or a restrained degree of freedom, so that supports must be known;
-//! 7. links of some degrees of freedom (see [`super::links`]), whose replacement depends on all of these;
+//! 7. links of some degrees of freedom (see [`crate::links`]), whose replacement depends on all of these;
 //! 8. the mass of elements, where it is lumped at the ends that they have then (see [`super::lumped`]);
 //! 9. sets of points and members.
 //!
@@ -16,23 +16,18 @@
 
 use std::collections::BTreeMap;
 
-use super::axes::{LocalAxes, turned_inertia};
-use super::coordinates::{CoordinateSystems, combined};
+use super::coordinates::CoordinateSystems;
 use super::deck::BulkDeck;
-use super::element::{ElementCard, Orientation, SectionOf as Given};
 use super::grid::{self, Resolved};
-use super::links::{self, PartialLink};
 use super::lump::{MassCard, SpringCard, Stiffness};
 use super::lumped::{self, MemberMass};
-use super::property::Property;
-use super::section::{SectionTable, mass_per_length};
+use super::section::SectionTable;
 use super::support;
+use crate::axes::{combined, turned_inertia};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use crate::structure::{
-    ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure, MassDistribution,
-};
-use fea::{Dof, MemberKind};
-use formats::vector::{minus, parallel};
+use crate::links::{self, PartialLink};
+use crate::structure::{ImportedMass, ImportedPoint, ImportedSpring, ImportedStructure, MassDistribution};
+use formats::vector::minus;
 
 /// What the user asks of the conversion.
 #[derive(Clone, Copy, Debug)]
@@ -46,20 +41,20 @@ pub struct Asked {
 }
 
 /// A deck and the structure to which it is converted.
-struct Resolver<'d, 'f> {
-    deck: &'d BulkDeck,
-    asked: Asked,
-    systems: CoordinateSystems<'d>,
-    grids: BTreeMap<u64, Resolved>,
+pub(super) struct Resolver<'d, 'f> {
+    pub(super) deck: &'d BulkDeck,
+    pub(super) asked: Asked,
+    pub(super) systems: CoordinateSystems<'d>,
+    pub(super) grids: BTreeMap<u64, Resolved>,
     /// Index of the point of each grid that is used.
-    index: BTreeMap<u64, usize>,
-    sections: SectionTable,
+    pub(super) index: BTreeMap<u64, usize>,
+    pub(super) sections: SectionTable,
     /// Mass of each member.
-    member_masses: Vec<MemberMass>,
+    pub(super) member_masses: Vec<MemberMass>,
     /// Links of some degrees of freedom, with the positions and names of their cards.
-    partial: Vec<(PartialLink, FilePlace, String)>,
-    structure: ImportedStructure,
-    findings: &'f mut ImportFindings,
+    pub(super) partial: Vec<(PartialLink, FilePlace, String)>,
+    pub(super) structure: ImportedStructure,
+    pub(super) findings: &'f mut ImportFindings,
 }
 
 /// Converts a deck to a structure. `empty` has a name and units only.
@@ -119,7 +114,7 @@ impl<'d> Resolver<'d, '_> {
     }
 
     /// Index of the point of a grid. Returns `None` if the grid does not exist, with an error, or could not be read.
-    fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
+    pub(super) fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
         let index = self.index.get(&id).copied();
         // an error has already been added for a grid that exists but could not be read
         if index.is_none() && !self.deck.grids.contains_key(&id) {
@@ -127,234 +122,6 @@ impl<'d> Resolver<'d, '_> {
                 .error(ImportFinding::new(at, about, "refers to a grid that does not exist").with_found(id));
         }
         index
-    }
-
-    /// Adds the members, in the order of their numbers.
-    fn members(&mut self) {
-        let deck = self.deck;
-        if deck.elements.is_empty() {
-            let finding = ImportFinding::new(FilePlace { line: 1, column: 1, file: 0 }, "", "has no member");
-            self.findings.error(finding.hint("supported members are CBAR, CBEAM, CROD, CTUBE and CONROD"));
-        }
-        for (&id, element) in &deck.elements {
-            self.member(id, element);
-        }
-    }
-
-    /// Returns the property of an element and the number in the name of its section, or `None`, with an error, if the
-    /// property does not exist or has the wrong type for the element.
-    fn property(&mut self, id: u64, element: &'d ElementCard, about: &str) -> Option<(u64, &'d Property)> {
-        let deck = self.deck;
-        let (number, property) = match &element.section {
-            Given::Own(property) => (id, property.as_ref()),
-            Given::Number(number) => {
-                let Some(property) = deck.properties.get(number) else {
-                    let (at, about) = element.property_default.unwrap_or((element.card, about));
-                    let finding = ImportFinding::new(at, about, "refers to a property that does not exist");
-                    self.findings.error(finding.with_found(number));
-                    return None;
-                };
-                (*number, property)
-            }
-        };
-        let fits = match element.kind.as_str() {
-            "CBAR" => matches!(property.kind.as_str(), "PBAR" | "PBARL"),
-            "CBEAM" => matches!(property.kind.as_str(), "PBEAM" | "PBEAML"),
-            "CTUBE" => property.kind == "PTUBE",
-            _ => matches!(property.kind.as_str(), "PROD" | "CONROD"),
-        };
-        if !fits {
-            let (at, about) = element.property_default.unwrap_or((element.card, about));
-            let expected = format!("cannot have the property {} {number}", property.kind);
-            let hint =
-                "CBAR needs PBAR or PBARL, CBEAM needs PBEAM or PBEAML, CROD needs PROD, CTUBE needs PTUBE";
-            self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
-            return None;
-        }
-        Some((number, property))
-    }
-
-    /// Orientation vector of an element whose first grid is at `first`: `Some(None)` for rods, and `None` if the grid
-    /// that defines the orientation does not exist (with an error) or could not be read.
-    fn orientation(
-        &mut self,
-        element: &ElementCard,
-        first: [f64; 3],
-        about: &str,
-    ) -> Option<Option<[f64; 3]>> {
-        match element.orientation {
-            Some(Orientation::Vector(vector)) if element.systems.basic => Some(Some(vector)),
-            Some(Orientation::Vector(vector)) => {
-                let axes = self.grids.get(&element.grids[0])?.axes;
-                Some(Some(combined(&axes, vector)))
-            }
-            Some(Orientation::Grid(grid)) => {
-                let Some(there) = self.grids.get(&grid) else {
-                    if !self.deck.grids.contains_key(&grid) {
-                        let (at, about) = element.orientation_default.unwrap_or((element.card, about));
-                        let finding = ImportFinding::new(
-                            at,
-                            format!("{about}: G0"),
-                            "refers to a grid that does not exist",
-                        );
-                        self.findings.error(finding.with_found(grid));
-                    }
-                    return None;
-                };
-                Some(Some(minus(there.at, first)))
-            }
-            None => Some(None),
-        }
-    }
-
-    /// Converts an element to a member and adds it; returns `None`, with an error among the findings, if this is not
-    /// possible.
-    fn member(&mut self, id: u64, element: &'d ElementCard) -> Option<()> {
-        let about = format!("{} {id}", element.kind);
-        let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
-        let (number, property) = self.property(id, element, &about)?;
-        let section = self.section(number, property, "", &about)?;
-        let section_b = match &property.end {
-            Some(end) => Some(self.section(number, end, " at end B", &about)?),
-            None => None,
-        };
-        let (a, b) = (a?, b?);
-        let ends = [a, b].map(|point| self.structure.points[point].at);
-        let orientation = self.orientation(element, ends[0], &about)?;
-        let offsets = self.offsets(element, ends, orientation, &about)?;
-        let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + offsets[end][axis]);
-        let along = minus(tip(1), tip(0));
-        if along == [0.0; 3] {
-            let finding =
-                ImportFinding::new(element.card, about, "must have a positive length between its ends");
-            self.findings.error(finding.hint("its ends coincide after the offsets are added"));
-            return None;
-        }
-        let bends = property.bending[0] > 0.0;
-        if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
-            let hint = "X1, X2, X3 or G0 define the side of the local y axis";
-            let finding = match element.orientation_default {
-                Some((at, name)) => {
-                    let expected = "must not be zero or along an element that states no orientation itself";
-                    ImportFinding::new(at, format!("{name}: X1"), expected)
-                }
-                None => {
-                    ImportFinding::new(element.card, about, "its orientation must not be zero or along it")
-                }
-            };
-            self.findings.error(finding.hint(hint));
-            return None;
-        }
-        let mut member = ImportedMember {
-            id,
-            points: [a, b],
-            kind: MemberKind::Beam,
-            section,
-            section_b,
-            orientation,
-            offsets,
-            releases: element.pins,
-        };
-        use_kind_of(property, &mut member);
-        let bar = self.adapt(property, element.card, &about, along, &mut member)?;
-        self.structure.members.push(member);
-        let [per_length, twist] = mass_per_length(self.deck, property);
-        let twists = element.kind == "CBEAM" && property.j > 0.0;
-        let mass = MemberMass { card: element.card, per_length, twist: if twists { twist } else { 0.0 } };
-        self.member_masses.push(mass);
-        if let Some(bar) = bar {
-            self.structure.members.push(bar);
-            self.member_masses.push(MemberMass { card: element.card, ..MemberMass::default() });
-        }
-        Some(())
-    }
-
-    /// Offsets of an element in global axes; `None`, with an error, if they are in element axes that do not exist.
-    fn offsets(
-        &mut self,
-        element: &ElementCard,
-        ends: [[f64; 3]; 2],
-        orientation: Option<[f64; 3]>,
-        about: &str,
-    ) -> Option<[[f64; 3]; 2]> {
-        let mut offsets = element.offsets;
-        let own = if element.systems.own.contains(&true) && offsets != [[0.0; 3]; 2] {
-            let axes = orientation.and_then(|vector| LocalAxes::new(minus(ends[1], ends[0]), vector));
-            if axes.is_none() {
-                let expected = "must have element axes, in which its offsets are stated";
-                let finding = ImportFinding::new(element.card, about, expected);
-                self.findings.error(finding.hint("the orientation must not be along the line from GA to GB"));
-            }
-            Some(axes?)
-        } else {
-            None
-        };
-        for (end, offset) in offsets.iter_mut().enumerate() {
-            *offset = match own {
-                Some(axes) if element.systems.own[end] => axes.vector(*offset),
-                _ => combined(&self.grids.get(&element.grids[end])?.axes, *offset),
-            };
-        }
-        Some(offsets)
-    }
-
-    /// Adapts a member to a property whose principal axes are turned, or whose neutral axis is off the shear centre.
-    ///
-    /// With the neutral axis off the shear centre by the same offset at both ends, axial force and bending about the
-    /// neutral axis are independent. The member then keeps bending, shear and torsion along the axis of shear centres,
-    /// with its end b released along it, and a bar along the neutral axis, which is returned, has the axial force.
-    ///
-    /// Returns `None`, with an error, for releases that the replacement would not preserve.
-    fn adapt(
-        &mut self,
-        property: &Property,
-        card: FilePlace,
-        about: &str,
-        along: [f64; 3],
-        member: &mut ImportedMember,
-    ) -> Option<Option<ImportedMember>> {
-        let is_neutral = property.neutral == [0.0; 2];
-        if (property.turn == 0.0 && is_neutral) || member.kind != MemberKind::Beam {
-            return Some(None);
-        }
-        let axes = member.orientation.and_then(|vector| LocalAxes::new(along, vector))?;
-        let is_uneven = |pins: &[bool; 6]| pins[1] != pins[2] || pins[4] != pins[5];
-        if property.turn != 0.0 {
-            if member.releases.iter().any(is_uneven) {
-                let expected = "must be pinned in both planes or none, because its principal axes are turned";
-                let hint = "state the principal second moments, and pins in their planes";
-                self.findings.error(ImportFinding::new(card, about, expected).hint(hint));
-                return None;
-            }
-            member.orientation = Some(axes.vector([0.0, property.turn.cos(), property.turn.sin()]));
-        }
-        if is_neutral {
-            return Some(None);
-        }
-        if member.releases != [[false; 6]; 2] {
-            let expected = "must not be pinned, because its neutral axis is off the axis of shear centres";
-            self.findings.error(ImportFinding::new(card, about, expected));
-            return None;
-        }
-        let [y, z] = property.neutral;
-        let apart = axes.vector([0.0, y, z]);
-        member.releases[1][Dof::Ux as usize] = true;
-        Some(Some(ImportedMember {
-            // no element has this number
-            id: 0,
-            kind: MemberKind::Truss,
-            section: self.sections.massless(&mut self.structure, member.section),
-            section_b: None,
-            orientation: None,
-            offsets: member.offsets.map(|offset| [0, 1, 2].map(|axis| offset[axis] + apart[axis])),
-            releases: [[false; 6]; 2],
-            ..member.clone()
-        }))
-    }
-
-    /// Index of the section of a property (see [`SectionTable::index_of`]).
-    fn section(&mut self, number: u64, property: &Property, end: &str, about: &str) -> Option<usize> {
-        self.sections.index_of(self.deck, &mut self.structure, self.findings, (number, property), end, about)
     }
 
     /// Adds the rigid links.
@@ -397,7 +164,8 @@ impl<'d> Resolver<'d, '_> {
         for (link, at, label) in std::mem::take(&mut self.partial) {
             if !links::add(&mut self.structure, link) {
                 let expected = "must join all degrees of freedom, or be replaceable by a hinge or a support";
-                let hint = "a hinge has one beam at the dependent grid; a support has a fixed independent grid";
+                let hint =
+                    "a hinge has one beam at the dependent grid; a support has a fixed independent grid";
                 self.findings.error(ImportFinding::new(at, label, expected).hint(hint));
             }
         }
@@ -436,7 +204,8 @@ impl<'d> Resolver<'d, '_> {
             let offset = minus(mass.offset, self.structure.points[point].at);
             return self.principal(mass, mass.inertia).map(|inertia| (offset, inertia));
         }
-        let frame = self.systems.frame(mass.system, mass.at, &format!("{}: CID", mass.label), self.findings)?;
+        let frame =
+            self.systems.frame(mass.system, mass.at, &format!("{}: CID", mass.label), self.findings)?;
         let has_direction = mass.offset != [0.0; 3] || mass.inertia != [[0.0; 3]; 3];
         if !frame.is_rectangular() && has_direction {
             let expected = "must be stated in a rectangular system";
@@ -619,26 +388,4 @@ impl<'d> Resolver<'d, '_> {
         sets.retain(|(_, set)| !set.is_empty());
         structure.cell_sets = sets;
     }
-}
-
-/// The kind of a member with the stiffnesses of its property: without bending stiffness it is a rod, and without
-/// torsional stiffness as well a truss. A member with bending stiffness only is a beam whose section has the J 0.
-fn use_kind_of(property: &Property, member: &mut ImportedMember) {
-    if property.bending[0] > 0.0 {
-        return;
-    }
-    // releases of what the member does not resist have no effect
-    let resisted = if property.j > 0.0 {
-        member.kind = MemberKind::Rod;
-        [Dof::Ux, Dof::Rx].as_slice()
-    } else {
-        member.kind = MemberKind::Truss;
-        [Dof::Ux].as_slice()
-    };
-    for pins in &mut member.releases {
-        for dof in Dof::ALL.into_iter().filter(|dof| !resisted.contains(dof)) {
-            pins[dof as usize] = false;
-        }
-    }
-    member.orientation = None;
 }

@@ -42,7 +42,8 @@ impl SectionTable {
         let (area, material) = (of.area, format!("{} without mass", of.material));
         if !self.materials.contains(&material) {
             let own = structure.materials.iter().find(|known| known.name == of.material);
-            let copy = own.map(|own| ImportedMaterial { name: material.clone(), density: None, ..own.clone() });
+            let copy =
+                own.map(|own| ImportedMaterial { name: material.clone(), density: None, ..own.clone() });
             structure.materials.extend(copy);
             self.materials.push(material.clone());
         }

@@ -89,7 +89,8 @@ impl<'b> Bytes<'b> {
     fn count(&mut self) -> Result<u64, Broken> {
         let before = self.at;
         let line = self.line()?;
-        line.parse().map_err(|_| Broken { expected: "must have its number of entries".to_owned(), byte: before })
+        line.parse()
+            .map_err(|_| Broken { expected: "must have its number of entries".to_owned(), byte: before })
     }
 
     /// The bytes up to the end of the section `name`, which the cursor passes.
@@ -171,7 +172,9 @@ fn section(
         ("Elements", MeshVersion::FourOne) => elements(mesh, bytes, findings)?,
         ("Nodes", MeshVersion::Two) => nodes_2(mesh, bytes, findings)?,
         ("Elements", MeshVersion::Two) => elements_2(mesh, bytes, findings)?,
-        ("PartitionedEntities", _) => return Err(bytes.broken("is not supported: write the mesh without partitions")),
+        ("PartitionedEntities", _) => {
+            return Err(bytes.broken("is not supported: write the mesh without partitions"));
+        }
         _ => {}
     }
     // what follows the last number of a section that was read is the end of its line

@@ -12,8 +12,10 @@ pub(super) const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format m
 pub(super) type OtherElements = BTreeMap<u64, (FilePlace, u64)>;
 
 /// The parts of a mesh that define a frame.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Mesh {
+    /// What messages call the entities of dimension 1, and their groups.
+    pub group_words: [&'static str; 2],
     /// Name of each physical group by dimension and number.
     pub names: BTreeMap<(u64, u64), String>,
     /// Physical groups of each entity by dimension and number.
@@ -24,6 +26,19 @@ pub struct Mesh {
     pub points: BTreeMap<u64, Vec<u64>>,
     /// Curve, nodes and position of each line element, by number.
     pub lines: BTreeMap<u64, (u64, [u64; 2], FilePlace)>,
+}
+
+impl Default for Mesh {
+    fn default() -> Mesh {
+        Mesh {
+            group_words: ["curve", "physical group"],
+            names: BTreeMap::new(),
+            groups: BTreeMap::new(),
+            nodes: BTreeMap::new(),
+            points: BTreeMap::new(),
+            lines: BTreeMap::new(),
+        }
+    }
 }
 
 impl Mesh {
@@ -49,7 +64,11 @@ impl Mesh {
     }
 
     /// Reads `$PhysicalNames`, which is text in binary meshes too.
-    pub(super) fn read_names(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
+    pub(super) fn read_names(
+        &mut self,
+        section: &mut MeshBlock<'_>,
+        findings: &mut ImportFindings,
+    ) -> Option<()> {
         let count = section.next(findings)?.whole(0, "number of names", findings)?;
         for _ in 0..count {
             let record = section.next(findings)?;
@@ -176,7 +195,13 @@ impl Mesh {
     }
 
     /// Adds a node.
-    pub(super) fn add_node(&mut self, tag: u64, place: [f64; 3], at: FilePlace, findings: &mut ImportFindings) {
+    pub(super) fn add_node(
+        &mut self,
+        tag: u64,
+        place: [f64; 3],
+        at: FilePlace,
+        findings: &mut ImportFindings,
+    ) {
         if self.nodes.insert(tag, place).is_some() {
             findings.error(ImportFinding::new(at, "node", "occurs twice").with_found(tag));
         }

@@ -16,6 +16,7 @@ mod version2;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use mesh::Mesh;
 pub use sections::{FORMAT, Sections};
 
 use fea::MemberKind;
@@ -24,7 +25,6 @@ use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
 use header::MeshVersion;
-use mesh::Mesh;
 
 /// Reads a mesh into `empty`, a structure that has a name, units and the upward direction only. `factor` converts
 /// coordinates of the mesh to the unit of length of the structure. Errors are added to the findings.
@@ -37,13 +37,25 @@ pub fn read(
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
     let mesh = read_mesh(bytes, findings);
-    let mut structure = empty;
     if findings.has_errors() {
-        return structure;
+        return empty;
     }
+    structure_of(&mesh, factor, groups, empty, findings)
+}
+
+/// Converts a mesh to a structure in `empty` (see [`read`]).
+#[must_use]
+pub fn structure_of(
+    mesh: &Mesh,
+    factor: f64,
+    groups: &Sections,
+    empty: ImportedStructure,
+    findings: &mut ImportFindings,
+) -> ImportedStructure {
+    let mut structure = empty;
     structure.materials.clone_from(&groups.materials);
     structure.sections.clone_from(&groups.sections);
-    let index = points(&mesh, factor, &mut structure);
+    let index = points(mesh, factor, &mut structure);
     let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     // curves for which an error was added, so that each causes one error instead of one for each of its elements
     let mut reported = BTreeSet::new();
@@ -57,8 +69,10 @@ pub fn read(
             );
             continue;
         };
-        let names: Vec<&str> = names(&mesh, 1, curve);
-        let Some(name) = group_of(curve, &names, groups, at, &mut reported, findings) else { continue };
+        let names: Vec<&str> = names(mesh, 1, curve);
+        let Some(name) = group_of(mesh, (curve, at), &names, groups, &mut reported, findings) else {
+            continue;
+        };
         let group = &groups.groups[name];
         let along = minus(structure.points[b].at, structure.points[a].at);
         let orientation = group.orientation.or(structure.up);
@@ -115,10 +129,10 @@ fn read_mesh(bytes: &[u8], findings: &mut ImportFindings) -> Mesh {
 /// The only one of the physical groups `names` of a curve that the sections file defines. If there is no such group
 /// or there are several, an error is added unless the curve is among `reported`.
 fn group_of<'m>(
-    curve: u64,
+    mesh: &Mesh,
+    (curve, at): (u64, FilePlace),
     names: &[&'m str],
     groups: &Sections,
-    at: FilePlace,
     reported: &mut BTreeSet<u64>,
     findings: &mut ImportFindings,
 ) -> Option<&'m str> {
@@ -128,10 +142,10 @@ fn group_of<'m>(
     }
     if reported.insert(curve) {
         let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
-        let expected =
-            format!("must be in one physical group that is a section or in `members`, {}", list(names));
+        let [entity, set] = mesh.group_words;
+        let expected = format!("must be in one {set} that is a section or in `members`, {}", list(names));
         let hint = format!("in the sections file: {}", known.join(", "));
-        findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
+        findings.error(ImportFinding::new(at, format!("{entity} {curve}"), expected).hint(hint));
     }
     None
 }

@@ -142,8 +142,11 @@ fn angles_and_zeds_have_principal_axes_between_their_plates() {
 fn hats_are_a_rectangle_less_its_hollow_with_brims() {
     let found = of("HAT", &[20.0, 2.0, 15.0, 5.0]);
     close(found.area, 15.0 * 20.0 - 11.0 * 18.0 + 2.0 * 5.0 * 2.0, "A");
-    close(found.i2, (20.0 * 15.0f64.powi(3) - 18.0 * 11.0f64.powi(3)) / 12.0
-        + 2.0 * (2.0 * 125.0 / 12.0 + 10.0 * 100.0), "I2");
+    close(
+        found.i2,
+        (20.0 * 15.0f64.powi(3) - 18.0 * 11.0f64.powi(3)) / 12.0 + 2.0 * (2.0 * 125.0 / 12.0 + 10.0 * 100.0),
+        "I2",
+    );
     let first = 15.0 * 20.0 * 10.0 - 11.0 * 18.0 * 9.0 + 20.0;
     let second = (15.0 * 8000.0 - 11.0 * 18.0f64.powi(3) + 10.0 * 8.0) / 3.0;
     close(found.i1, second - first * first / found.area, "I1");

@@ -1,7 +1,17 @@
 //! Local axes of elements, and inertia in turned axes.
 
-use super::coordinates::combined;
 use formats::vector::{cross, unit};
+
+/// Axes of the basic system: the global axes.
+pub const BASIC_AXES: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+
+/// Sum of the axes, each multiplied by one component. Vectors along the axes of the basic system are not changed.
+pub fn combined(axes: &[[f64; 3]; 3], parts: [f64; 3]) -> [f64; 3] {
+    if *axes == BASIC_AXES {
+        return parts;
+    }
+    [0, 1, 2].map(|k| parts[0] * axes[0][k] + parts[1] * axes[1][k] + parts[2] * axes[2][k])
+}
 
 /// Unit vectors x, y and z of an element.
 #[derive(Clone, Copy, Debug)]
