@@ -82,13 +82,19 @@ impl ImportFindings {
     /// cards, become one error at the first of them, with their number.
     #[must_use]
     pub fn errors(&self) -> Vec<Diagnostic> {
-        let mut groups: BTreeMap<(String, &str, &Option<String>), Vec<&ImportFinding>> = BTreeMap::new();
+        let mut index: BTreeMap<(String, &str, &Option<String>), usize> = BTreeMap::new();
+        let mut groups: Vec<(String, Vec<&ImportFinding>)> = Vec::new();
         for finding in &self.errors {
-            let key = (kind_of(&finding.about), finding.expected.as_str(), &finding.hint);
-            groups.entry(key).or_default().push(finding);
+            let kind = kind_of(&finding.about);
+            let key = (kind.clone(), finding.expected.as_str(), &finding.hint);
+            let group = *index.entry(key).or_insert_with(|| {
+                groups.push((kind, Vec::new()));
+                groups.len() - 1
+            });
+            groups[group].1.push(finding);
         }
         let mut errors = Vec::new();
-        for ((kind, ..), mut group) in groups {
+        for (kind, mut group) in groups {
             group.sort_by_key(|finding| finding.at);
             match group.as_slice() {
                 [first, .., last] if group.len() >= GROUP => {

@@ -237,7 +237,7 @@ impl<'d> CoordinateSystems<'d> {
     }
 
     fn system_of(&self, grid: &GridCard) -> u64 {
-        grid.cp.unwrap_or(self.defaults.cp())
+        grid.cp.unwrap_or(self.defaults.cp)
     }
 
     fn refuse(&self, id: u64, expected: &str, findings: &mut ImportFindings) {

@@ -66,8 +66,8 @@ pub fn add(structure: &mut ImportedStructure, masses: &[MemberMass], findings: &
     }
     let first = masses.iter().find(|mass| mass.per_length > 0.0);
     if let Some(first) = first {
-        let message = "of elements is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
-        let finding = ImportFinding::new(first.card, "mass", message);
+        let message = "is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
+        let finding = ImportFinding::new(first.card, "mass of elements", message);
         findings.warn(finding.hint("--mass distributed spreads it along them"));
     }
     if let Some((card, count)) = skew {

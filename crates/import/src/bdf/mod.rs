@@ -19,6 +19,7 @@ mod lump;
 mod lumped;
 mod material;
 mod member;
+mod place;
 mod property;
 mod resolve;
 mod rigid;

@@ -18,9 +18,9 @@ use std::collections::BTreeMap;
 
 use super::coordinates::CoordinateSystems;
 use super::deck::BulkDeck;
-use super::grid::{self, Resolved};
 use super::lump::{MassCard, SpringCard, Stiffness};
 use super::lumped::{self, MemberMass};
+use super::place::{self, Resolved};
 use super::section::SectionTable;
 use super::support;
 use crate::axes::{combined, turned_inertia};
@@ -65,7 +65,7 @@ pub fn resolve(
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
     let mut systems = CoordinateSystems::new(&deck.systems, &deck.grids, deck.defaults);
-    let grids = grid::resolve(&deck.grids, deck.defaults, &mut systems, findings);
+    let grids = place::resolve(&deck.grids, deck.defaults, &mut systems, findings);
     let mut resolver = Resolver {
         deck,
         asked,
