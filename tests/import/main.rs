@@ -4,6 +4,7 @@ mod bdf;
 mod cards;
 mod damage;
 mod inp;
+mod modes;
 mod msh;
 
 use std::collections::BTreeMap;

@@ -177,11 +177,11 @@ fn shape_numbers(
         let finding = ImportFinding::new(at, format!("{}: {what}", block.label()), expected);
         findings.error(finding.hint(hint));
     };
-    let (found, k, is_turned) = match d.as_slice() {
-        &[a, b] if shape == "RECT" => (section_properties("BAR", &[b, a]), 0.85, false),
-        &[r] => (section_properties("ROD", &[r]), 0.89, false),
-        &[r, t] => (section_properties("TUBE2", &[r, t]), 0.53, false),
-        &[a, b, t1, t2, t3, t4] => {
+    let (found, k, is_turned) = match *d.as_slice() {
+        [a, b] if shape == "RECT" => (section_properties("BAR", &[b, a]), 0.85, false),
+        [r] => (section_properties("ROD", &[r]), 0.89, false),
+        [r, t] => (section_properties("TUBE2", &[r, t]), 0.53, false),
+        [a, b, t1, t2, t3, t4] => {
             if t1 != t3 || t2 != t4 {
                 let hint = "the node of a box is at the middle of its outline: state *BEAM GENERAL SECTION";
                 refuse("t1", "must be equal to t3, and t2 to t4", hint);
@@ -189,7 +189,7 @@ fn shape_numbers(
             }
             (section_properties("BOX", &[b, a, t1, t2]), 0.44, false)
         }
-        &[l, h, b1, b2, t1, t2, t3] => {
+        [l, h, b1, b2, t1, t2, t3] => {
             let web = h - t1 - t2;
             let area = b1 * t1 + b2 * t2 + web * t3;
             let first = b1 * t1 * t1 / 2.0 + b2 * t2 * (h - t2 / 2.0) + web * t3 * (t1 + web / 2.0);
