@@ -121,9 +121,10 @@ fn parts_are_read_in_the_flat_form_and_files_are_included() {
     let body = body.replace("*Node,", "*Part, name=P\n*Node,").replace("*Material,", "*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n*Nset, nset=foot, instance=P-1\n 1,\n*End Assembly\n*Material,");
     let body = body.replace("1, encastre", "foot, encastre");
     let parts = json(&good(&body));
-    for key in ["points", "cells", "supports", "sections"] {
+    for key in ["points", "cells", "supports", "materials"] {
         assert_eq!(parts[key], flat[key], "{key}");
     }
+    assert_eq!(parts["sections"][0]["name"], "P-1.beam 1", "names of a part have that of its instance");
     assert_eq!(json(&good(&body.replace("\nfoot, enc", "\nP-1.1, enc")))["supports"], flat["supports"]);
     let moved = body.replace("part=P\n*End", "part=P\n1., 0., 0.\n*End");
     assert!(told(&input(&moved, &plain()).expect_err("moved")).contains("must not be moved"));
@@ -135,6 +136,26 @@ fn parts_are_read_in_the_flat_form_and_files_are_included() {
     let files = [("m/model.inp", main.as_str()), ("m/sub/rest.inc", "*INCLUDE, INPUT=../model.inp\n")];
     let wrong = told(&from_memory("m/model.inp", &files, &plain()).expect_err("a loop"));
     assert!(wrong.contains("*INCLUDE"), "{wrong}");
+}
+
+#[test]
+fn a_name_within_a_part_differs_from_the_same_name_outside() {
+    let text = "*Part, name=Part-1\n*Node\n1, 0., 0., 0.\n2, 5., 0., 0.\n3, 10., 0., 0.\n*Element, type=B31\n1, 1, 2\n2, 2, 3\n\
+        *Nset, nset=Set-1, generate\n1, 3, 1\n*Elset, elset=Set-1\n1, 2\n\
+        *Beam Section, elset=Set-1, material=Steel, section=RECT\n0.1, 0.2\n0., 0., -1.\n*End Part\n\
+        *Assembly, name=Assembly\n*Instance, name=Part-1-1, part=Part-1\n*End Instance\n\
+        *Nset, nset=Set-1, instance=Part-1-1\n1, 3\n*End Assembly\n*Material, name=Steel\n*Elastic\n2.1e11, 0.3\n\
+        *Step, name=Step-1\n*Static\n1., 1.\n*Boundary\nSet-1, ENCASTRE\n*End Step\n";
+    let held = |text: &str| {
+        let spec = json(&good(text));
+        let supports = spec["supports"].as_array().expect("supports").iter();
+        supports.filter_map(|support| support["point"].as_u64()).collect::<Vec<u64>>()
+    };
+    assert_eq!(held(text), [0, 2]);
+    assert_eq!(held(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-1")), [0, 1, 2]);
+    assert_eq!(held(&text.replace("Boundary\nSet-1", "Boundary\nPART-1-1.2")), [1]);
+    let wrong = input(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-2"), &plain());
+    assert!(told(&wrong.expect_err("no such set")).contains("does not exist"));
 }
 
 #[test]

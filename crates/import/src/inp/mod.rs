@@ -15,6 +15,7 @@ mod keyword;
 mod model;
 mod resolve;
 mod roles;
+mod scope;
 mod section;
 mod sets;
 mod values;
@@ -40,7 +41,8 @@ pub fn read(
     omit: Omissions<'_>,
     findings: &mut ImportFindings,
 ) -> io::Result<ImportedStructure> {
-    let blocks = keyword::read(path, open, findings)?;
+    let mut blocks = keyword::read(path, open, findings)?;
+    scope::with_instances(&mut blocks);
     let model = InpModel::new(&blocks, omit, findings);
     // a reference to something that could not be read would cause a second, misleading error
     if findings.has_errors() {
@@ -63,7 +65,8 @@ pub fn read_mesh(
     omit: Omissions<'_>,
     findings: &mut ImportFindings,
 ) -> io::Result<ImportedStructure> {
-    let blocks = keyword::read(path, open, findings)?;
+    let mut blocks = keyword::read(path, open, findings)?;
+    scope::with_instances(&mut blocks);
     let model = InpModel::new(&blocks, omit, findings);
     if let Some(section) = model.sections.first() {
         let finding =

@@ -47,7 +47,7 @@ impl InpSets {
     fn add_range(&mut self, name: &str, range: SetRange) {
         let set = self.sets.entry(key_of(name)).or_default();
         if set.name.is_empty() {
-            name.rsplit_once('.').map_or(name, |(_, own)| own).trim().clone_into(&mut set.name);
+            name.trim().clone_into(&mut set.name);
         }
         self.entries += usize::from(set.entries.insert(range));
     }

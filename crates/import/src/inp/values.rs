@@ -11,11 +11,10 @@ pub fn number_of(text: &str) -> Option<u64> {
     own.parse().ok()
 }
 
-/// The key of a name: in capital letters, without the name of an instance before it.
+/// The key of a name, in capital letters.
 #[must_use]
 pub fn key_of(name: &str) -> String {
-    let own = name.trim().trim_matches('"');
-    own.rsplit_once('.').map_or(own, |(_, own)| own).to_uppercase()
+    name.trim().trim_matches('"').to_uppercase()
 }
 
 /// The name of a value for messages: the keyword and the word for the value.
