@@ -146,6 +146,9 @@ fn partial_links_become_hinges_and_supports() {
     // two beams at the dependent grid share its rotation
     let two = format!("{linked}GRID,5,,2.,0.,3.,,123456\nCBAR,3,5,3,5,0.,1.,0.\n");
     assert!(refused(&two).contains("replaceable by a hinge or a support"));
+    // a chain of partial links: the grid between them turns freely
+    let chain = format!("{rods}GRID,6,,2.,2.,0.\nCONROD,7,6,4,1,.01\nRBE2,10,3,123,6\n");
+    assert!(refused(&chain).contains("replaceable by a hinge or a support"));
 }
 
 #[test]

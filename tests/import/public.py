@@ -33,9 +33,9 @@ def reasons(stderr):
     errors = json.loads(last).get("errors", [])
     kinds = set()
     for error in errors:
-        about = re.sub(r"\b\d+\b", "N", error["path"] or "")
+        about = re.sub(NUMBER, "N", error["path"] or "")
         expected = re.sub(r" \(.*alike.*\)$", "", error["expected"] or "")
-        kinds.add(f"{about}: {re.sub(NUMBER, "N", expected)}")
+        kinds.add(f"{about}: {re.sub(NUMBER, 'N', expected)}")
     return kinds
 
 

@@ -12,7 +12,7 @@ use fea::MemberKind;
 use formats::vector::minus;
 
 /// A link of some degrees of freedom between two points.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PartialLink {
     /// The independent point.
     pub from: usize,
@@ -25,8 +25,9 @@ pub struct PartialLink {
 /// Member and end of a member.
 type End = (usize, usize);
 
-/// Adds a partial link to a structure whose supports and springs are known; returns false if this is not possible.
-pub fn add(structure: &mut ImportedStructure, link: PartialLink) -> bool {
+/// Adds a partial link to a structure whose whole links, supports and springs are known; returns false if this is not
+/// possible. `all` are the partial links of the structure, of which others may act at the dependent point too.
+pub fn add(structure: &mut ImportedStructure, link: PartialLink, all: &[PartialLink]) -> bool {
     let PartialLink { from, to, set } = link;
     if is_fixed(structure, link) {
         let support = structure.supports.entry(to).or_default();
@@ -36,7 +37,8 @@ pub fn add(structure: &mut ImportedStructure, link: PartialLink) -> bool {
         return true;
     }
     let joins_translations = set[..3].iter().all(|joined| *joined);
-    let is_linked = structure.links.iter().any(|ends| ends.contains(&to));
+    let is_partial = all.iter().filter(|other| other.from == to || other.to == to).count() > 1;
+    let is_linked = is_partial || structure.links.iter().any(|ends| ends.contains(&to));
     if !joins_translations || is_linked || holds_free_part(structure, link) {
         return false;
     }

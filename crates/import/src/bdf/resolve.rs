@@ -161,8 +161,9 @@ impl<'d> Resolver<'d, '_> {
 
     /// Adds the links of some degrees of freedom.
     fn partial_links(&mut self) {
+        let all: Vec<PartialLink> = self.partial.iter().map(|(link, ..)| *link).collect();
         for (link, at, label) in std::mem::take(&mut self.partial) {
-            if !links::add(&mut self.structure, link) {
+            if !links::add(&mut self.structure, link, &all) {
                 let expected = "must join all degrees of freedom, or be replaceable by a hinge or a support";
                 let hint =
                     "a hinge has one beam at the dependent grid; a support has a fixed independent grid";

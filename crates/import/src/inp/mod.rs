@@ -10,6 +10,7 @@
 //! # Source
 //! Abaqus Keywords Reference Guide; Abaqus Analysis User's Guide, part VI (beam elements, their axes and sections).
 
+mod assign;
 mod constraint;
 mod keyword;
 mod model;

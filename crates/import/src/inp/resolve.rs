@@ -8,26 +8,21 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use super::keyword::InpField;
 use super::model::{InpElement, InpKind, InpModel, Joint};
-use super::section::{InpSection, MaterialOf};
-use super::values::key_of;
 use crate::axes::LocalAxes;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 use crate::links::{self, PartialLink};
-use crate::structure::{
-    ImportedMass, ImportedMaterial, ImportedMember, ImportedPoint, ImportedSection, ImportedSpring,
-    ImportedStructure,
-};
+use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
 use fea::MemberKind;
 use formats::vector::{minus, parallel};
 
-struct Resolver<'m, 'f> {
-    model: &'m InpModel,
+pub(super) struct Resolver<'m, 'f> {
+    pub(super) model: &'m InpModel,
     /// Index of the point of each node that is used.
-    index: BTreeMap<u64, usize>,
+    pub(super) index: BTreeMap<u64, usize>,
     /// Index of the section of each element, in the structure and in the file.
-    section_of: BTreeMap<u64, [usize; 2]>,
-    structure: ImportedStructure,
-    findings: &'f mut ImportFindings,
+    pub(super) section_of: BTreeMap<u64, [usize; 2]>,
+    pub(super) structure: ImportedStructure,
+    pub(super) findings: &'f mut ImportFindings,
 }
 
 /// Converts a model to a structure. `empty` has a name and units only.
@@ -83,103 +78,6 @@ impl Resolver<'_, '_> {
             self.findings.error(finding.with_found(number));
         }
         found
-    }
-
-    /// Adds the sections with their materials, and assigns them to elements.
-    fn assign_sections(&mut self) {
-        let model = self.model;
-        for (place, section) in model.sections.iter().enumerate() {
-            let Some(material) = self.material(section) else { continue };
-            let about = format!("{}: ELSET", section.label);
-            let elements =
-                InpModel::targets(&model.element_sets, &model.elements, &section.set, &about, self.findings);
-            let is_cubic = |number: &u64| {
-                let kind = model.elements.get(number).map(|element| element.kind);
-                kind == Some(InpKind::Beam { sheared: false })
-            };
-            let is_rigid_in_shear = !elements.is_empty() && elements.iter().all(is_cubic);
-            let index = self.structure.sections.len();
-            let numbers = section.numbers;
-            // principal second moments of I12; the axes are turned in `members`
-            let mean = 0.5 * (numbers.iz + numbers.iy);
-            let radius = (0.5 * (numbers.iz - numbers.iy)).hypot(numbers.product);
-            let [iz, iy] = if numbers.product == 0.0 {
-                [numbers.iz, numbers.iy]
-            } else {
-                [mean + radius, mean - radius]
-            };
-            let beam = |value: f64| section.is_beam.then_some(value);
-            let g = self
-                .structure
-                .materials
-                .iter()
-                .find(|known| known.name == material)
-                .and_then(|known| known.g);
-            let [shear_y, shear_z] = match (section.shear_stiffness, g) {
-                _ if is_rigid_in_shear => [None; 2],
-                (Some(stiffness), Some(g)) => stiffness.map(|value| Some(value / g)),
-                _ => [beam(numbers.k * numbers.area); 2],
-            };
-            let positive = [Some(numbers.area), beam(iy), beam(iz), beam(numbers.j), shear_y, shear_z];
-            if positive.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
-                let expected = "must have properties within double precision";
-                self.findings.error(ImportFinding::new(section.set.at, &section.label, expected));
-                continue;
-            }
-            let name = format!("{} {}", section.set.text, index + 1);
-            self.structure.sections.push(ImportedSection {
-                name,
-                material,
-                area: Some(numbers.area),
-                iy: beam(iy),
-                iz: beam(iz),
-                j: beam(numbers.j),
-                shear_y: beam(1.0).and(shear_y),
-                shear_z: beam(1.0).and(shear_z),
-            });
-            for number in elements {
-                if self.section_of.insert(number, [index, place]).is_some() {
-                    let finding =
-                        ImportFinding::new(section.set.at, &about, "must not assign a second section");
-                    self.findings.error(finding.with_found(format!("element {number}")));
-                }
-            }
-        }
-    }
-
-    /// The name of the material of a section, which is added to the structure.
-    fn material(&mut self, section: &InpSection) -> Option<String> {
-        let (name, e, g, density) = match &section.material {
-            MaterialOf::Own([e, g, density]) => {
-                let name = format!("material of {} {}", section.set.text, self.structure.sections.len() + 1);
-                (name, *e, *g, (*density > 0.0).then_some(*density))
-            }
-            MaterialOf::Named(wanted) => {
-                let known =
-                    self.model.materials.iter().find(|known| key_of(&known.name) == key_of(&wanted.text));
-                let about = format!("{}: MATERIAL", section.label);
-                let Some(material) = known else {
-                    let finding = ImportFinding::new(wanted.at, about, "must be the name of a *MATERIAL");
-                    self.findings.error(finding.with_found(&wanted.text));
-                    return None;
-                };
-                let Some([e, nu]) = material.elastic else {
-                    let expected = "needs *ELASTIC";
-                    self.findings.error(ImportFinding::new(material.at, "*MATERIAL", expected));
-                    return None;
-                };
-                (material.name.clone(), e, e / (2.0 * (1.0 + nu)), material.density)
-            }
-        };
-        if !(g.is_finite() && g > 0.0) {
-            let expected = "must lead to moduli within double precision";
-            self.findings.error(ImportFinding::new(section.set.at, &section.label, expected));
-            return None;
-        }
-        if self.structure.materials.iter().all(|known| known.name != name) {
-            self.structure.materials.push(ImportedMaterial { name: name.clone(), e, g: Some(g), density });
-        }
-        Some(name)
     }
 
     fn members(&mut self) {
@@ -246,21 +144,6 @@ impl Resolver<'_, '_> {
             releases: [[false; 6]; 2],
         });
         Some(())
-    }
-
-    /// The section without shear areas, for beams of Euler and Bernoulli that share it with others.
-    fn rigid_in_shear(&mut self, section: usize) -> usize {
-        let of = &self.structure.sections[section];
-        if of.shear_y.is_none() {
-            return section;
-        }
-        let name = format!("{}, rigid in shear", of.name);
-        if let Some(known) = self.structure.sections.iter().position(|known| known.name == name) {
-            return known;
-        }
-        let copy = ImportedSection { name, shear_y: None, shear_z: None, ..of.clone() };
-        self.structure.sections.push(copy);
-        self.structure.sections.len() - 1
     }
 
     /// The direction of the 1-axis of a beam: to its third node, or that of its section.
@@ -390,8 +273,10 @@ impl Resolver<'_, '_> {
         self.structure.masses.extend(masses.into_values());
     }
 
+    /// Adds the rigid joints, then the pinned ones.
     fn joints(&mut self) {
         let model = self.model;
+        let mut pinned = Vec::new();
         for request in &model.joints {
             let leaders =
                 InpModel::targets(&model.node_sets, &model.nodes, &request.leader, "joint", self.findings);
@@ -407,26 +292,28 @@ impl Resolver<'_, '_> {
                 let from = self.point(leader, request.leader.at, &about);
                 let to = self.point(follower, request.followers.at, &about);
                 let (Some(from), Some(to)) = (from, to) else { continue };
-                self.join(request.joint, [from, to], request.followers.at, &about);
+                let at = request.followers.at;
+                let coincide = self.structure.points[from].at == self.structure.points[to].at;
+                match request.joint {
+                    Joint::Tied if !coincide => {
+                        let finding = ImportFinding::new(at, about, "must join nodes at one place");
+                        self.findings.error(finding.hint("*MPC BEAM joins nodes at a distance"));
+                    }
+                    Joint::Rigid | Joint::Tied => self.structure.links.push([from, to]),
+                    Joint::Pinned => {
+                        let set = [true, true, true, false, false, false];
+                        pinned.push((PartialLink { from, to, set }, at, about));
+                    }
+                }
             }
         }
-    }
-
-    fn join(&mut self, joint: Joint, [from, to]: [usize; 2], at: FilePlace, about: &str) {
-        let coincide = self.structure.points[from].at == self.structure.points[to].at;
-        match joint {
-            Joint::Tied if !coincide => {
-                let finding = ImportFinding::new(at, about, "must join nodes at one place");
-                self.findings.error(finding.hint("*MPC BEAM joins nodes at a distance"));
-            }
-            Joint::Rigid | Joint::Tied => self.structure.links.push([from, to]),
-            Joint::Pinned => {
-                let set = [true, true, true, false, false, false];
-                if !links::add(&mut self.structure, PartialLink { from, to, set }) {
-                    let expected = "must be rigid, or be replaceable by a hinge or a support";
-                    let hint = "a hinge has one beam at the node that follows; a support has a fixed node that leads";
-                    self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
-                }
+        let all: Vec<PartialLink> = pinned.iter().map(|(link, ..)| *link).collect();
+        for (link, at, about) in pinned {
+            if !links::add(&mut self.structure, link, &all) {
+                let expected = "must be rigid, or be replaceable by a hinge or a support";
+                let hint =
+                    "a hinge has one beam at the node that follows; a support has a fixed node that leads";
+                self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
             }
         }
     }
