@@ -404,7 +404,7 @@ impl From<DeckFormArg> for DeckForm {
 /// Arguments of `import`.
 #[derive(Clone, Debug, Args)]
 pub struct ImportArgs {
-    /// Model: .bdf, .dat or .nas (NASTRAN bulk data), or .msh (gmsh 4.1)
+    /// Model: .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh), or .inp (Abaqus)
     pub model: PathBuf,
     /// Beam spec to write [default: standard output]
     #[arg(short, long, value_name = "SPEC.json")]
@@ -412,7 +412,7 @@ pub struct ImportArgs {
     /// Unit of length of the model, which its file does not contain
     #[arg(long)]
     pub length: Option<LengthArg>,
-    /// Unit of force of bulk data, which the file does not contain
+    /// Unit of force of bulk data and Abaqus files, which do not contain it
     #[arg(long)]
     pub force: Option<ForceArg>,
     /// Upward direction; required for rails
@@ -430,9 +430,33 @@ pub struct ImportArgs {
     /// Set of supports, where case control does not choose one
     #[arg(long, value_name = "SET")]
     pub spc: Option<u64>,
-    /// Cards to leave out, such as CQUAD4,MPC
+    /// Cards or keywords to leave out, such as CQUAD4,MPC
     #[arg(long, value_name = "CARDS", value_delimiter = ',')]
     pub skip: Vec<String>,
+    /// Leave out what cannot change statics, such as optimisation, aeroelasticity and damping; each is listed
+    #[arg(long)]
+    pub skip_unused: bool,
+    /// Where the mass of bulk-data elements acts [default: as the deck states, by PARAM COUPMASS]
+    #[arg(long, value_name = "WHERE")]
+    pub mass: Option<MassArg>,
+}
+
+/// Words of the distribution of mass.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum MassArg {
+    /// At the ends of members
+    Lumped,
+    /// Along members
+    Distributed,
+}
+
+impl From<MassArg> for import::structure::MassDistribution {
+    fn from(word: MassArg) -> import::structure::MassDistribution {
+        match word {
+            MassArg::Lumped => import::structure::MassDistribution::Lumped,
+            MassArg::Distributed => import::structure::MassDistribution::Distributed,
+        }
+    }
 }
 
 /// Words of the units of length.

@@ -66,6 +66,7 @@ pub const TARGETS: &[Target] = &[
     },
     Target { name: "nastran", run: nastran, seeds: &DECKS },
     Target { name: "gmsh", run: gmsh, seeds: &MESHES },
+    Target { name: "abaqus", run: abaqus, seeds: &["tests/fuzz/seeds/frame.inp"] },
     Target { name: "sections", run: sections, seeds: &["tests/import/meshes/portal.json"] },
     Target {
         name: "solve",
@@ -102,11 +103,12 @@ const DECKS: [&str; 4] = [
     "tests/import/decks/pinned.bdf",
 ];
 
-const MESHES: [&str; 4] = [
+const MESHES: [&str; 5] = [
     "tests/malformed/base/mesh.msh",
     "tests/import/meshes/portal.msh",
     "tests/import/meshes/portal_22.msh",
     "tests/import/meshes/portal_binary.msh",
+    "tests/import/meshes/portal_22_binary.msh",
 ];
 
 /// Unknowns of the largest structure that is solved, in members and stations.
@@ -405,6 +407,12 @@ fn nastran(bytes: &[u8]) -> u64 {
     let options =
         ImportOptions { length: Some(Length::Metre), force: Some(Force::Newton), ..ImportOptions::default() };
     imported("deck.bdf", bytes, &options)
+}
+
+fn abaqus(bytes: &[u8]) -> u64 {
+    let options =
+        ImportOptions { length: Some(Length::Metre), force: Some(Force::Newton), ..ImportOptions::default() };
+    imported("model.inp", bytes, &options)
 }
 
 fn gmsh(bytes: &[u8]) -> u64 {

@@ -114,6 +114,25 @@ fn damaged_decks_are_refused_or_taken() {
 }
 
 #[test]
+fn damaged_input_files_are_refused_or_taken() {
+    let mut dice = fastrand::Rng::with_seed(14);
+    let model = "*NODE, NSET=all\n1,0,0,0\n2,2,0,0\n3,4,0,0\n4,4,1,0\n5,6,0,0\n*ELEMENT, TYPE=B31, ELSET=girder\n1,1,2\n\
+        2,2,3\n*ELEMENT, TYPE=T3D2, ELSET=tie\n3,3,5\n*ELEMENT, TYPE=SPRING1, ELSET=bearing\n4,2\n\
+        *ELEMENT, TYPE=MASS, ELSET=point\n5,3\n*SPRING, ELSET=bearing\n2\n5.e6\n*MASS, ELSET=point\n120.\n\
+        *NSET, NSET=ends, GENERATE\n1, 5, 4\n*BEAM GENERAL SECTION, ELSET=girder, DENSITY=7850.\n\
+        0.01, 4.e-4, 1.e-4, 2.e-4, 3.e-6\n0,1,.5\n2.1e11, 8.e10\n*SOLID SECTION, ELSET=tie, MATERIAL=steel\n0.002\n\
+        *MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n*MPC\nBEAM, 4, 3\n*RELEASE\n2, S2, ALLM\n\
+        *BOUNDARY\nends, 1, 3\n1, 4\n*STEP\n*STATIC\n*CLOAD\n4, 2, -1.\n*END STEP\n";
+    let mut counts = [0; 2];
+    for _ in 0..6000 {
+        let text = damaged(model, &mut dice);
+        let result = from_memory("model.inp", &[("model.inp", &text)], &plain());
+        counts[usize::from(taken(result, &text))] += 1;
+    }
+    assert!(counts[0] > 1000 && counts[1] > 100, "{counts:?}");
+}
+
+#[test]
 fn damaged_meshes_are_refused_or_taken() {
     let mut dice = fastrand::Rng::with_seed(12);
     let [mesh, sections] = ["meshes/portal.msh", "meshes/portal.json"].map(text);

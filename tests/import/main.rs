@@ -1,7 +1,10 @@
 //! Models of other programs become beam specs that give the numbers those programs give.
 
 mod bdf;
+mod cards;
 mod damage;
+mod inp;
+mod modes;
 mod msh;
 
 use std::collections::BTreeMap;

@@ -79,7 +79,7 @@ fn random_set(dice: &mut Dice) -> TableSet {
         table(31, "spare", None, dice.curves(1, 4)),
         table(4_000_000_000, "one_curve", None, dice.curves(0, 9)),
     ];
-    TableSet { name: "bridge".to_owned(), units: FT_LBF, tables, products: Vec::new() }
+    TableSet { name: "bridge".to_owned(), units: FT_LBF, tables, products: Vec::new(), left_out: Vec::new() }
 }
 
 /// Curves of any doubles and the products that use them.
@@ -104,7 +104,7 @@ fn random_factored(dice: &mut Dice) -> TableSet {
         ),
         product("nothing", None, Vec::new()),
     ];
-    TableSet { name: "bridge".to_owned(), units: FT_LBF, tables, products }
+    TableSet { name: "bridge".to_owned(), units: FT_LBF, tables, products, left_out: Vec::new() }
 }
 
 /// All numbers of a set, as bits.

@@ -113,7 +113,7 @@ pub enum AdamsFault {
         id: u32,
     },
     /// A later command modifies a SPLINE.
-    #[error("a SPLINE is changed after it is made")]
+    #[error("a SPLINE is changed after it is made, and no other is left")]
     Changed,
     /// A SPLINE has no X.
     #[error("SPLINE/{id} has no X")]

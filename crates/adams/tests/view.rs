@@ -1,7 +1,7 @@
 //! Adams View commands: what this crate writes reads back, what other programs write is read, and anything
 //! else is refused with its place.
 
-use adams::view::{read, write};
+use adams::view::{ModifiedSpline, read, read_with_modified, write};
 use adams::{
     AdamsFault, AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits, Error, Spline, SplineValues,
     StatementId, Tables,
@@ -166,9 +166,26 @@ fn faults_have_their_place() {
     assert_eq!(read(&twice), Err(Error::At { line: 2, column: 1, fault: AdamsFault::DuplicateId { id: 6 } }));
     let changed = "data_element modify spline spline_name=a x=1";
     assert_eq!(read(changed), Err(Error::At { line: 1, column: 1, fault: AdamsFault::Changed }));
+    let unnamed = "data_element modify spline x=1";
+    assert_eq!(read(unnamed), Err(Error::At { line: 1, column: 1, fault: AdamsFault::Changed }));
     for (text, column) in [("defaults units length=cubit", 23), ("defaults units force=n time=hour", 29)] {
         assert_eq!(read(text), Err(Error::At { line: 1, column, fault: AdamsFault::Unit }), "{text}");
     }
+}
+
+#[test]
+fn a_modified_spline_is_left_out_by_name() {
+    let two = "data_element create spline spline_name=.m.soft adams_id=6 x=0,1,2,3 y=0,1,2,3\n\
+               data_element create spline spline_name=.m.hard adams_id=7 x=0,1,2,3 y=0,2,4,6\n";
+    let change =
+        "data_element modify spline &\n spline_name = .m.soft &\n y = (EVAL(.m.k * 2)), \\\n (f(a=1)), 3\n";
+    let (tables, modified) = read_with_modified(&format!("{two}{change}{change}")).expect("another remains");
+    assert_eq!(tables.splines.iter().map(|spline| spline.id).collect::<Vec<_>>(), [7]);
+    assert_eq!(modified, [ModifiedSpline { id: Some(6), name: "soft".into(), line: 3 }]);
+    let refused = Error::At { line: 3, column: 1, fault: AdamsFault::Changed };
+    assert_eq!(read(&format!("{two}{change}")), Err(refused.clone()), "the plain reader takes none");
+    let both = format!("{two}{change}{}", change.replace("soft", "HARD"));
+    assert_eq!(read_with_modified(&both), Err(refused), "no other remains");
 }
 
 #[test]

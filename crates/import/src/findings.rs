@@ -1,5 +1,7 @@
 //! Errors and warnings of the import, with their positions in files.
 
+use std::collections::BTreeMap;
+
 use formats::text::diagnostic::Diagnostic;
 
 /// A position in one of the files of a model; `line` and `column` count from 1.
@@ -76,10 +78,37 @@ impl ImportFindings {
         !self.errors.is_empty()
     }
 
-    /// The errors in the order of their positions.
+    /// The errors in the order of their positions. Three or more of one kind, such as the same missing field of many
+    /// cards, become one error at the first of them, with their number.
     #[must_use]
     pub fn errors(&self) -> Vec<Diagnostic> {
-        self.placed(&self.errors)
+        let mut index: BTreeMap<(String, &str, &Option<String>), usize> = BTreeMap::new();
+        let mut groups: Vec<(String, Vec<&ImportFinding>)> = Vec::new();
+        for finding in &self.errors {
+            let kind = kind_of(&finding.about);
+            let key = (kind.clone(), finding.expected.as_str(), &finding.hint);
+            let group = *index.entry(key).or_insert_with(|| {
+                groups.push((kind, Vec::new()));
+                groups.len() - 1
+            });
+            groups[group].1.push(finding);
+        }
+        let mut errors = Vec::new();
+        for (kind, mut group) in groups {
+            group.sort_by_key(|finding| finding.at);
+            match group.as_slice() {
+                [first, .., last] if group.len() >= GROUP => {
+                    let count = group.len();
+                    let what = if kind.is_empty() { "places" } else { kind.as_str() };
+                    let line = last.at.line;
+                    let expected =
+                        format!("{} ({count} {what} alike, the last in line {line})", first.expected);
+                    errors.push(ImportFinding { expected, ..(*first).clone() });
+                }
+                _ => errors.extend(group.into_iter().cloned()),
+            }
+        }
+        self.placed(&errors)
     }
 
     /// The warnings in the order of their positions.
@@ -105,4 +134,22 @@ impl ImportFindings {
         placed.dedup();
         placed
     }
+}
+
+/// Least number of errors of one kind that are reported as one.
+const GROUP: usize = 3;
+
+/// What a finding concerns, without the numbers that distinguish cards: `CBAR 12: GA` gives `CBAR: GA`.
+fn kind_of(about: &str) -> String {
+    let words = about.split(' ').map(|word| {
+        let number = word.strip_suffix(':').unwrap_or(word);
+        let is_number = !number.is_empty() && number.bytes().all(|digit| digit.is_ascii_digit());
+        match (is_number, word.ends_with(':')) {
+            (true, true) => ":",
+            (true, false) => "",
+            (false, _) => word,
+        }
+    });
+    let kept: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    kept.join(" ").replace(" :", ":")
 }

@@ -1,7 +1,7 @@
 //! Import of models of other programs as beam specs.
 //!
-//! [`bdf`] reads NASTRAN bulk data, and [`msh`] reads meshes of gmsh. Both return a [`structure::ImportedStructure`],
-//! from which [`write()`] produces the text of a spec. [`import`] performs all of these steps.
+//! [`bdf`] reads NASTRAN bulk data, [`inp`] Abaqus input files, and [`msh`] meshes of gmsh. Each returns a
+//! [`structure::ImportedStructure`], from which [`write()`] produces the text of a spec. [`import`] performs all of these steps.
 //!
 //! # Example
 //! ```
@@ -27,11 +27,14 @@
 //! assert!(model.text.contains("\"PBAR 3\""));
 //! ```
 //!
-//! Wings, lowest first: findings, structure, rail, fix, write, msh, bdf
+//! Wings, lowest first: findings, axes, structure, links, rail, fix, write, msh, bdf, inp
 
+mod axes;
 pub mod bdf;
 pub mod findings;
 pub mod fix;
+pub mod inp;
+mod links;
 pub mod msh;
 pub mod rail;
 pub mod structure;
@@ -68,6 +71,10 @@ pub struct ImportOptions {
     pub spc: Option<u64>,
     /// Names of the cards of a deck that are ignored.
     pub skip: Vec<String>,
+    /// Whether what cannot change the stiffness of the structure is left out of a deck.
+    pub skip_unused: bool,
+    /// Where the mass of members acts; `None` means as the deck states.
+    pub mass: Option<structure::MassDistribution>,
 }
 
 /// A model converted to a beam spec, with warnings.
@@ -82,7 +89,8 @@ pub struct Imported {
 }
 
 /// Reads a model and converts it to a beam spec. The file extension determines the format: `.bdf`, `.dat` and `.nas`
-/// are NASTRAN bulk data, `.msh` is a gmsh mesh. `open` reads the file and those that it includes.
+/// are NASTRAN bulk data, `.msh` is a gmsh mesh, `.inp` an Abaqus input file (or bulk data, if it has a line BEGIN
+/// BULK). `open` reads the file and those that it includes.
 ///
 /// # Errors
 /// All errors of the model, with their positions. A model with errors is rejected as a whole.
@@ -93,19 +101,25 @@ pub fn import(
 ) -> Result<Imported, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
-    let mesh = match ending.as_str() {
-        "bdf" | "dat" | "nas" => false,
-        "msh" => true,
+    let mut findings = ImportFindings::default();
+    let mut structure = match ending.as_str() {
+        "bdf" | "dat" | "nas" => read_deck(path, open, options, &mut findings)?,
+        "msh" => read_mesh(path, open, options, &mut findings)?,
+        "inp" => {
+            // the file is read once, since a pipe cannot be read again
+            let bytes = open(path).map_err(|error| unreadable(path, &error))?;
+            let again = |other: &Path| if other == path { Ok(bytes.clone()) } else { open(other) };
+            if is_bulk_data(&bytes) {
+                read_deck(path, &again, options, &mut findings)?
+            } else {
+                read_input(path, &again, options, &mut findings)?
+            }
+        }
         _ => {
             let wrong = Diagnostic::of_file(name, "the extension of the file is not that of a known format");
-            return Err(vec![wrong.hint("use .bdf, .dat or .nas (NASTRAN bulk data) or .msh (gmsh)")]);
+            let hint = "use .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
+            return Err(vec![wrong.hint(hint)]);
         }
-    };
-    let mut findings = ImportFindings::default();
-    let mut structure = if mesh {
-        read_mesh(path, open, options, &mut findings)?
-    } else {
-        read_deck(path, open, options, &mut findings)?
     };
     if findings.has_errors() {
         return Err(findings.errors());
@@ -171,6 +185,64 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Vec<Diagnostic> {
     vec![Diagnostic::of_file(path.display().to_string(), read_error_message(error))]
 }
 
+/// Whether a file with the ending `.inp` is NASTRAN bulk data: a line consists of BEGIN BULK.
+fn is_bulk_data(bytes: &[u8]) -> bool {
+    let begins = |line: &[u8]| {
+        let words: Vec<&[u8]> =
+            line.split(u8::is_ascii_whitespace).filter(|word| !word.is_empty()).take(2).collect();
+        matches!(words.as_slice(), [a, b] if a.eq_ignore_ascii_case(b"BEGIN") && b.eq_ignore_ascii_case(b"BULK"))
+    };
+    bytes.split(|byte| *byte == b'\n').any(begins)
+}
+
+/// Reads an Abaqus input file; the options specify the units, or the unit of length and a sections file for a file
+/// without sections.
+fn read_input(
+    path: &Path,
+    open: bdf::OpenFile<'_>,
+    options: &ImportOptions,
+    findings: &mut ImportFindings,
+) -> Result<ImportedStructure, Vec<Diagnostic>> {
+    let name = path.display().to_string();
+    let mut wrong = Vec::new();
+    for (flag, _) in [("--spc", options.spc.is_some()), ("--mass", options.mass.is_some())]
+        .into_iter()
+        .filter(|(_, given)| *given)
+    {
+        wrong.push(refused(flag, ["is only available for bulk data".to_owned(), String::new()]));
+    }
+    if options.sections.is_some() && options.force.is_some() {
+        let message = "is not available with --sections, which states the unit of force".to_owned();
+        wrong.push(refused("--force", [message, String::new()]));
+    }
+    if options.length.is_none() || (options.force.is_none() && options.sections.is_none()) {
+        let expected = "Abaqus files have no units: --length and --force must state them";
+        let hint =
+            "such as --length m --force N; a file without sections needs --sections in place of --force";
+        wrong.push(Diagnostic::of_file(&name, expected).hint(hint));
+    }
+    if !wrong.is_empty() {
+        return Err(wrong);
+    }
+    let omit = bdf::Omissions { skip: &options.skip, unused: options.skip_unused };
+    let length = options.length.unwrap_or(Length::Metre);
+    let result = match (&options.sections, options.force) {
+        (Some(source), _) => {
+            let sections = msh::Sections::read(source)?;
+            let to = sections.units;
+            let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
+            let mut empty = ImportedStructure::empty(stem(&name), to);
+            empty.up = options.up;
+            inp::read_mesh(path, open, factor, &sections, empty, omit, findings)
+        }
+        (None, force) => {
+            let units = Units { length, force: force.unwrap_or(Force::Newton) };
+            inp::read(path, open, ImportedStructure::empty(stem(&name), units), omit, findings)
+        }
+    };
+    result.map_err(|error| unreadable(path, &error))
+}
+
 /// Reads NASTRAN bulk data; the options specify the units.
 fn read_deck(
     path: &Path,
@@ -194,7 +266,8 @@ fn read_deck(
         return Err(vec![wrong]);
     }
     let empty = ImportedStructure::empty(stem(&name), Units { length, force });
-    bdf::read(path, open, empty, options.spc, &options.skip, findings)
+    let omit = bdf::Omissions { skip: &options.skip, unused: options.skip_unused };
+    bdf::read(path, open, empty, options.spc, omit, options.mass, findings)
         .map_err(|error| unreadable(path, &error))
 }
 
@@ -224,6 +297,8 @@ fn read_mesh(
     let deck = [
         ("--spc", options.spc.is_some()),
         ("--skip", !options.skip.is_empty()),
+        ("--skip-unused", options.skip_unused),
+        ("--mass", options.mass.is_some()),
         ("--force", options.force.is_some()),
     ];
     for (flag, _) in deck.into_iter().filter(|(_, given)| *given) {
@@ -240,7 +315,5 @@ fn read_mesh(
     let factor = Scale { from: Units { length, ..to }, to }.factor(Dimension::LENGTH);
     let mut empty = ImportedStructure::empty(stem(&name), to);
     empty.up = options.up;
-    // a binary mesh is rejected when its header, which is text, is read
-    let text = String::from_utf8_lossy(&bytes);
-    Ok(msh::read(&text, factor, &sections, empty, findings))
+    Ok(msh::read(&bytes, factor, &sections, empty, findings))
 }

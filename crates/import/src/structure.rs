@@ -69,6 +69,15 @@ pub struct ImportedMember {
     pub releases: [[bool; 6]; 2],
 }
 
+/// Where the mass of members acts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum MassDistribution {
+    /// Half of it at each end, in translation.
+    Lumped,
+    /// Evenly along them.
+    Distributed,
+}
+
 /// A spring to ground.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ImportedSpring {

@@ -8,7 +8,7 @@ use beam::Random;
 use nalgebra::DMatrix;
 use splines::{
     Axis, Compliance, Couplings, ElementMember, ElementResidual, Error, ExactSurface, Flexibility, Influence,
-    Probe, RailElement, RailShapes, Rails, ResidualFlexibility, Uncoupled,
+    MemberMotion, Probe, RailElement, RailShapes, Rails, ResidualFlexibility, Uncoupled,
 };
 
 const AXES: [Axis; 3] = [Axis::Longitudinal, Axis::Vertical, Axis::Lateral];
@@ -45,9 +45,15 @@ fn surface(random: &mut Random) -> ExactSurface {
 fn compliances(random: &mut Random) -> Vec<Box<dyn Compliance>> {
     let whole = surface(random);
     let states = DMatrix::from_fn(36, 3, |_, _| random.between(-1.0, 1.0));
-    let loads = DMatrix::from_fn(8, 3, |_, _| random.between(-0.1, 0.1));
+    // a motion between the ends of each member: the deflection under a uniform load
+    let motion = MemberMotion {
+        plane: 0,
+        deflection: [0.0, 0.3, 0.2, -1.0, 0.5, 0.0, 0.0, 0.0, 0.0],
+        rotation: [0.0, 1.0, -3.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0],
+    };
+    let amplitudes = DMatrix::from_fn(4, 3, |_, _| random.between(-0.1, 0.1));
     let shapes = RailShapes::new(rails(), states).expect("six a state");
-    let shapes = shapes.with_uniform_loads(&loads).expect("two an element");
+    let shapes = shapes.with_member_motions(vec![vec![motion]; 4], &amplitudes).expect("one an element");
     vec![
         Box::new(whole.clone()),
         Box::new(Uncoupled::new(whole.clone(), Couplings::WithinRails)),

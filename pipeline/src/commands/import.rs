@@ -4,7 +4,7 @@ use crate::cli::{Global, ImportArgs};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::text::inputs::Inputs;
+use formats::text::inputs::{Inputs, read_file};
 use import::{ImportOptions, import};
 
 /// Reads the model and writes the beam spec to the named file or to standard output. Warnings, for example of
@@ -27,8 +27,10 @@ pub fn run(args: &ImportArgs, global: Global) -> Result<Exit, Failure> {
         sections,
         spc: args.spc,
         skip: args.skip.iter().map(|name| name.trim().to_ascii_uppercase()).collect(),
+        skip_unused: args.skip_unused,
+        mass: args.mass.map(Into::into),
     };
-    let imported = import(&args.model, &|path| std::fs::read(path), &options)?;
+    let imported = import(&args.model, &read_file, &options)?;
     for warning in &imported.warnings {
         progress.say(&format!("warning: {warning}"));
     }

@@ -108,7 +108,11 @@ fn given(
             );
             return Err(fault.hint("--reading and --tolerance need a grid file").into());
         }
-        return Ok((tables::read(&input.display_name, &input.bytes, units)?, None));
+        let set = tables::read(&input.display_name, &input.bytes, units)?;
+        if let Some(message) = set.left_out_message() {
+            progress.say(&format!("warning: {}: {message}", input.display_name));
+        }
+        return Ok((set, None));
     }
     let source = input.source()?;
     let (mut grid, surface) = grid_file::read(&source)?;

@@ -1,6 +1,8 @@
-"""Writes the meshes of this folder with gmsh 4.15.2 from PyPI: python make.py"""
+"""Writes the meshes of this folder with gmsh 4.15.2 and meshio 5.3.5 from PyPI: python make.py"""
 
 import gmsh
+import meshio
+import numpy
 
 
 def portal():
@@ -56,7 +58,17 @@ write("portal_all.msh", 1, save_all=1)
 write("portal_22.msh", 1, version=2.2)
 write("portal_40.msh", 1, version=4.0)
 write("portal_binary.msh", 1, binary=1)
+write("portal_22_binary.msh", 1, version=2.2, binary=1)
 write("portal_order_2.msh", 1, order=2)
+gmsh.option.setNumber("Mesh.SaveGroupsOfNodes", 1)
+gmsh.model.mesh.setOrder(1)
+gmsh.write("gmsh.inp")
+mesh = meshio.read("portal.msh")
+lines = numpy.vstack([block.data for block in mesh.cells if block.type == "line"])
+mesh = meshio.Mesh(mesh.points, [("line", lines)])
+mesh.point_sets = {"feet": [0, 1, 2]}
+mesh.cell_sets = {"girder": [list(range(6, 14))], "column": [list(range(6))], "brace": [[14]]}
+mesh.write("meshio.inp")
 gmsh.clear()
 plate()
 write("plate.msh", 2)

@@ -55,6 +55,37 @@ impl<'a> Command<'a> {
         })
     }
 
+    /// Line of the first character of the command.
+    pub fn line(&self) -> usize {
+        self.0.first().map_or(1, |piece| piece.line)
+    }
+
+    /// Each key with the first word of its values, in a command whose values may be expressions that [`Self::tokens`]
+    /// refuses. The equals signs within parentheses belong to expressions.
+    pub fn first_values(&self) -> Vec<(String, String)> {
+        let text: Vec<&str> = self.0.iter().map(|piece| piece.text).collect();
+        let text = text.join(" ");
+        let mut found = Vec::new();
+        let mut depth = 0_usize;
+        for (at, c) in text.char_indices() {
+            match c {
+                '(' => depth += 1,
+                ')' => depth = depth.saturating_sub(1),
+                '=' if depth == 0 => {
+                    let key = text[..at].split_whitespace().last().unwrap_or_default();
+                    let value = text[at + 1..].trim_start();
+                    let value = match value.strip_prefix('"') {
+                        Some(quoted) => quoted.split('"').next(),
+                        None => value.split([' ', '\t', ',']).next(),
+                    };
+                    found.push((key.to_owned(), value.unwrap_or_default().to_owned()));
+                }
+                _ => {}
+            }
+        }
+        found
+    }
+
     /// The tokens of the command.
     pub fn tokens(&self) -> Result<Vec<CommandToken<'a>>, Error> {
         let mut out = Vec::new();

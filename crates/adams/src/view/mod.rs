@@ -8,5 +8,5 @@ mod reader;
 mod units;
 mod writer;
 
-pub use reader::read;
+pub use reader::{ModifiedSpline, read, read_with_modified};
 pub use writer::write;

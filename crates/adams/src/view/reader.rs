@@ -8,23 +8,52 @@ use crate::language::{AdamsForceUnit, AdamsLengthUnit, AdamsMassUnit, AdamsUnits
 use crate::tables::{Spline, SplineValues, Tables};
 use crate::{AdamsFault, Error, number};
 
+/// A spline that a later command modifies. Its values are not those with which it was created, and the modified ones
+/// are often expressions, so that it is left out.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ModifiedSpline {
+    /// Its identifier; `None` if no command of the text creates it.
+    pub id: Option<u32>,
+    /// Its name as the command states it, without the model.
+    pub name: String,
+    /// Line of the command that modifies it.
+    pub line: usize,
+}
+
+/// Reads the commands `data_element create spline` and `defaults units`, and passes over every other command.
+///
+/// See [`read_with_modified`]; a text in which a command modifies a spline is refused.
+///
+/// # Errors
+/// As [`read_with_modified`], and [`AdamsFault::Changed`] for a spline that a later command modifies.
+pub fn read(text: &str) -> Result<Tables, Error> {
+    let (tables, modified) = read_with_modified(text)?;
+    match modified.first() {
+        Some(first) => Err(Error::At { line: first.line, column: 1, fault: AdamsFault::Changed }),
+        None => Ok(tables),
+    }
+}
+
 /// Reads the commands `data_element create spline` and `defaults units`, and passes over every other command.
 ///
 /// The values of a family are listed curve after curve, x fastest. A spline without `adams_id` gets the next
 /// free identifier, as in Adams View; a spline with the default name of its identifier has no name. The title
-/// is the name of the model.
+/// is the name of the model. The splines that a later command `data_element modify spline` names are left out and
+/// returned beside the tables.
 ///
 /// # Errors
-/// [`Error::At`] with line and column for the same faults as [`crate::tables::read`], for values that are
-/// expressions or come from a file or result set, and for a spline that a later command modifies.
+/// [`Error::At`] with line and column for the same faults as [`crate::tables::read`], and for values that are
+/// expressions or come from a file or result set; [`AdamsFault::Changed`] for a command that modifies a spline without
+/// naming it, and if every spline of the text is left out.
 ///
 /// # Source
 /// Adams View command help, `data_element create spline` and `defaults units`.
-pub fn read(text: &str) -> Result<Tables, Error> {
+pub fn read_with_modified(text: &str) -> Result<(Tables, Vec<ModifiedSpline>), Error> {
     let mut out = Tables { title: None, units: None, splines: Vec::new() };
     // Splines without an identifier.
     let mut free = Vec::new();
     let mut units = DefaultUnits::default();
+    let mut modified: Vec<ModifiedSpline> = Vec::new();
     for command in &commands(text) {
         if command.starts(&[("data_element", 4), ("create", 2), ("spline", 3)]) {
             let (spline, model, numbered) = spline(command, &out.splines)?;
@@ -34,9 +63,13 @@ pub fn read(text: &str) -> Result<Tables, Error> {
             }
             out.splines.push(spline);
         } else if command.starts(&[("data_element", 4), ("modify", 2), ("spline", 3)]) {
-            let tokens = command.tokens()?;
-            let fault = |token: &CommandToken<'_>| Err(token.fault(AdamsFault::Changed));
-            tokens.first().map_or(Ok(()), fault)?;
+            let values = command.first_values();
+            let named = values.iter().find(|(key, _)| lookup(KEYS, key) == Some(Key::Name));
+            let name = named.and_then(|(_, value)| value.rsplit('.').next()).filter(|name| !name.is_empty());
+            let Some(name) = name else {
+                return Err(Error::At { line: command.line(), column: 1, fault: AdamsFault::Changed });
+            };
+            modified.push(ModifiedSpline { id: None, name: name.to_owned(), line: command.line() });
         } else if command.starts(&[("defaults", 3), ("units", 4)]) {
             units.take(command)?;
         }
@@ -45,11 +78,23 @@ pub fn read(text: &str) -> Result<Tables, Error> {
         let last = out.splines.iter().map(|spline| spline.id).max().unwrap_or(0);
         out.splines[k].id = last.saturating_add(1);
     }
+    modified.dedup_by(|later, first| later.name.eq_ignore_ascii_case(&first.name));
+    for change in &mut modified {
+        let is_meant = |spline: &Spline| {
+            let own = spline.name.clone().unwrap_or_else(|| default_name(spline.id));
+            own.eq_ignore_ascii_case(&change.name)
+        };
+        change.id = out.splines.iter().find(|spline| is_meant(spline)).map(|spline| spline.id);
+        out.splines.retain(|spline| !is_meant(spline));
+    }
+    if let Some(first) = modified.first().filter(|_| out.splines.is_empty()) {
+        return Err(Error::At { line: first.line, column: 1, fault: AdamsFault::Changed });
+    }
     for spline in &mut out.splines {
         spline.name = spline.name.take().filter(|name| *name != default_name(spline.id));
     }
     out.units = units.units();
-    Ok(out)
+    Ok((out, modified))
 }
 
 /// One `key = values` of a command.

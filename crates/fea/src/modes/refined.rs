@@ -43,8 +43,8 @@ pub struct RefinedModes {
     /// Number of parts of each given member.
     pub parts: Vec<usize>,
     /// Largest relative error of a frequency due to the length of the parts, estimated for the highest mode before any
-    /// iteration. It
-    /// exceeds the accuracy asked for if a member would need more than 128 parts. `None` if not estimated.
+    /// iteration. It exceeds the accuracy asked for if a member would need more than 128 parts, or if a truss or rod,
+    /// which is not cut, vibrates along its axis. `None` if not estimated.
     pub error: Option<f64>,
     /// The factored stiffness of the model with these rails.
     pub frame: Arc<FactoredFrame>,
@@ -198,7 +198,8 @@ fn refine(
             })
             .collect();
         if next == parts {
-            let error = Some(largest_error(m, &parts, &directions, highest));
+            let divided = largest_error(m, &parts, &directions, highest);
+            let error = Some(divided.max(undivided_error(m, &directions, highest)));
             return Ok(RefinedModes { model, rails, parts, error, frame: Arc::new(frame), modes: found });
         }
         parts = next;
@@ -405,6 +406,17 @@ fn largest_error(m: &Model, parts: &[usize], directions: &[Directions], omega: f
     let errors = cut.flat_map(|((member, &parts), &directions)| {
         let all = errors_of_one_part(m, member, directions, omega).into_iter();
         all.map(move |(size, power)| size / (parts as f64).powi(power))
+    });
+    errors.fold(0.0, f64::max)
+}
+
+/// Largest error over the trusses and rods, which are not cut: that of their axial motion, which is linear between their
+/// ends. Their mass moves across them with the straight line between the ends, without an error.
+fn undivided_error(m: &Model, directions: &[Directions], omega: f64) -> f64 {
+    let bars = m.members.iter().zip(directions).filter(|(member, _)| member.kind != MemberKind::Beam);
+    let errors = bars.map(|(member, &directions)| {
+        let axial = Directions { axial: directions.axial, ..Directions::NONE };
+        errors_of_one_part(m, member, axial, omega).into_iter().map(|(size, _)| size).fold(0.0, f64::max)
     });
     errors.fold(0.0, f64::max)
 }

@@ -12,6 +12,10 @@
 //! shapes the shear area is the area of the walls parallel to the force, measured between the walls perpendicular to
 //! it. For flanges of I, H and T and the bars of a cross it is 5/6 of that area.
 //!
+//! Shapes whose product of inertia I12 = sum b h y z is not zero, such as L and Z, have their principal second moments,
+//! about axes turned by the angle a with tan 2a = 2 I12 / (I1 - I2), and for both directions the mean of the two shear
+//! factors.
+//!
 //! # Source
 //! W. C. Young, R. G. Budynas: Roark's Formulas for Stress and Strain, 7th ed., table 10.1 (torsion). The meaning
 //! of DIM1, DIM2, ... is that of the NASTRAN quick reference guides, entry PBARL. Shear factors differ between
@@ -24,10 +28,13 @@ use std::f64::consts::PI;
 pub struct Properties {
     /// Area.
     pub area: f64,
-    /// Second moment for bending in plane 1, the integral of y^2.
+    /// Second moment for bending in plane 1, the integral of y^2; of an oblique shape the larger principal one.
     pub i1: f64,
-    /// Second moment for bending in plane 2, the integral of z^2.
+    /// Second moment for bending in plane 2, the integral of z^2; of an oblique shape the smaller principal one.
     pub i2: f64,
+    /// Angle from y to the axis of the larger principal second moment, radians, positive towards z; 0 for shapes whose
+    /// principal axes are y and z.
+    pub turn: f64,
     /// Torsion constant.
     pub j: f64,
     /// Shear factor of forces along y.
@@ -43,12 +50,10 @@ pub enum ShapeError {
     Unknown,
     /// The walls overlap, or one of them has no thickness.
     Dimensions,
-    /// The principal axes are not parallel to y and z.
-    Oblique,
 }
 
 /// The known shapes and the number of dimensions of each.
-pub const SHAPES: [(&str, usize); 16] = [
+pub const SHAPES: [(&str, usize); 19] = [
     ("ROD", 1),
     ("TUBE", 2),
     ("TUBE2", 2),
@@ -65,6 +70,9 @@ pub const SHAPES: [(&str, usize); 16] = [
     ("CHAN1", 4),
     ("CHAN2", 4),
     ("CROSS", 4),
+    ("HAT", 4),
+    ("L", 4),
+    ("Z", 4),
 ];
 
 /// Number of dimensions of a shape; `None` if the shape is unknown.
@@ -107,13 +115,13 @@ struct Drawing {
 /// Properties of a shape of dimensions `d`, in the order of DIM1, DIM2, ...
 ///
 /// # Errors
-/// An unknown shape, or a wrong number of dimensions; walls that overlap; principal axes that are not y and z.
+/// An unknown shape, or a wrong number of dimensions; walls that overlap.
 pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeError> {
     let circle = |r: f64, inner: f64, k: f64| {
         // a negative inner radius would be squared and treated as a positive one
         let inner = if inner < 0.0 { r } else { inner };
         let [two, four] = [r.powi(2) - inner.powi(2), r.powi(4) - inner.powi(4)].map(|value| PI * value);
-        Properties { area: two, i1: four / 4.0, i2: four / 4.0, j: four / 2.0, k1: k, k2: k }
+        Properties { area: two, i1: four / 4.0, i2: four / 4.0, turn: 0.0, j: four / 2.0, k1: k, k2: k }
     };
     let found = match (shape, d) {
         ("ROD", &[r]) => circle(r, 0.0, 0.9),
@@ -141,6 +149,9 @@ pub fn section_properties(shape: &str, d: &[f64]) -> Result<Properties, ShapeErr
         ("CHAN1", &[reach, web, inner, h]) => of_drawing(&channel(reach + web, h, web, 0.5 * (h - inner)))?,
         ("CHAN2", &[leg, web, h, b]) => of_drawing(&turned(channel(h, b, web, leg)))?,
         ("CROSS", &[reach, upright, h, level]) => of_drawing(&crossed(reach, upright, h, level))?,
+        ("HAT", &[h, t, top, brim]) => of_drawing(&hat(h, t, top, brim))?,
+        ("L", &[b, h, level, upright]) => of_drawing(&angle(b, h, level, upright))?,
+        ("Z", &[reach, web, inner, h]) => of_drawing(&zed(reach, web, inner, h))?,
         _ => return Err(ShapeError::Unknown),
     };
     let numbers = [found.area, found.i1, found.i2, found.j, found.k1, found.k2];
@@ -169,10 +180,15 @@ fn of_drawing(drawing: &Drawing) -> Result<Properties, ShapeError> {
         i2 += h * b.powi(3) / 12.0 + b * h * z * z;
         i12 += b * h * y * z;
     }
-    if i12.abs() > 1e-9 * (i1 * i2).sqrt() {
-        return Err(ShapeError::Oblique);
+    let [k1, k2] = drawing.shear.map(|shear| shear / area);
+    let plain = Properties { area, i1, i2, turn: 0.0, j: drawing.j, k1, k2 };
+    if i12.abs() <= 1e-9 * (i1 * i2).sqrt() {
+        return Ok(plain);
     }
-    Ok(Properties { area, i1, i2, j: drawing.j, k1: drawing.shear[0] / area, k2: drawing.shear[1] / area })
+    let (mean, radius) = (0.5 * (i1 + i2), (0.5 * (i1 - i2)).hypot(i12));
+    let turn = 0.5 * (2.0 * i12).atan2(i1 - i2);
+    let k = 0.5 * (k1 + k2);
+    Ok(Properties { i1: mean + radius, i2: mean - radius, turn, k1: k, k2: k, ..plain })
 }
 
 /// Exchanges y and z.
@@ -259,6 +275,48 @@ fn crossed(reach: f64, upright: f64, h: f64, level: f64) -> Drawing {
     let j = (h * upright.powi(3) + reach * level.powi(3)) / 3.0;
     let shear = [h * upright, (reach + upright) * level].map(|area| 5.0 / 6.0 * area);
     Drawing { walls, shear, j }
+}
+
+/// A hat of one thickness, open below: a top between two webs, and two brims beside their feet.
+fn hat(h: f64, t: f64, top: f64, brim: f64) -> Drawing {
+    let [clear, inner] = [h - 2.0 * t, top - 2.0 * t];
+    let walls = vec![
+        Wall::new(h - t, t, 0.0, top),
+        Wall::new(t, clear, 0.0, t),
+        Wall::new(t, clear, top - t, t),
+        Wall::new(0.0, t, -brim, brim + t),
+        Wall::new(0.0, t, top - t, brim + t),
+    ];
+    // a wall of negative width marks a hat without a hollow
+    let walls = if inner > 0.0 && brim >= 0.0 { walls } else { vec![Wall::new(0.0, -1.0, 0.0, -1.0)] };
+    let j = ((top - t) + 2.0 * (h - t) + 2.0 * (brim + 0.5 * t)) * t.powi(3) / 3.0;
+    Drawing { walls, shear: [2.0 * clear * t, (inner + 2.0 * brim) * t], j }
+}
+
+/// A horizontal leg below and a vertical leg at its left end.
+fn angle(b: f64, h: f64, level: f64, upright: f64) -> Drawing {
+    let [clear, reach] = [h - level, b - upright];
+    let walls = vec![
+        Wall::new(0.0, level, 0.0, upright),
+        Wall::new(0.0, level, upright, reach),
+        Wall::new(level, clear, 0.0, upright),
+    ];
+    let j = ((b - 0.5 * upright) * level.powi(3) + (h - 0.5 * level) * upright.powi(3)) / 3.0;
+    Drawing { walls, shear: [clear * upright, reach * level], j }
+}
+
+/// A vertical web with an upper flange to the left and a lower flange to the right.
+fn zed(reach: f64, web: f64, inner: f64, h: f64) -> Drawing {
+    let flange = 0.5 * (h - inner);
+    let walls = vec![
+        Wall::new(0.0, h, 0.0, web),
+        Wall::new(h - flange, flange, -reach, reach),
+        Wall::new(0.0, flange, web, reach),
+    ];
+    let fits = inner > 0.0;
+    let walls = if fits { walls } else { vec![Wall::new(0.0, inner, 0.0, web)] };
+    let j = (2.0 * (reach + 0.5 * web) * flange.powi(3) + (h - flange) * web.powi(3)) / 3.0;
+    Drawing { walls, shear: [inner * web, 2.0 * reach * flange], j }
 }
 
 #[cfg(test)]

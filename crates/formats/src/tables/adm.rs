@@ -109,6 +109,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         drafts: drafts(set.splines),
         comments: comments(&source.text, '!'),
         products: Vec::new(),
+        left_out: Vec::new(),
     })
 }
 

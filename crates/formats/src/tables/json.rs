@@ -153,7 +153,7 @@ fn check(raw: &RawSet, source: &Source, faults: &mut Faults) -> Parsed {
     };
     let missing_units =
         ["has no `units`", "such as \"units\": {\"length\": \"ft\", \"force\": \"lbf\", \"time\": \"s\"}"];
-    Parsed { name, units, missing_units, drafts, comments: String::new(), products }
+    Parsed { name, units, missing_units, drafts, comments: String::new(), products, left_out: Vec::new() }
 }
 
 /// The one table of a file without `format` and `tables`.

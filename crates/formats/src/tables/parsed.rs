@@ -1,6 +1,7 @@
 //! The content of a file of tables, and default names, numbers and quantities for missing ones.
 
 use adams::SplineValues;
+use adams::view::ModifiedSpline;
 
 use super::set::{FIRST, Product, Table, TableSet};
 use crate::grid::GridBlock;
@@ -19,6 +20,8 @@ pub(super) struct Parsed {
     pub comments: String,
     /// The products, in formats that do not store them in comments.
     pub products: Vec<Product>,
+    /// Tables that were left out, because a later command modifies them.
+    pub left_out: Vec<ModifiedSpline>,
 }
 
 impl Parsed {
@@ -26,6 +29,7 @@ impl Parsed {
     pub fn set(self, units: Units) -> TableSet {
         let mut set = TableSet::assemble(self.name, units, self.drafts, &self.comments);
         set.products.extend(self.products);
+        set.left_out = self.left_out;
         set
     }
 }
@@ -78,7 +82,7 @@ impl TableSet {
             |id: u32| tables.iter().any(|table: &Table| table.id == id && table.curves.z().is_empty());
         let mut products = Product::read(comments);
         products.retain(|product| product.terms.iter().flatten().all(|&id| known(id)));
-        TableSet { name, units, tables, products }
+        TableSet { name, units, tables, products, left_out: Vec::new() }
     }
 }
 

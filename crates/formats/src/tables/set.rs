@@ -1,6 +1,7 @@
 //! The tables of one structure, independent of the file format.
 
 use adams::SplineValues;
+use adams::view::ModifiedSpline;
 
 use crate::grid::{GridBlock, StationGrid};
 use crate::units::Units;
@@ -42,6 +43,8 @@ pub struct TableSet {
     pub tables: Vec<Table>,
     /// The products whose sums are G; empty in the plain form.
     pub products: Vec<Product>,
+    /// Tables that the file has but that were left out, because a later command modifies them.
+    pub left_out: Vec<ModifiedSpline>,
 }
 
 /// One table: the content of a SPLINE statement.
@@ -60,6 +63,15 @@ pub struct Table {
 }
 
 impl TableSet {
+    /// Message about the tables that were left out; `None` if there are none.
+    #[must_use]
+    pub fn left_out_message(&self) -> Option<String> {
+        let named = |table: &ModifiedSpline| format!("{} (line {})", table.name, table.line);
+        let list: Vec<String> = self.left_out.iter().map(named).collect();
+        let message = "left out, because a later command `data_element modify spline` changes their values";
+        (!list.is_empty()).then(|| format!("{message}: {}", list.join(", ")))
+    }
+
     /// The tables of a grid.
     ///
     /// SPLINE/6 is the vertical table, 7 the lateral and 8 the longitudinal one; 9 to 11 are the couplings
@@ -105,7 +117,13 @@ impl TableSet {
             }
             top += row.stations.len();
         }
-        TableSet { name: grid.name.clone(), units: grid.units, tables, products: Vec::new() }
+        TableSet {
+            name: grid.name.clone(),
+            units: grid.units,
+            tables,
+            products: Vec::new(),
+            left_out: Vec::new(),
+        }
     }
 
     /// The table with the number `id`.

@@ -30,9 +30,10 @@ fn view_name(name: &str) -> String {
     name
 }
 
-/// Reads the splines of a command file.
+/// Reads the splines of a command file. Those that a later command modifies are left out and named in `left_out`.
 pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
-    let set = adams::view::read(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
+    let (set, left_out) =
+        adams::view::read_with_modified(&source.text).map_err(|error| vec![unreadable(source, &error)])?;
     Ok(Parsed {
         name: set.title.unwrap_or_else(|| stem(&source.name)),
         units: set.units.map(Units::of_adams),
@@ -43,5 +44,6 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         drafts: drafts(set.splines),
         comments: comments(&source.text, '!'),
         products: Vec::new(),
+        left_out,
     })
 }

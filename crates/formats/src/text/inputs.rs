@@ -110,6 +110,15 @@ impl Inputs {
     }
 }
 
+/// Reads a regular file or a pipe of at most the largest size of an input.
+///
+/// # Errors
+/// The file cannot be read or is too large.
+pub fn read_file(path: &Path) -> std::io::Result<Vec<u8>> {
+    let reason = |message: String| message.trim_start_matches("cannot be read: ").to_owned();
+    read_limited(path, FILE_BYTES).map_err(|message| std::io::Error::other(reason(message)))
+}
+
 /// Reads a regular file or a pipe of at most `most` bytes. Devices are refused, because they may have no end.
 fn read_limited(path: &Path, most: u64) -> Result<Vec<u8>, String> {
     let message = |error: std::io::Error| read_error_message(&error);

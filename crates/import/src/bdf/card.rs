@@ -101,7 +101,9 @@ fn plain(name: &str) -> bool {
 }
 
 fn take_apart(line: &BulkLine, findings: &mut ImportFindings) -> Option<Parts> {
-    if line.text.contains(',') { free(line, findings) } else { Some(fixed(line)) }
+    // the commas of equations of an optimisation do not divide fields
+    let is_equation = line.text.to_ascii_uppercase().starts_with("DEQATN");
+    if line.text.contains(',') && !is_equation { free(line, findings) } else { Some(fixed(line)) }
 }
 
 /// Divides a line in fixed format: a name of 8 columns, then eight fields of 8 columns (small) or four fields of 16

@@ -3,34 +3,19 @@
 use std::collections::BTreeMap;
 
 use super::card::{Card, cards};
+use super::coordinates::{self, CoordinateCard};
 use super::element::{self, ElementCard};
 use super::field::{Number, number};
 use super::fields::CardFields;
-use super::grid::{self, CoordinateCard, GridCard};
+use super::grid::{self, GridCard};
 use super::line::BulkLine;
 use super::lump::{self, MassCard, SpringCard};
 use super::material::{MaterialCard, material};
 use super::property::{self, Property};
 use super::rigid::{self, Rigid};
+use super::roles::{CardRole, advice, role};
 use super::support::{self, SupportCard};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-
-/// Cards that are ignored with a warning: they do not affect the static stiffness, or a beam spec has no counterpart.
-const LEFT_OUT: &[&str] = &[
-    "PARAM", "DEBUG", "FORCE", "FORCE1", "FORCE2", "MOMENT", "MOMENT1", "MOMENT2", "LOAD", "PLOAD", "PLOAD1",
-    "PLOAD2", "PLOAD4", "PLOADX1", "SLOAD", "GRAV", "RFORCE", "ACCEL", "ACCEL1", "TEMP", "TEMPD", "TEMPRB",
-    "TEMPP1", "DAREA", "DLOAD", "DELAY", "DPHASE", "RLOAD1", "RLOAD2", "TLOAD1", "TLOAD2", "LSEQ", "TABLED1",
-    "TABLED2", "TABLED3", "TABLED4", "TABLEM1", "TABDMP1", "TABRND1", "RANDPS", "EIGR", "EIGRL", "EIGC",
-    "EIGB", "FREQ", "FREQ1", "FREQ2", "FREQ3", "FREQ4", "TSTEP", "TSTEPNL", "NLPARM", "NLPCI", "ASET",
-    "ASET1", "OMIT", "OMIT1", "USET", "USET1", "SET1", "SET3", "PLOTEL", "SEQGP", "CBARAO", "ECHOON",
-    "ECHOOFF", "DCONADD", "MATT1",
-];
-
-/// Properties and materials of elements that cannot be imported; they are ignored with a warning.
-const UNUSED: &[&str] = &[
-    "PSHELL", "PSOLID", "PCOMP", "PCOMPG", "PSHEAR", "PBUSH", "PGAP", "PMASS", "MAT2", "MAT8", "MAT9",
-    "MAT10",
-];
 
 /// The contents of a deck, by type of card.
 #[derive(Debug, Default)]
@@ -39,13 +24,13 @@ pub struct BulkDeck {
     pub grids: BTreeMap<u64, GridCard>,
     /// Defaults of the GRDSET card.
     pub defaults: grid::GridDefaults,
-    /// CORD2R cards by number.
+    /// Coordinate systems by number.
     pub systems: BTreeMap<u64, CoordinateCard>,
     /// MAT1 cards by number.
     pub materials: BTreeMap<u64, MaterialCard>,
-    /// PBAR, PBARL, PBEAM, PBEAML and PROD cards by number.
+    /// PBAR, PBARL, PBEAM, PBEAML, PROD and PTUBE cards by number.
     pub properties: BTreeMap<u64, Property>,
-    /// CBAR, CBEAM, CROD and CONROD cards by number.
+    /// CBAR, CBEAM, CROD, CTUBE and CONROD cards by number.
     pub elements: BTreeMap<u64, ElementCard>,
     /// RBE2 and RBAR cards.
     pub rigid: Vec<Rigid>,
@@ -63,37 +48,42 @@ pub struct BulkDeck {
     pub controlled: bool,
     /// SPC sets that case control selects, with their positions.
     pub control: Vec<(u64, FilePlace)>,
+    /// Whether case control selects constraints by equations (MPC).
+    pub equations: bool,
     /// Factor applied to all masses (PARAM WTMASS).
     pub wtmass: Option<f64>,
+    /// Whether the mass of elements is consistent with their shapes (PARAM COUPMASS above 0). Otherwise it is lumped at
+    /// their ends.
+    pub coupled_mass: bool,
+}
+
+/// What the user asks to leave out of a deck.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Omissions<'a> {
+    /// Names of cards that are ignored without a warning.
+    pub skip: &'a [String],
+    /// Whether cards that cannot change the stiffness of the structure are left out.
+    pub unused: bool,
+}
+
+impl Omissions<'_> {
+    /// Whether the user asked to ignore a card, keyword or type of element by its name.
+    #[must_use]
+    pub fn skips(&self, name: &str) -> bool {
+        self.skip.iter().any(|skipped| skipped == name)
+    }
 }
 
 impl BulkDeck {
-    /// Reads the cards of a deck and sorts them by type. Cards named in `skip` are ignored without a warning.
-    pub fn new(lines: &[BulkLine], skip: &[String], findings: &mut ImportFindings) -> BulkDeck {
+    /// Reads the cards of a deck and sorts them by type.
+    pub fn new(lines: &[BulkLine], omit: Omissions<'_>, findings: &mut ImportFindings) -> BulkDeck {
         let mut deck = BulkDeck::default();
-        let bulk = deck.control(lines, skip, findings);
+        let bulk = deck.control(lines, omit, findings);
         let cards = cards(bulk, findings);
-        let cards: Vec<&Card> = cards.iter().filter(|card| !skip.contains(&card.name)).collect();
-        // defaults are read first because they also apply to the cards before them
-        let mut bars = element::BarDefaults::default();
-        let mut beams = element::BarDefaults::default();
-        let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
-        for card in &cards {
-            let slot = match card.name.as_str() {
-                "BAROR" => &mut bars,
-                "BEAMOR" => &mut beams,
-                "GRDSET" => {
-                    let mut fields = CardFields { card, findings };
-                    deck.defaults = grid::defaults(&mut fields).unwrap_or_default();
-                    once(&mut seen, card, findings);
-                    continue;
-                }
-                _ => continue,
-            };
-            *slot = element::defaults(&mut CardFields { card, findings }).unwrap_or_default();
-            once(&mut seen, card, findings);
-        }
+        let cards: Vec<&Card> = cards.iter().filter(|card| !omit.skips(&card.name)).collect();
+        let [bars, beams] = deck.defaults(&cards, findings);
         let mut left_out: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
+        let mut unused: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
         let mut unknown: BTreeMap<&str, (FilePlace, usize)> = BTreeMap::new();
         for card in &cards {
             let mut fields = CardFields { card, findings };
@@ -102,16 +92,34 @@ impl BulkDeck {
                 "CBEAM" => deck.element(element::bar(&mut fields, &beams), findings),
                 "BAROR" | "BEAMOR" | "GRDSET" => {}
                 "PARAM" if fields.text(1) == "WTMASS" => deck.weight(&mut fields),
-                name if deck.take(name, &mut fields) => {}
-                name if LEFT_OUT.contains(&name) || UNUSED.contains(&name) => count(&mut left_out, card),
-                _ => count(&mut unknown, card),
+                "PARAM" if fields.text(1) == "COUPMASS" => {
+                    deck.coupled_mass = matches!(number(fields.text(2)), Some(Number::Integer(1..)));
+                }
+                "MPC" | "MPCADD" if deck.controlled && !deck.equations => count(&mut left_out, card),
+                "MDLPRM" if fields.text(1) == "HDF5" => count(&mut left_out, card),
+                // MDLPRM may change how offsets are read
+                "MDLPRM" if fields.text(1) == "OFFDEF" => count(&mut unknown, card),
+                name if deck.take(name, omit, &mut fields) => {}
+                name => match role(name) {
+                    Some(CardRole::Request | CardRole::Property) => count(&mut left_out, card),
+                    Some(CardRole::NoStiffness) if omit.unused => count(&mut unused, card),
+                    _ => count(&mut unknown, card),
+                },
             }
         }
         for (name, (at, number)) in left_out {
             findings.warn(ImportFinding::new(at, name, format!("is left out, {}", cards_of(number))));
         }
+        for (name, (at, number)) in unused {
+            let message = format!("is left out, {}; it cannot change the stiffness", cards_of(number));
+            findings.warn(ImportFinding::new(at, name, message));
+        }
         for (name, (at, number)) in unknown {
-            let hint = format!("{}; if it can be ignored, add --skip {name}", advice(name));
+            let hint = if role(name) == Some(CardRole::NoStiffness) {
+                format!("it cannot change the stiffness: --skip-unused leaves it out, or --skip {name}")
+            } else {
+                format!("{}; if it can be ignored, add --skip {name}", advice(name))
+            };
             findings.error(
                 ImportFinding::new(at, name, format!("is not supported, {}", cards_of(number))).hint(hint),
             );
@@ -119,11 +127,29 @@ impl BulkDeck {
         deck
     }
 
+    /// Reads GRDSET and returns the defaults of BAROR and BEAMOR. They are read first because they also apply to the
+    /// cards before them.
+    fn defaults(&mut self, cards: &[&Card], findings: &mut ImportFindings) -> [element::BarDefaults; 2] {
+        let mut found = [element::BarDefaults::default(), element::BarDefaults::default()];
+        let mut seen: BTreeMap<&str, FilePlace> = BTreeMap::new();
+        for card in cards {
+            let mut fields = CardFields { card, findings };
+            match card.name.as_str() {
+                "BAROR" => found[0] = element::defaults(&mut fields),
+                "BEAMOR" => found[1] = element::defaults(&mut fields),
+                "GRDSET" => self.defaults = grid::defaults(&mut fields).unwrap_or_default(),
+                _ => continue,
+            }
+            once(&mut seen, card, findings);
+        }
+        found
+    }
+
     /// Reads the executive and case control sections and returns the lines of the bulk data section.
     fn control<'l>(
         &mut self,
         lines: &'l [BulkLine],
-        skip: &[String],
+        omit: Omissions<'_>,
         findings: &mut ImportFindings,
     ) -> &'l [BulkLine] {
         let word = |line: &BulkLine, n: usize| {
@@ -162,10 +188,17 @@ impl BulkDeck {
                             .with_found(word(line, 1)),
                     );
                 }
-                ("MPC", _) if skip.iter().all(|name| name != "MPC") => {
+                ("MPC", _) if !omit.skips("MPC") => {
+                    self.equations = true;
                     let hint = "constraints by equations are not supported; rigid links are RBE2 and RBAR; to leave them \
                             out, add --skip MPC";
                     findings.error(ImportFinding::new(line.at, "MPC", "is not supported").hint(hint));
+                }
+                ("K2GG" | "K2PP", _) if !omit.skips(&key) => {
+                    let hint = format!(
+                        "matrices of direct input are not supported; to leave them out, add --skip {key},DMIG"
+                    );
+                    findings.error(ImportFinding::new(line.at, key, "is not supported").hint(hint));
                 }
                 _ => {}
             }
@@ -189,7 +222,7 @@ impl BulkDeck {
     }
 
     /// Reads a card that defines part of the structure; returns false for any other card.
-    fn take(&mut self, name: &str, fields: &mut CardFields<'_, '_>) -> bool {
+    fn take(&mut self, name: &str, omit: Omissions<'_>, fields: &mut CardFields<'_, '_>) -> bool {
         let at = fields.card.at;
         match name {
             "GRID" => {
@@ -197,8 +230,8 @@ impl BulkDeck {
                     put(&mut self.grids, id, grid, |other| other.card, at, name, fields.findings);
                 }
             }
-            "CORD2R" => {
-                if let Some((id, system)) = grid::system(fields) {
+            "CORD1R" | "CORD1C" | "CORD1S" | "CORD2R" | "CORD2C" | "CORD2S" => {
+                for (id, system) in coordinates::systems(fields) {
                     put(&mut self.systems, id, system, |other| other.card, at, name, fields.findings);
                 }
             }
@@ -207,21 +240,24 @@ impl BulkDeck {
                     put(&mut self.materials, id, found, |other| other.card, at, name, fields.findings);
                 }
             }
-            "PBAR" | "PBARL" | "PBEAM" | "PBEAML" | "PROD" => {
+            "PBAR" | "PBARL" | "PBEAM" | "PBEAML" | "PROD" | "PTUBE" => {
                 let read = match name {
                     "PBAR" => property::bar(fields),
                     "PBEAM" => property::beam(fields),
                     "PROD" => property::rod(fields),
+                    "PTUBE" => property::tube(fields),
                     _ => property::shaped(fields),
                 };
                 if let Some((id, found)) = read {
                     put(&mut self.properties, id, found, |other| other.card, at, name, fields.findings);
                 }
             }
-            "CROD" | "CONROD" => {
-                let read = if name == "CROD" { element::rod(fields) } else { element::own_rod(fields) };
-                self.element(read, fields.findings);
+            "CROD" | "CTUBE" => {
+                for rod in element::rods(fields) {
+                    self.element(Some(rod), fields.findings);
+                }
             }
+            "CONROD" => self.element(element::own_rod(fields), fields.findings),
             "RBE2" => self.rigid.extend(rigid::rbe2(fields)),
             "RBAR" => self.rigid.extend(rigid::rbar(fields)),
             "CONM2" => self.masses.extend(lump::mass(fields)),
@@ -231,7 +267,7 @@ impl BulkDeck {
                     put(&mut self.stiffness, id, (card, k), |other| other.0, at, name, fields.findings);
                 }
             }
-            "SPC" => self.supports.extend(support::spc(fields)),
+            "SPC" => self.supports.extend(support::spc(fields, omit.unused)),
             "SPC1" => self.supports.extend(support::spc1(fields)),
             "SPCADD" => {
                 if let Some((set, parts)) = support::spcadd(fields)
@@ -280,23 +316,4 @@ fn count<'c>(counts: &mut BTreeMap<&'c str, (FilePlace, usize)>, card: &'c Card)
 
 fn cards_of(number: usize) -> String {
     if number == 1 { "1 card".to_owned() } else { format!("{number} cards") }
-}
-
-fn advice(name: &str) -> &'static str {
-    match name {
-        "CORD1R" | "CORD1C" | "CORD1S" | "CORD2C" | "CORD2S" => {
-            "supported coordinate systems are CORD2R, given by points"
-        }
-        "MPC" | "MPCADD" | "RBE1" | "RBE3" | "RROD" | "RJOINT" => {
-            "supported rigid links are RBE2 and RBAR with 123456"
-        }
-        "CBUSH" | "CELAS3" | "CELAS4" => "supported springs are CELAS1 and CELAS2",
-        "CONM1" | "CMASS1" | "CMASS2" => "supported masses are CONM2",
-        "SPCD" | "SPCOFF" | "SPCOFF1" => "supported restraints are SPC and SPC1",
-        "CBEND" | "CTUBE" | "CBEAM3" | "CBAR3" => "supported members are CBAR, CBEAM, CROD and CONROD",
-        _ if name.starts_with('C') => {
-            "a beam spec consists of members, rigid links, masses and springs to ground"
-        }
-        _ => "this card is not known",
-    }
 }

@@ -40,11 +40,12 @@ pub fn number(text: &str) -> Option<Number> {
     Some(if value.is_finite() { Number::Real(value) } else { Number::Huge })
 }
 
-/// Reads a set of degrees of freedom from the digits 1 to 6, each of which may occur once.
+/// Reads a set of degrees of freedom from the digits 1 to 6, each of which may occur once. Blanks between the digits
+/// have no meaning.
 #[must_use]
 pub fn freedoms(text: &str) -> Option<[bool; 6]> {
     let mut set = [false; 6];
-    for digit in text.bytes() {
+    for digit in text.bytes().filter(|digit| *digit != b' ') {
         let index = usize::from(digit.checked_sub(b'1')?);
         let slot = set.get_mut(index)?;
         if std::mem::replace(slot, true) {
@@ -128,7 +129,8 @@ mod tests {
     fn freedoms_are_digits_one_to_six_once_each() {
         assert_eq!(freedoms("2346"), Some([false, true, true, true, false, true]));
         assert_eq!(freedoms(""), Some([false; 6]));
-        for text in ["0", "7", "11", "12a", "1 2", "-1", "1."] {
+        assert_eq!(freedoms("12 4 6"), Some([true, true, false, true, false, true]));
+        for text in ["0", "7", "11", "12a", "1 1", "-1", "1."] {
             assert_eq!(freedoms(text), None, "{text}");
         }
     }

@@ -15,8 +15,10 @@ pub struct MassCard {
     pub grid: u64,
     /// Mass.
     pub mass: f64,
-    /// Moments of inertia about the centre of mass, in global axes.
-    pub inertia: [f64; 3],
+    /// Inertia about the centre of mass, in the axes of `system`.
+    pub inertia: [[f64; 3]; 3],
+    /// Number of the coordinate system of inertia and offset, 0 for the basic one.
+    pub system: u64,
     /// Vector to the centre of mass from the grid, or from the global origin if `absolute`.
     pub offset: [f64; 3],
     /// Whether `offset` is measured from the global origin.
@@ -50,24 +52,24 @@ pub fn mass(card: &mut CardFields<'_, '_>) -> Option<MassCard> {
     card.id(1, "EID")?;
     let grid = card.id(2, "G");
     let absolute = card.text(3) == "-1";
-    if !absolute {
-        card.zero(3, "CID", "masses in a system other than the basic one are not supported")?;
-    }
+    let system = if absolute { Some(0) } else { card.whole(3, "CID") };
     let mass = card.not_negative(4, "M");
     let offset = card.vector(5, ["X1", "X2", "X3"]);
-    let inertia = [(9, "I11"), (11, "I22"), (14, "I33")].map(|(index, name)| card.not_negative(index, name));
-    let products = "a beam spec has principal inertias about the global axes";
+    let moments = [(9, "I11"), (11, "I22"), (14, "I33")].map(|(index, name)| card.not_negative(index, name));
     let products =
-        [(10, "I21"), (12, "I31"), (13, "I32")].map(|(index, name)| card.zero(index, name, products));
+        [(10, "I21"), (12, "I31"), (13, "I32")].map(|(index, name)| card.real_or(index, name, 0.0));
     card.end(15);
-    let [x, y, z] = inertia;
-    products.into_iter().collect::<Option<Vec<_>>>()?;
+    let ([Some(x), Some(y), Some(z)], [Some(yx), Some(zx), Some(zy)]) = (moments, products) else {
+        return None;
+    };
     Some(MassCard {
         at: card.at(2),
         label: card.label(),
         grid: grid?,
         mass: mass?,
-        inertia: [x?, y?, z?],
+        // the products of the card are integrals, which have the opposite sign in the inertia matrix
+        inertia: [[x, -yx, -zx], [-yx, y, -zy], [-zx, -zy, z]],
+        system: system?,
         offset: offset?,
         absolute,
     })

@@ -8,6 +8,7 @@
 //! NASTRAN quick reference guides: formats of cards, local axes, planes 1 and 2, offsets and pin flags of CBAR.
 
 mod card;
+mod coordinates;
 mod deck;
 mod element;
 mod field;
@@ -15,24 +16,30 @@ mod fields;
 mod grid;
 mod line;
 mod lump;
+mod lumped;
 mod material;
+mod member;
+mod place;
 mod property;
 mod resolve;
 mod rigid;
+mod roles;
 mod section;
 mod support;
 
 use std::io;
 use std::path::Path;
 
+pub use deck::Omissions;
 pub use line::OpenFile;
 
 use super::findings::ImportFindings;
-use super::structure::ImportedStructure;
+use super::structure::{ImportedStructure, MassDistribution};
 
 /// Reads a deck into `empty`, a structure that has a name and units only.
 ///
-/// `spc` is the SPC set that the user selected; cards whose names are in `skip` are ignored.
+/// `spc` is the SPC set that the user selected, `omit` what is left out of the deck, and `mass` the distribution of the
+/// mass of elements, if it is not that of the deck.
 ///
 /// # Errors
 /// The deck cannot be read as a file; all other errors are among the findings.
@@ -41,14 +48,17 @@ pub fn read(
     open: OpenFile<'_>,
     empty: ImportedStructure,
     spc: Option<u64>,
-    skip: &[String],
+    omit: Omissions<'_>,
+    mass: Option<MassDistribution>,
     findings: &mut ImportFindings,
 ) -> io::Result<ImportedStructure> {
     let lines = line::read(path, open, findings)?;
-    let deck = deck::BulkDeck::new(&lines, skip, findings);
+    let deck = deck::BulkDeck::new(&lines, omit, findings);
     // a reference to a card that could not be read would cause a second, misleading error
     if findings.has_errors() {
         return Ok(empty);
     }
-    Ok(resolve::resolve(&deck, empty, spc, findings))
+    let of_deck = if deck.coupled_mass { MassDistribution::Distributed } else { MassDistribution::Lumped };
+    let asked = resolve::Asked { spc, mass: mass.unwrap_or(of_deck), unused: omit.unused };
+    Ok(resolve::resolve(&deck, empty, asked, findings))
 }

@@ -1,8 +1,8 @@
-//! Properties: PBAR, PBARL, PBEAM, PBEAML, PROD and PELAS.
+//! Properties: PBAR, PBARL, PBEAM, PBEAML, PROD, PTUBE and PELAS.
 //!
 //! PBAR and PBEAM define areas and second moments directly. PBARL and PBEAML define a shape with dimensions DIM1 to
-//! DIMn; `formats` computes the section properties, and shapes whose principal axes are not parallel to y and z are
-//! rejected. A beam has values at end A, at intermediate stations and at end B. It must be uniform or vary linearly
+//! DIMn; `formats` computes the section properties. Second moments with a product I12 are replaced by the principal ones,
+//! whose axes are turned against those of the element (see [`principal`]). A beam has values at end A, at intermediate stations and at end B. It must be uniform or vary linearly
 //! from end A to end B: the intermediate stations must have the values of end A.
 
 use super::fields::CardFields;
@@ -29,11 +29,28 @@ pub struct Property {
     pub shear: [f64; 2],
     /// Non-structural mass per length, not yet multiplied by WTMASS.
     pub nsm: f64,
+    /// Angle in radians from the y axis of the element to that of `bending[0]`, positive from y to z. Only uniform
+    /// sections have one.
+    pub turn: f64,
+    /// Offset of the neutral axis from the shear centre, along y and z of the element.
+    pub neutral: [f64; 2],
     /// Property at end B of a tapered beam, whose properties vary linearly between the ends; `None` if uniform.
     pub end: Option<Box<Property>>,
 }
 
 const NO_PRODUCT: &str = "state the principal second moments, and rotate the orientation of the elements";
+const SHEAR: &str = "sections with a product of inertia need equal shear factors K1 and K2, or none";
+
+/// Principal second moments of a section with I1, I2 and the product I12, and the angle from the y axis to the axis of
+/// the first of them: tan 2a = 2 I12 / (I1 - I2). `None` if they are not positive.
+///
+/// With y' = y cos a + z sin a, the integral of y'^2 is I1 cos^2 a + I2 sin^2 a + 2 I12 sin a cos a.
+fn principal([i1, i2]: [f64; 2], product: f64) -> Option<([f64; 2], f64)> {
+    let mean = 0.5 * (i1 + i2);
+    let radius = (0.5 * (i1 - i2)).hypot(product);
+    let angle = 0.5 * (2.0 * product).atan2(i1 - i2);
+    (mean > radius).then_some(([mean + radius, mean - radius], angle))
+}
 
 /// Reads PROD.
 pub fn rod(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
@@ -57,8 +74,44 @@ pub fn rod_from(card: &mut CardFields<'_, '_>, first: usize) -> Option<Property>
         j: j?,
         shear: [0.0; 2],
         nsm: nsm?,
+        turn: 0.0,
+        neutral: [0.0; 2],
         end: None,
     })
+}
+
+/// Reads PTUBE, a circular tube for CTUBE.
+pub fn tube(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
+    let id = card.id(1, "PID")?;
+    let material = card.id(2, "MID");
+    let outer = positive(card, 3, "OD")?;
+    let wall = card.not_negative(4, "T")?;
+    let nsm = card.not_negative(5, "NSM");
+    if card.optional(6, "OD2")?.is_some_and(|other| other != outer && other != 0.0) {
+        card.refuse(6, "OD2", "must be blank or equal to OD", "tubes of varying diameter are not supported");
+        return None;
+    }
+    card.end(7);
+    if wall > 0.5 * outer {
+        card.refuse(4, "T", "must be at most half of OD", "a blank T is a solid rod");
+        return None;
+    }
+    let inner = if wall == 0.0 { 0.0 } else { outer - 2.0 * wall };
+    let quarter = std::f64::consts::FRAC_PI_4;
+    let property = Property {
+        card: card.card.at,
+        kind: card.card.name.clone(),
+        material: material?,
+        area: quarter * (outer * outer - inner * inner),
+        bending: [0.0; 2],
+        j: 0.125 * quarter * (outer.powi(4) - inner.powi(4)),
+        shear: [0.0; 2],
+        nsm: nsm?,
+        turn: 0.0,
+        neutral: [0.0; 2],
+        end: None,
+    };
+    Some((id, property))
 }
 
 /// Reads a required positive real number.
@@ -79,23 +132,43 @@ pub fn bar(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let j = card.not_negative(6, "J");
     let nsm = card.not_negative(7, "NSM");
     let shear = [(17, "K1"), (18, "K2")].map(|(index, name)| card.not_negative(index, name));
-    let product = card.zero(19, "I12", NO_PRODUCT);
+    let product = card.real_or(19, "I12", 0.0);
     card.end(20);
     let [i1, i2] = bending;
     let [k1, k2] = shear;
-    product?;
-    let property = Property {
+    let (product, k) = (product?, [k1?, k2?]);
+    let mut property = Property {
         card: card.card.at,
         kind: card.card.name.clone(),
         material: material?,
         area: area?,
         bending: [i1?, i2?],
         j: j?,
-        shear: [k1?, k2?],
+        shear: k,
         nsm: nsm?,
+        turn: 0.0,
+        neutral: [0.0; 2],
         end: None,
     };
+    if product != 0.0 && !turned(card, 19, product, &mut property) {
+        return None;
+    }
     whole(card, &property).then_some((id, property))
+}
+
+/// Replaces second moments with a product of inertia by the principal ones. Returns false, with an error, if this is
+/// not possible.
+fn turned(card: &mut CardFields<'_, '_>, index: usize, product: f64, property: &mut Property) -> bool {
+    let Some((bending, turn)) = principal(property.bending, product) else {
+        card.refuse(index, "I12", "must be below the root of I1 I2 in magnitude", "");
+        return false;
+    };
+    if property.shear[0] != property.shear[1] {
+        card.refuse(index, "I12", "must be 0 if K1 and K2 differ", SHEAR);
+        return false;
+    }
+    (property.bending, property.turn) = (bending, turn);
+    true
 }
 
 /// Checks that a bar has bending stiffness in both planes or in none.
@@ -126,9 +199,7 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         .map(|(index, name)| if card.blank(index) { Some(1.0) } else { card.not_negative(index, name) });
     let relief = "shear relief of tapered beams is not supported";
     let relief = [(first + 3, "S1"), (first + 4, "S2")].map(|(index, name)| card.zero(index, name, relief));
-    let apart = "state the neutral axis as offset of the elements";
-    let apart =
-        (first + 13..first + 17).map(|index| card.zero(index, "N", apart)).collect::<Option<Vec<_>>>();
+    let neutral = neutral_axis(card, first + 13);
     let lost = [first + 5, first + 6, first + 9, first + 10, first + 11, first + 12];
     if let Some(index) = lost.into_iter().find(|index| !card.blank(*index) && card.text(*index) != "0.") {
         let fault = card.fault(index, "", "inertia and offset of the non-structural mass are left out");
@@ -137,9 +208,8 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     card.end(first + 17);
     let [k1, k2] = shear;
     relief.into_iter().collect::<Option<Vec<_>>>()?;
-    apart?;
-    let (material, shear) = (material?, [k1?, k2?]);
-    let property = |[area, i1, i2, j]: [f64; 4]| Property {
+    let (material, shear, neutral) = (material?, [k1?, k2?], neutral?);
+    let property = |[area, i1, i2, j, _]: [f64; 5]| Property {
         card: card.card.at,
         kind: card.card.name.clone(),
         material,
@@ -148,20 +218,47 @@ pub fn beam(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
         j,
         shear,
         nsm,
+        turn: 0.0,
+        neutral,
         end: None,
     };
     let mut result = property(own);
     result.end = (other != own).then(|| Box::new(property(other)));
-    let is_positive = result.end.is_none() || own.iter().chain(&other).all(|value| *value > 0.0);
+    if own[4] != 0.0 {
+        if result.end.is_some() {
+            card.refuse(6, "I12", "must be 0 if the beam is tapered", NO_PRODUCT);
+            return None;
+        }
+        if !turned(card, 6, own[4], &mut result) {
+            return None;
+        }
+    }
+    if result.end.is_some() && neutral != [0.0; 2] {
+        card.refuse(first + 13, "N1", "must be 0 if the beam is tapered", STATIONS);
+        return None;
+    }
+    let is_positive = result.end.is_none() || own[..4].iter().chain(&other[..4]).all(|value| *value > 0.0);
     if !is_positive {
         card.refuse(3, "A", "must be positive like I1, I2 and J at both ends of a tapered beam", "");
     }
     (is_positive && spread(card, &result, 8) && whole(card, &result)).then_some((id, result))
 }
 
+/// Reads N1 and N2 of both ends of a PBEAM, the offset of the neutral axis, which must be the same at both ends. Blank
+/// fields of end B have the values of end A.
+fn neutral_axis(card: &mut CardFields<'_, '_>, first: usize) -> Option<[f64; 2]> {
+    let a = [card.real_or(first, "N1(A)", 0.0)?, card.real_or(first + 1, "N2(A)", 0.0)?];
+    let b = [card.real_or(first + 2, "N1(B)", a[0])?, card.real_or(first + 3, "N2(B)", a[1])?];
+    if a != b {
+        let hint = "neutral axes at an angle to the axis of shear centres are not supported";
+        card.refuse(first + 2, "N1(B)", "must be equal to the value at end A, like N2(B)", hint);
+    }
+    (a == b).then_some(a)
+}
+
 /// Reads the stations of a PBEAM. Returns A, I1, I2 and J at end B, and the number of fields before the first field
 /// that follows the stations. `own` and `nsm` are the values at end A.
-fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 4], nsm: f64) -> Option<([f64; 4], usize)> {
+fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 5], nsm: f64) -> Option<([f64; 5], usize)> {
     let rows = card.card.fields.len().div_ceil(8);
     let station =
         |card: &CardFields<'_, '_>, row: usize| matches!(card.text(8 * row + 1), "YES" | "YESA" | "NO");
@@ -189,11 +286,13 @@ fn end_b(card: &mut CardFields<'_, '_>, own: [f64; 4], nsm: f64) -> Option<([f64
     Some((other, 8 * row))
 }
 
-/// Reads the consecutive fields A, I1, I2, I12 and J, of which I12 must be 0. Blank fields have the values of `own`.
-fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>) -> Option<[f64; 4]> {
+/// Reads the consecutive fields A, I1, I2, I12 and J, and returns A, I1, I2, J and I12. Blank fields have the values of
+/// `own`.
+fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 5]>) -> Option<[f64; 5]> {
     let mut number = |index: usize, name: &str, k: usize| match own {
         Some(own) if card.blank(index) => Some(own[k]),
         _ if k == 0 => positive(card, index, name),
+        _ if k == 4 => card.real_or(index, name, 0.0),
         _ => card.not_negative(index, name),
     };
     let values = [
@@ -201,10 +300,10 @@ fn stiffness(card: &mut CardFields<'_, '_>, first: usize, own: Option<[f64; 4]>)
         number(first + 1, "I1", 1),
         number(first + 2, "I2", 2),
         number(first + 4, "J", 3),
+        number(first + 3, "I12", 4),
     ];
-    card.zero(first + 3, "I12", NO_PRODUCT)?;
-    let [a, i1, i2, j] = values;
-    Some([a?, i1?, i2?, j?])
+    let [a, i1, i2, j, product] = values;
+    Some([a?, i1?, i2?, j?, product?])
 }
 
 /// Reads PBARL or PBEAML: a shape with its dimensions, for PBEAML at both ends of the beam.
@@ -239,7 +338,19 @@ pub fn shaped(card: &mut CardFields<'_, '_>) -> Option<(u64, Property)> {
     let material = material?;
     let mut property = section(card, &shape, &dimensions, material, nsm)?;
     if let Some(other) = other {
-        property.end = Some(Box::new(section(card, &shape, &other, material, nsm)?));
+        let end = section(card, &shape, &other, material, nsm)?;
+        if property.turn != 0.0 || end.turn != 0.0 {
+            card.refuse(4, "TYPE", "must have its principal axes along y and z if it is tapered", NO_PRODUCT);
+            return None;
+        }
+        property.end = Some(Box::new(end));
+    }
+    if card.card.name == "PBEAML"
+        && !["ROD", "TUBE", "TUBE2", "BAR", "BOX", "H", "I1", "CROSS", "Z"].contains(&shape.as_str())
+    {
+        let message = "is taken with its shear centre at its centroid, like PBARL";
+        let fault = card.fault(4, "TYPE", message);
+        card.findings.warn(fault.hint("state PBEAM with N1, N2 where the distance of the two matters"));
     }
     spread(card, &property, 9 + count).then_some((id, property))
 }
@@ -264,10 +375,6 @@ fn section(
 ) -> Option<Property> {
     let section = match section_properties(shape, dimensions) {
         Ok(section) => section,
-        Err(ShapeError::Oblique) => {
-            card.refuse(4, "TYPE", "must have its principal axes along y and z", NO_PRODUCT);
-            return None;
-        }
         Err(ShapeError::Dimensions | ShapeError::Unknown) => {
             let hint = "the dimensions leave no space between the plates";
             card.refuse(9, "DIM1", "must be the first of valid dimensions of a section", hint);
@@ -283,6 +390,8 @@ fn section(
         j: section.j,
         shear: [section.k1, section.k2],
         nsm,
+        turn: section.turn,
+        neutral: [0.0; 2],
         end: None,
     })
 }

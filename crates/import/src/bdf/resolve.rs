@@ -4,53 +4,77 @@
 //! 1. grids: coordinate systems are resolved, and coordinates are transformed to the basic system;
 //! 2. points: the grids to which an element, rigid link, mass or spring refers, in the order of their numbers (a grid
 //!    that only orients an element does not become a point);
-//! 3. members, with the sections and materials that they use (see [`super::section`]);
-//! 4. links and masses;
+//! 3. members (see [`super::member`]), with the sections and materials that they use (see [`super::section`]);
+//! 4. links of all degrees of freedom, and masses;
 //! 5. supports: permanent constraints of grids and the selected SPC set;
 //! 6. springs, whose other end must be ground or a restrained degree of freedom, so that supports must be known;
-//! 7. sets of points and members.
+//! 7. links of some degrees of freedom (see [`crate::links`]), whose replacement depends on all of these;
+//! 8. the mass of elements, where it is lumped at the ends that they have then (see [`super::lumped`]);
+//! 9. sets of points and members.
 //!
 //! Errors do not stop the conversion: each is added to the findings with its position, and its card is omitted.
 
 use std::collections::BTreeMap;
 
+use super::coordinates::CoordinateSystems;
 use super::deck::BulkDeck;
-use super::element::{ElementCard, Orientation, SectionOf as Given};
-use super::grid::{self, Resolved};
-use super::lump::{SpringCard, Stiffness};
-use super::property::Property;
+use super::lump::{MassCard, SpringCard, Stiffness};
+use super::lumped::{self, MemberMass};
+use super::place::{self, Resolved};
 use super::section::SectionTable;
 use super::support;
+use crate::axes::{combined, turned_inertia};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use crate::structure::{ImportedMass, ImportedMember, ImportedPoint, ImportedSpring, ImportedStructure};
-use fea::{Dof, MemberKind};
-use formats::vector::{minus, parallel};
+use crate::links::{self, PartialLink};
+use crate::structure::{ImportedMass, ImportedPoint, ImportedSpring, ImportedStructure, MassDistribution};
+use formats::vector::minus;
 
-/// A deck and the structure to which it is converted.
-struct Resolver<'d, 'f> {
-    deck: &'d BulkDeck,
-    grids: BTreeMap<u64, Resolved>,
-    /// Index of the point of each grid that is used.
-    index: BTreeMap<u64, usize>,
-    sections: SectionTable,
-    structure: ImportedStructure,
-    findings: &'f mut ImportFindings,
+/// What the user asks of the conversion.
+#[derive(Clone, Copy, Debug)]
+pub struct Asked {
+    /// The SPC set that supports the structure, if the user selected one.
+    pub spc: Option<u64>,
+    /// Where the mass of elements acts.
+    pub mass: MassDistribution,
+    /// Whether what cannot change the stiffness is left out.
+    pub unused: bool,
 }
 
-/// Converts a deck to a structure. `empty` has a name and units only; `asked` is the SPC set that the user selected,
-/// if any.
+/// A deck and the structure to which it is converted.
+pub(super) struct Resolver<'d, 'f> {
+    pub(super) deck: &'d BulkDeck,
+    pub(super) asked: Asked,
+    pub(super) systems: CoordinateSystems<'d>,
+    pub(super) grids: BTreeMap<u64, Resolved>,
+    /// Index of the point of each grid that is used.
+    pub(super) index: BTreeMap<u64, usize>,
+    pub(super) sections: SectionTable,
+    /// Mass of each member.
+    pub(super) member_masses: Vec<MemberMass>,
+    /// Links of some degrees of freedom, with the positions and names of their cards.
+    pub(super) partial: Vec<(PartialLink, FilePlace, String)>,
+    pub(super) structure: ImportedStructure,
+    pub(super) findings: &'f mut ImportFindings,
+}
+
+/// Converts a deck to a structure. `empty` has a name and units only.
 pub fn resolve(
     deck: &BulkDeck,
     empty: ImportedStructure,
-    asked: Option<u64>,
+    asked: Asked,
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
-    let grids = grid::resolve(&deck.grids, deck.defaults, &deck.systems, findings);
+    let mut systems = CoordinateSystems::new(&deck.systems, &deck.grids, deck.defaults);
+    let grids = place::resolve(&deck.grids, deck.defaults, &mut systems, findings);
     let mut resolver = Resolver {
         deck,
+        asked,
+        systems,
         grids,
         index: BTreeMap::new(),
-        sections: SectionTable::default(),
+        sections: SectionTable::new(asked.mass == MassDistribution::Distributed),
+        member_masses: Vec::new(),
+        partial: Vec::new(),
         structure: empty,
         findings,
     };
@@ -58,8 +82,12 @@ pub fn resolve(
     resolver.members();
     resolver.links();
     resolver.masses();
-    resolver.supports(asked);
+    resolver.supports(asked.spc);
     resolver.springs();
+    resolver.partial_links();
+    if asked.mass == MassDistribution::Lumped {
+        lumped::add(&mut resolver.structure, &resolver.member_masses, resolver.findings);
+    }
     resolver.sets();
     resolver.structure
 }
@@ -86,7 +114,7 @@ impl<'d> Resolver<'d, '_> {
     }
 
     /// Index of the point of a grid. Returns `None` if the grid does not exist, with an error, or could not be read.
-    fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
+    pub(super) fn point(&mut self, id: u64, at: FilePlace, about: &str) -> Option<usize> {
         let index = self.index.get(&id).copied();
         // an error has already been added for a grid that exists but could not be read
         if index.is_none() && !self.deck.grids.contains_key(&id) {
@@ -94,125 +122,6 @@ impl<'d> Resolver<'d, '_> {
                 .error(ImportFinding::new(at, about, "refers to a grid that does not exist").with_found(id));
         }
         index
-    }
-
-    /// Adds the members, in the order of their numbers.
-    fn members(&mut self) {
-        let deck = self.deck;
-        if deck.elements.is_empty() {
-            let finding = ImportFinding::new(FilePlace { line: 1, column: 1, file: 0 }, "", "has no member");
-            self.findings.error(finding.hint("supported members are CBAR, CBEAM, CROD and CONROD"));
-        }
-        for (&id, element) in &deck.elements {
-            if let Some(member) = self.member(id, element) {
-                self.structure.members.push(member);
-            }
-        }
-    }
-
-    /// Returns the property of an element and the number in the name of its section, or `None`, with an error, if the
-    /// property does not exist or has the wrong type for the element.
-    fn property(&mut self, id: u64, element: &'d ElementCard, about: &str) -> Option<(u64, &'d Property)> {
-        let deck = self.deck;
-        let (number, property) = match &element.section {
-            Given::Own(property) => (id, property.as_ref()),
-            Given::Number(number) => {
-                let Some(property) = deck.properties.get(number) else {
-                    let finding =
-                        ImportFinding::new(element.card, about, "refers to a property that does not exist");
-                    self.findings.error(finding.with_found(number));
-                    return None;
-                };
-                (*number, property)
-            }
-        };
-        let fits = match element.kind.as_str() {
-            "CBAR" => matches!(property.kind.as_str(), "PBAR" | "PBARL"),
-            "CBEAM" => matches!(property.kind.as_str(), "PBEAM" | "PBEAML"),
-            _ => matches!(property.kind.as_str(), "PROD" | "CONROD"),
-        };
-        if !fits {
-            let expected = format!("cannot have the property {} {number}", property.kind);
-            let hint = "CBAR needs PBAR or PBARL, CBEAM needs PBEAM or PBEAML, CROD needs PROD";
-            self.findings.error(ImportFinding::new(element.card, about, expected).hint(hint));
-            return None;
-        }
-        Some((number, property))
-    }
-
-    /// Orientation vector of an element whose first grid is at `first`: `Some(None)` for rods, and `None` if the grid
-    /// that defines the orientation does not exist (with an error) or could not be read.
-    fn orientation(
-        &mut self,
-        element: &ElementCard,
-        first: [f64; 3],
-        about: &str,
-    ) -> Option<Option<[f64; 3]>> {
-        match element.orientation {
-            Some(Orientation::Vector(vector)) => Some(Some(vector)),
-            Some(Orientation::Grid(grid)) => {
-                let Some(there) = self.grids.get(&grid) else {
-                    if !self.deck.grids.contains_key(&grid) {
-                        let finding = ImportFinding::new(
-                            element.card,
-                            format!("{about}: G0"),
-                            "refers to a grid that does not exist",
-                        );
-                        self.findings.error(finding.with_found(grid));
-                    }
-                    return None;
-                };
-                Some(Some(minus(there.at, first)))
-            }
-            None => Some(None),
-        }
-    }
-
-    /// Converts an element to a member; returns `None`, with an error among the findings, if this is not possible.
-    fn member(&mut self, id: u64, element: &'d ElementCard) -> Option<ImportedMember> {
-        let about = format!("{} {id}", element.kind);
-        let [a, b] = element.grids.map(|grid| self.point(grid, element.card, &about));
-        let (number, property) = self.property(id, element, &about)?;
-        let section = self.section(number, property, "", &about)?;
-        let section_b = match &property.end {
-            Some(end) => Some(self.section(number, end, " at end B", &about)?),
-            None => None,
-        };
-        let (a, b) = (a?, b?);
-        let ends = [a, b].map(|point| self.structure.points[point].at);
-        let tip = |end: usize| [0, 1, 2].map(|axis| ends[end][axis] + element.offsets[end][axis]);
-        let along = minus(tip(1), tip(0));
-        if along == [0.0; 3] {
-            let finding =
-                ImportFinding::new(element.card, about, "must have a positive length between its ends");
-            self.findings.error(finding.hint("its ends coincide after the offsets are added"));
-            return None;
-        }
-        let orientation = self.orientation(element, ends[0], &about)?;
-        let bends = property.bending[0] > 0.0;
-        if orientation.is_some_and(|vector| parallel(vector, along)) && bends {
-            let finding =
-                ImportFinding::new(element.card, about, "its orientation must not be zero or along it");
-            self.findings.error(finding.hint("X1, X2, X3 or G0 define the side of the local y axis"));
-            return None;
-        }
-        let mut member = ImportedMember {
-            id,
-            points: [a, b],
-            kind: MemberKind::Beam,
-            section,
-            section_b,
-            orientation,
-            offsets: element.offsets,
-            releases: element.pins,
-        };
-        use_kind_of(property, &mut member);
-        Some(member)
-    }
-
-    /// Index of the section of a property (see [`SectionTable::index_of`]).
-    fn section(&mut self, number: u64, property: &Property, end: &str, about: &str) -> Option<usize> {
-        self.sections.index_of(self.deck, &mut self.structure, self.findings, (number, property), end, about)
     }
 
     /// Adds the rigid links.
@@ -228,9 +137,37 @@ impl<'d> Resolver<'d, '_> {
                         &rigid.label,
                         "must not link a grid to itself",
                     ));
-                } else {
+                } else if rigid.set == [true; 6] {
                     self.structure.links.push([from, to]);
+                } else {
+                    let set = self.grids.get(grid).and_then(|grid| grid.global(&rigid.set));
+                    match set {
+                        Some(set) => {
+                            self.partial.push((PartialLink { from, to, set }, *at, rigid.label.clone()))
+                        }
+                        None => self.refuse_skew(*at, &rigid.label),
+                    }
                 }
+            }
+        }
+    }
+
+    /// Adds the error of components that are along directions other than the global axes.
+    fn refuse_skew(&mut self, at: FilePlace, about: &str) {
+        let expected = "must be along the global axes at a grid whose displacement system is turned";
+        let hint = "supports, springs and links of a beam spec are along the global axes";
+        self.findings.error(ImportFinding::new(at, about, expected).hint(hint));
+    }
+
+    /// Adds the links of some degrees of freedom.
+    fn partial_links(&mut self) {
+        let all: Vec<PartialLink> = self.partial.iter().map(|(link, ..)| *link).collect();
+        for (link, at, label) in std::mem::take(&mut self.partial) {
+            if !links::add(&mut self.structure, link, &all) {
+                let expected = "must join all degrees of freedom, or be replaceable by a hinge or a support";
+                let hint =
+                    "a hinge has one beam at the dependent grid; a support has a fixed independent grid";
+                self.findings.error(ImportFinding::new(at, label, expected).hint(hint));
             }
         }
     }
@@ -241,14 +178,11 @@ impl<'d> Resolver<'d, '_> {
         let wtmass = deck.wtmass.unwrap_or(1.0);
         for mass in &deck.masses {
             let Some(point) = self.point(mass.grid, mass.at, &mass.label) else { continue };
-            let mut offset = mass.offset;
-            if mass.absolute {
-                offset = minus(offset, self.structure.points[point].at);
-            }
+            let Some((offset, inertia)) = self.mass_axes(mass, point) else { continue };
             let entry = ImportedMass {
                 point,
                 mass: mass.mass * wtmass,
-                inertia: mass.inertia.map(|value| value * wtmass),
+                inertia: inertia.map(|value| value * wtmass),
                 offset,
             };
             let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
@@ -264,15 +198,64 @@ impl<'d> Resolver<'d, '_> {
         }
     }
 
+    /// Vector to the centre of a mass and its moments of inertia, in global axes; `None`, with an error, if the system of
+    /// the mass cannot be used or its inertia has products.
+    fn mass_axes(&mut self, mass: &MassCard, point: usize) -> Option<([f64; 3], [f64; 3])> {
+        if mass.absolute {
+            let offset = minus(mass.offset, self.structure.points[point].at);
+            return self.principal(mass, mass.inertia).map(|inertia| (offset, inertia));
+        }
+        let frame =
+            self.systems.frame(mass.system, mass.at, &format!("{}: CID", mass.label), self.findings)?;
+        let has_direction = mass.offset != [0.0; 3] || mass.inertia != [[0.0; 3]; 3];
+        if !frame.is_rectangular() && has_direction {
+            let expected = "must be stated in a rectangular system";
+            self.findings.error(ImportFinding::new(mass.at, &mass.label, expected));
+            return None;
+        }
+        let inertia = self.principal(mass, turned_inertia(&frame.axes(), &mass.inertia))?;
+        Some((combined(&frame.axes(), mass.offset), inertia))
+    }
+
+    /// The moments of inertia about the global axes. Products of inertia are an error, or are left out with a warning if
+    /// the user asked for this.
+    fn principal(&mut self, mass: &MassCard, matrix: [[f64; 3]; 3]) -> Option<[f64; 3]> {
+        let largest = matrix.iter().flatten().fold(0.0, |most: f64, part| most.max(part.abs()));
+        let products = [matrix[0][1], matrix[0][2], matrix[1][2]];
+        if products.iter().any(|product| product.abs() > 1e-12 * largest) {
+            let about = format!("{}: I21", mass.label);
+            if self.asked.unused {
+                let message = "is left out with I31 and I32; products of inertia cannot change the stiffness";
+                self.findings.warn(ImportFinding::new(mass.at, about, message));
+            } else {
+                let expected = "must be 0 about the global axes, like I31 and I32";
+                let hint = "a beam spec has principal inertias about the global axes; --skip-unused leaves the products out";
+                self.findings.error(ImportFinding::new(mass.at, about, expected).hint(hint));
+                return None;
+            }
+        }
+        Some([0, 1, 2].map(|axis| matrix[axis][axis].max(0.0)))
+    }
+
     /// Adds the permanent constraints of grids and the selected SPC sets, and a warning for each set not selected.
     fn supports(&mut self, asked: Option<u64>) {
         let deck = self.deck;
+        let mut skew = Vec::new();
         for (id, grid) in &self.grids {
             if let Some(point) = self.index.get(id)
                 && grid.fix.contains(&true)
             {
-                self.structure.supports.insert(*point, grid.fix);
+                match grid.global(&grid.fix) {
+                    Some(fix) => {
+                        self.structure.supports.insert(*point, fix);
+                    }
+                    None => skew.push(*id),
+                }
             }
+        }
+        for id in skew {
+            let at = deck.grids.get(&id).map_or(FilePlace::default(), |grid| grid.card);
+            self.refuse_skew(at, &format!("GRID {id}: PS"));
         }
         let sets =
             support::chosen(&deck.supports, &deck.adds, asked, deck.controlled, &deck.control, self.findings);
@@ -283,9 +266,10 @@ impl<'d> Resolver<'d, '_> {
                 continue;
             }
             let about = format!("SPC set {}", support.set);
-            let mut restrained: Vec<usize> = Vec::new();
+            let mut restrained: Vec<(u64, usize, FilePlace)> = Vec::new();
             for [from, to] in &support.ranges {
-                restrained.extend(self.index.range(from..=to).map(|(_, point)| *point));
+                let inside = self.index.range(from..=to);
+                restrained.extend(inside.map(|(grid, point)| (*grid, *point, support.card)));
             }
             for (grid, at) in &support.grids {
                 if !deck.grids.contains_key(grid) {
@@ -294,11 +278,15 @@ impl<'d> Resolver<'d, '_> {
                             .with_found(grid),
                     );
                 }
-                restrained.extend(self.index.get(grid));
+                restrained.extend(self.index.get(grid).map(|point| (*grid, *point, *at)));
             }
-            for point in restrained {
+            for (grid, point, at) in restrained {
+                let Some(set) = self.grids.get(&grid).and_then(|grid| grid.global(&support.fix)) else {
+                    self.refuse_skew(at, &about);
+                    continue;
+                };
                 let fixed = self.structure.supports.entry(point).or_default();
-                for (dof, fix) in support.fix.iter().enumerate() {
+                for (dof, fix) in set.iter().enumerate() {
                     fixed[dof] |= fix;
                 }
             }
@@ -320,15 +308,21 @@ impl<'d> Resolver<'d, '_> {
             let Some(k) = self.stiffness(spring) else { continue };
             let mut free = Vec::new();
             let mut known = true;
-            for (grid, dof) in spring.ends.iter().flatten() {
-                match self.point(*grid, spring.card, &spring.label) {
-                    Some(point) => {
-                        let is_restrained = self.structure.supports.get(&point).is_some_and(|fix| fix[*dof]);
+            for (grid, component) in spring.ends.iter().flatten() {
+                let point = self.point(*grid, spring.card, &spring.label);
+                let global = self.grids.get(grid).map(|grid| grid.global_component(*component));
+                match (point, global) {
+                    (Some(point), Some(Some((dof, _)))) => {
+                        let is_restrained = self.structure.supports.get(&point).is_some_and(|fix| fix[dof]);
                         if !is_restrained {
-                            free.push((point, *dof));
+                            free.push((point, dof));
                         }
                     }
-                    None => known = false,
+                    (Some(_), Some(None)) => {
+                        self.refuse_skew(spring.card, &spring.label);
+                        known = false;
+                    }
+                    _ => known = false,
                 }
             }
             match free.as_slice() {
@@ -395,26 +389,4 @@ impl<'d> Resolver<'d, '_> {
         sets.retain(|(_, set)| !set.is_empty());
         structure.cell_sets = sets;
     }
-}
-
-/// The kind of a member with the stiffnesses of its property: without bending stiffness it is a rod, and without
-/// torsional stiffness as well a truss. A member with bending stiffness only is a beam whose section has the J 0.
-fn use_kind_of(property: &Property, member: &mut ImportedMember) {
-    if property.bending[0] > 0.0 {
-        return;
-    }
-    // releases of what the member does not resist have no effect
-    let resisted = if property.j > 0.0 {
-        member.kind = MemberKind::Rod;
-        [Dof::Ux, Dof::Rx].as_slice()
-    } else {
-        member.kind = MemberKind::Truss;
-        [Dof::Ux].as_slice()
-    };
-    for pins in &mut member.releases {
-        for dof in Dof::ALL.into_iter().filter(|dof| !resisted.contains(dof)) {
-            pins[dof as usize] = false;
-        }
-    }
-    member.orientation = None;
 }

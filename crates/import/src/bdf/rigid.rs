@@ -13,10 +13,12 @@ pub struct Rigid {
     pub from: (u64, FilePlace),
     /// Numbers of the dependent grids, with the positions of their fields.
     pub to: Vec<(u64, FilePlace)>,
+    /// Displacement components of the dependent grids that follow the independent one.
+    pub set: [bool; 6],
 }
 
 const WHOLE: [bool; 6] = [true; 6];
-const PARTIAL: &str = "links that do not join all degrees of freedom of their ends are not supported";
+const PARTIAL: &str = "all degrees of freedom of one end must be independent";
 
 /// Reads RBE2.
 pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
@@ -34,15 +36,15 @@ pub fn rbe2(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
             to.push((card.id(index, "GM")?, card.at(index)));
         }
     }
-    if fix != WHOLE {
-        card.refuse(3, "CM", "must be 123456", PARTIAL);
+    if fix == [false; 6] {
+        card.refuse(3, "CM", "must have at least one component", "");
         return None;
     }
     if to.is_empty() {
         card.refuse(4, "GM1", "is missing", "state the dependent grids");
         return None;
     }
-    Some(Rigid { label: card.label(), from: (from?, card.at(2)), to })
+    Some(Rigid { label: card.label(), from: (from?, card.at(2)), to, set: fix })
 }
 
 /// Reads RBAR.
@@ -66,15 +68,12 @@ pub fn rbar(card: &mut CardFields<'_, '_>) -> Option<Rigid> {
         }
     };
     let follows = if leads_a == WHOLE { follows_b } else { follows_a };
-    if follows != none && follows != WHOLE {
-        card.refuse(if leads_a == WHOLE { 7 } else { 6 }, "CM", "must be 123456 or blank", PARTIAL);
-        return None;
-    }
+    let set = if follows == none { WHOLE } else { follows };
     let (leading, following) = (leading?, following?);
     if leading == following {
         card.refuse(3, "GB", "must differ from GA", "");
         return None;
     }
     let at = card.at(2);
-    Some(Rigid { label: card.label(), from: (leading, at), to: vec![(following, at)] })
+    Some(Rigid { label: card.label(), from: (leading, at), to: vec![(following, at)], set })
 }

@@ -2,7 +2,7 @@
 //!
 //! A NASTRAN property is converted to one section (two if it is tapered), and its MAT1 to one material. A
 //! non-structural mass per length NSM is distributed over the area A: a separate material with the density
-//! rho + NSM / A is added for such a property. A section has the properties of its card alone: the second moments of a
+//! rho + NSM / A is added for such a property. Materials have no density where mass is lumped. A section has the properties of its card alone: the second moments of a
 //! rod are left out, and the J of a bar without torsional stiffness is 0.
 
 use std::collections::BTreeMap;
@@ -15,8 +15,9 @@ use crate::findings::{ImportFinding, ImportFindings};
 use crate::structure::{ImportedMaterial, ImportedSection, ImportedStructure};
 
 /// The sections and materials that have been added to a structure.
-#[derive(Default)]
 pub struct SectionTable {
+    /// Whether materials have the mass of their members, which is lumped otherwise.
+    pub has_mass: bool,
     /// Index of the section by number of the property and end: true for end B.
     indices: BTreeMap<(u64, bool), usize>,
     /// Names of the materials.
@@ -24,6 +25,32 @@ pub struct SectionTable {
 }
 
 impl SectionTable {
+    /// A table without sections; `has_mass` is true if the materials have the mass of their members.
+    #[must_use]
+    pub fn new(has_mass: bool) -> SectionTable {
+        SectionTable { has_mass, indices: BTreeMap::new(), materials: Vec::new() }
+    }
+
+    /// Adds a section with the area of the section `index` alone and without mass, for the bar along the neutral axis of
+    /// a PBEAM, and returns its index.
+    pub fn massless(&mut self, structure: &mut ImportedStructure, index: usize) -> usize {
+        let of = &structure.sections[index];
+        let name = format!("{} at its neutral axis", of.name);
+        if let Some(known) = structure.sections.iter().position(|section| section.name == name) {
+            return known;
+        }
+        let (area, material) = (of.area, format!("{} without mass", of.material));
+        if !self.materials.contains(&material) {
+            let own = structure.materials.iter().find(|known| known.name == of.material);
+            let copy =
+                own.map(|own| ImportedMaterial { name: material.clone(), density: None, ..own.clone() });
+            structure.materials.extend(copy);
+            self.materials.push(material.clone());
+        }
+        structure.sections.push(ImportedSection { name, material, area, ..ImportedSection::default() });
+        structure.sections.len() - 1
+    }
+
     /// Returns the index of the section of a property, and adds the section to `structure` when it is first used.
     ///
     /// `end` is the suffix of the section name for end B, and empty otherwise; `about` is the element that uses the
@@ -48,7 +75,9 @@ impl SectionTable {
         let wtmass = deck.wtmass.unwrap_or(1.0);
         let mut density = known.density * wtmass;
         let mut material = format!("MAT1 {}", property.material);
-        if property.nsm > 0.0 {
+        if !self.has_mass {
+            density = 0.0;
+        } else if property.nsm > 0.0 {
             density += property.nsm * wtmass / property.area;
             material = format!("{material} and NSM of {name}");
         }
@@ -78,6 +107,18 @@ impl SectionTable {
         }
         Some(index)
     }
+}
+
+/// Mass per length of members with a property, and their inertia in twist per length; of a tapered one the mean of both
+/// ends. Both are scaled by WTMASS.
+#[must_use]
+pub fn mass_per_length(deck: &BulkDeck, property: &Property) -> [f64; 2] {
+    let wtmass = deck.wtmass.unwrap_or(1.0);
+    let density = deck.materials.get(&property.material).map_or(0.0, |material| material.density);
+    let end = property.end.as_deref().unwrap_or(property);
+    let area = 0.5 * (property.area + end.area);
+    let polar = 0.5 * (property.bending.iter().sum::<f64>() + end.bending.iter().sum::<f64>());
+    [(density * area + property.nsm) * wtmass, density * polar * wtmass]
 }
 
 /// Returns the material of a property, or `None`, with an error, if the material does not exist or has no G although

@@ -20,8 +20,9 @@ pub struct SupportCard {
     pub fix: [bool; 6],
 }
 
-/// Reads SPC, which names up to two grids.
-pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
+/// Reads SPC, which names up to two grids. Prescribed displacements are a load: they are left out, with a warning, if
+/// `without_loads` is set.
+pub fn spc(card: &mut CardFields<'_, '_>, without_loads: bool) -> Vec<SupportCard> {
     let mut supports = Vec::new();
     let Some(set) = card.id(1, "SID") else { return supports };
     for first in [2, 5] {
@@ -30,7 +31,17 @@ pub fn spc(card: &mut CardFields<'_, '_>) -> Vec<SupportCard> {
         }
         let grid = card.id(first, "G");
         let fix = card.freedoms(first + 1, "C");
-        let moved = card.zero(first + 2, "D", "prescribed displacements of supports are not supported");
+        let moved = if without_loads {
+            card.real_or(first + 2, "D", 0.0).map(|value| {
+                if value != 0.0 {
+                    let left = card.fault(first + 2, "D", "is left out: the support is kept at rest");
+                    card.findings.warn(left);
+                }
+            })
+        } else {
+            let hint = "prescribed displacements are not supported; --skip-unused keeps the support at rest";
+            card.zero(first + 2, "D", hint)
+        };
         if let (Some(grid), Some(fix), Some(())) = (grid, fix, moved) {
             let grids = vec![(grid, card.at(first))];
             supports.push(SupportCard { set, card: card.card.at, grids, ranges: Vec::new(), fix });

@@ -2,14 +2,20 @@
 
 use std::collections::BTreeMap;
 
-use super::text::{MeshBlock, MeshRecord, sections};
+use super::text::{MeshBlock, sections};
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
-const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format msh41 -o NEW.msh";
+/// Advice for a mesh of another version.
+pub(super) const CONVERT: &str = "convert it with: gmsh MESH.msh -save -format msh41 -o NEW.msh";
+
+/// Elements that are not lines: number of each type, with the position of the first.
+pub(super) type OtherElements = BTreeMap<u64, (FilePlace, u64)>;
 
 /// The parts of a mesh that define a frame.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Mesh {
+    /// What messages call the entities of dimension 1, and their groups.
+    pub group_words: [&'static str; 2],
     /// Name of each physical group by dimension and number.
     pub names: BTreeMap<(u64, u64), String>,
     /// Physical groups of each entity by dimension and number.
@@ -22,31 +28,30 @@ pub struct Mesh {
     pub lines: BTreeMap<u64, (u64, [u64; 2], FilePlace)>,
 }
 
-impl Mesh {
-    /// Reads a mesh and adds its errors to the findings.
-    pub fn read(text: &str, findings: &mut ImportFindings) -> Mesh {
-        let mut mesh = Mesh::default();
-        // the sections can be read only if the header specifies text format 4.1
-        if !plain_41(text, findings) {
-            return mesh;
+impl Default for Mesh {
+    fn default() -> Mesh {
+        Mesh {
+            group_words: ["curve", "physical group"],
+            names: BTreeMap::new(),
+            groups: BTreeMap::new(),
+            nodes: BTreeMap::new(),
+            points: BTreeMap::new(),
+            lines: BTreeMap::new(),
         }
+    }
+}
+
+impl Mesh {
+    /// Reads a mesh in the text of format 4.1 and adds its errors to the findings.
+    pub fn read_41(&mut self, text: &str, findings: &mut ImportFindings) {
         let mut seen = Vec::new();
-        for mut section in sections(text, findings) {
-            if seen.contains(&section.name) {
-                findings.error(ImportFinding::new(
-                    section.at,
-                    format!("${}", section.name),
-                    "must occur only once",
-                ));
-                continue;
-            }
-            seen.push(section.name);
+        for mut section in once_each(text, &mut seen, findings) {
             // `None` means that the section could not be read to its end, with an error among the findings
             let _whole = match section.name {
-                "PhysicalNames" => mesh.read_names(&mut section, findings),
-                "Entities" => mesh.read_entities(&mut section, findings),
-                "Nodes" => mesh.read_nodes(&mut section, findings),
-                "Elements" => mesh.read_elements(&mut section, findings),
+                "PhysicalNames" => self.read_names(&mut section, findings),
+                "Entities" => self.read_entities(&mut section, findings),
+                "Nodes" => self.read_nodes(&mut section, findings),
+                "Elements" => self.read_elements(&mut section, findings),
                 "PartitionedEntities" => {
                     let finding = ImportFinding::new(section.at, "$PartitionedEntities", "is not supported");
                     findings.error(finding.hint("write the mesh without partitions"));
@@ -55,16 +60,15 @@ impl Mesh {
                 _ => Some(()),
             };
         }
-        for needed in ["Entities", "Nodes", "Elements"] {
-            if !seen.contains(&needed) && !findings.has_errors() {
-                let at = FilePlace { file: 0, line: 1, column: 1 };
-                findings.error(ImportFinding::new(at, format!("${needed}"), "is missing").hint(CONVERT));
-            }
-        }
-        mesh
+        require(&["Entities", "Nodes", "Elements"], &seen, findings);
     }
 
-    fn read_names(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
+    /// Reads `$PhysicalNames`, which is text in binary meshes too.
+    pub(super) fn read_names(
+        &mut self,
+        section: &mut MeshBlock<'_>,
+        findings: &mut ImportFindings,
+    ) -> Option<()> {
         let count = section.next(findings)?.whole(0, "number of names", findings)?;
         for _ in 0..count {
             let record = section.next(findings)?;
@@ -127,9 +131,7 @@ impl Mesh {
                 for (axis, name) in ["x", "y", "z"].into_iter().enumerate() {
                     place[axis] = record.coordinate(axis, name, findings)?;
                 }
-                if self.nodes.insert(tag, place).is_some() {
-                    findings.error(ImportFinding::new(at, "node", "occurs twice").with_found(tag));
-                }
+                self.add_node(tag, place, at, findings);
                 if dimension == 0 {
                     self.points.entry(entity).or_default().push(tag);
                 }
@@ -140,7 +142,7 @@ impl Mesh {
 
     fn read_elements(&mut self, section: &mut MeshBlock<'_>, findings: &mut ImportFindings) -> Option<()> {
         let blocks = section.next(findings)?.whole(0, "number of blocks", findings)?;
-        let mut others: BTreeMap<u64, (FilePlace, u64)> = BTreeMap::new();
+        let mut others = OtherElements::new();
         for _ in 0..blocks {
             let head = section.next(findings)?;
             let dimension = head.whole(0, "dimension", findings)?;
@@ -149,54 +151,110 @@ impl Mesh {
             let count = head.whole(3, "number of elements", findings)?;
             for _ in 0..count {
                 let record = section.next(findings)?;
+                let tag = record.whole(0, "element", findings)?;
                 match kind {
-                    LINE => self.line(entity, &record, findings)?,
+                    LINE => {
+                        let nodes = [record.whole(1, "node", findings)?, record.whole(2, "node", findings)?];
+                        self.add_line(entity, tag, nodes, record.at, findings);
+                    }
                     POINT if dimension == 0 => {
                         let node = record.whole(1, "node", findings)?;
-                        let points = self.points.entry(entity).or_default();
-                        if !points.contains(&node) {
-                            points.push(node);
-                        }
+                        self.add_point(entity, node);
                     }
                     _ => others.entry(kind).or_insert((record.at, 0)).1 += 1,
                 }
             }
         }
-        for (kind, (at, count)) in others {
-            let name = kind_name(kind);
-            let about = format!("elements of type {kind}");
-            if matches!(kind, 8 | 26..=28) {
-                let hint = "mesh with Mesh.ElementOrder = 1";
-                findings.error(
-                    ImportFinding::new(
-                        at,
-                        about,
-                        format!("{name} are not supported: members have two nodes"),
-                    )
-                    .hint(hint),
-                );
-            } else {
-                findings.warn(ImportFinding::new(at, about, format!("{name} are left out, {count} of them")));
-            }
-        }
+        report_others(others, findings);
         Some(())
     }
 
-    fn line(&mut self, curve: u64, record: &MeshRecord<'_>, findings: &mut ImportFindings) -> Option<()> {
-        let tag = record.whole(0, "element", findings)?;
-        let nodes = [record.whole(1, "node", findings)?, record.whole(2, "node", findings)?];
+    /// Adds a node of an element of dimension 0.
+    pub(super) fn add_point(&mut self, entity: u64, node: u64) {
+        let points = self.points.entry(entity).or_default();
+        if !points.contains(&node) {
+            points.push(node);
+        }
+    }
+
+    /// Adds a line element.
+    pub(super) fn add_line(
+        &mut self,
+        curve: u64,
+        tag: u64,
+        nodes: [u64; 2],
+        at: FilePlace,
+        findings: &mut ImportFindings,
+    ) {
         if nodes[0] == nodes[1] {
-            findings.error(ImportFinding::new(record.at, format!("element {tag}"), "must join two nodes"));
+            findings.error(ImportFinding::new(at, format!("element {tag}"), "must join two nodes"));
         }
-        if self.lines.insert(tag, (curve, nodes, record.at)).is_some() {
-            findings.error(ImportFinding::new(record.at, "element", "occurs twice").with_found(tag));
+        if self.lines.insert(tag, (curve, nodes, at)).is_some() {
+            findings.error(ImportFinding::new(at, "element", "occurs twice").with_found(tag));
         }
-        Some(())
+    }
+
+    /// Adds a node.
+    pub(super) fn add_node(
+        &mut self,
+        tag: u64,
+        place: [f64; 3],
+        at: FilePlace,
+        findings: &mut ImportFindings,
+    ) {
+        if self.nodes.insert(tag, place).is_some() {
+            findings.error(ImportFinding::new(at, "node", "occurs twice").with_found(tag));
+        }
     }
 }
 
-const LINE: u64 = 1;
-const POINT: u64 = 15;
+/// Adds a warning for each type of element that is left out, and an error for lines of more than two nodes.
+pub(super) fn report_others(others: OtherElements, findings: &mut ImportFindings) {
+    for (kind, (at, count)) in others {
+        let name = kind_name(kind);
+        let about = format!("elements of type {kind}");
+        if matches!(kind, 8 | 26..=28) {
+            let expected = format!("{name} are not supported: members have two nodes");
+            findings.error(ImportFinding::new(at, about, expected).hint("mesh with Mesh.ElementOrder = 1"));
+        } else {
+            findings.warn(ImportFinding::new(at, about, format!("{name} are left out, {count} of them")));
+        }
+    }
+}
+
+/// The sections of a text, of which each may occur once; their names are added to `seen`.
+pub(super) fn once_each<'t>(
+    text: &'t str,
+    seen: &mut Vec<&'t str>,
+    findings: &mut ImportFindings,
+) -> Vec<MeshBlock<'t>> {
+    let mut kept = Vec::new();
+    for section in sections(text, findings) {
+        if seen.contains(&section.name) {
+            let about = format!("${}", section.name);
+            findings.error(ImportFinding::new(section.at, about, "must occur only once"));
+        } else {
+            seen.push(section.name);
+            kept.push(section);
+        }
+    }
+    kept
+}
+
+/// Adds an error for each section that a mesh without errors does not have.
+pub(super) fn require(needed: &[&str], seen: &[&str], findings: &mut ImportFindings) {
+    for name in needed {
+        if !seen.contains(name) && !findings.has_errors() {
+            let at = FilePlace { file: 0, line: 1, column: 1 };
+            findings.error(ImportFinding::new(at, format!("${name}"), "is missing").hint(CONVERT));
+        }
+    }
+}
+
+/// Type of lines of two nodes.
+pub(super) const LINE: u64 = 1;
+/// Type of points.
+pub(super) const POINT: u64 = 15;
 
 const fn kind_name(kind: u64) -> &'static str {
     match kind {
@@ -209,39 +267,5 @@ const fn kind_name(kind: u64) -> &'static str {
         8 | 26..=28 => "lines of more than two nodes",
         15 => "points",
         _ => "elements of other kinds",
-    }
-}
-
-/// Whether the header specifies text format 4.1; adds an error otherwise.
-fn plain_41(text: &str, findings: &mut ImportFindings) -> bool {
-    let mut lines = text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty());
-    let at = |line: usize| FilePlace { file: 0, line: line + 1, column: 1 };
-    let first = lines.next();
-    if first.is_none_or(|(_, line)| line.trim() != "$MeshFormat") {
-        let line = first.map_or(0, |(line, _)| line);
-        findings.error(
-            ImportFinding::new(at(line), "", "must begin with $MeshFormat").hint("is this a gmsh mesh?"),
-        );
-        return false;
-    }
-    let (line, format) = lines.next().unwrap_or((1, ""));
-    let words: Vec<&str> = format.split_ascii_whitespace().collect();
-    let refuse = |expected: &str, found: &str| {
-        ImportFinding::new(at(line), "$MeshFormat", expected).with_found(found).hint(CONVERT)
-    };
-    match words.as_slice() {
-        ["4.1", "0", ..] => true,
-        ["4.1", "1", ..] => {
-            findings.error(refuse("must be a mesh in text", "a binary mesh"));
-            false
-        }
-        [version, ..] => {
-            findings.error(refuse("must be version 4.1", version));
-            false
-        }
-        [] => {
-            findings.error(refuse("must be version 4.1", "nothing"));
-            false
-        }
     }
 }

@@ -1,4 +1,4 @@
-//! Meshes of gmsh in text format 4.1, whose line elements become members.
+//! Meshes of gmsh in formats 2.2 and 4.1, text or binary, whose line elements become members.
 //!
 //! Each curve must belong to exactly one physical group that the sections file defines, either as the name of a
 //! section or as an entry of `members`. This group determines section, orientation and releases of the members.
@@ -7,12 +7,16 @@
 //! # Source
 //! Gmsh reference manual, section "MSH file format".
 
+mod binary;
+mod header;
 mod mesh;
 mod sections;
 mod text;
+mod version2;
 
 use std::collections::{BTreeMap, BTreeSet};
 
+pub use mesh::Mesh;
 pub use sections::{FORMAT, Sections};
 
 use fea::MemberKind;
@@ -20,26 +24,38 @@ use fea::MemberKind;
 use super::findings::{FilePlace, ImportFinding, ImportFindings};
 use super::structure::{ImportedMember, ImportedPoint, ImportedStructure};
 use formats::vector::{minus, parallel};
-use mesh::Mesh;
+use header::MeshVersion;
 
 /// Reads a mesh into `empty`, a structure that has a name, units and the upward direction only. `factor` converts
 /// coordinates of the mesh to the unit of length of the structure. Errors are added to the findings.
 #[must_use]
 pub fn read(
-    text: &str,
+    bytes: &[u8],
     factor: f64,
     groups: &Sections,
     empty: ImportedStructure,
     findings: &mut ImportFindings,
 ) -> ImportedStructure {
-    let mesh = Mesh::read(text, findings);
-    let mut structure = empty;
+    let mesh = read_mesh(bytes, findings);
     if findings.has_errors() {
-        return structure;
+        return empty;
     }
+    structure_of(&mesh, factor, groups, empty, findings)
+}
+
+/// Converts a mesh to a structure in `empty` (see [`read`]).
+#[must_use]
+pub fn structure_of(
+    mesh: &Mesh,
+    factor: f64,
+    groups: &Sections,
+    empty: ImportedStructure,
+    findings: &mut ImportFindings,
+) -> ImportedStructure {
+    let mut structure = empty;
     structure.materials.clone_from(&groups.materials);
     structure.sections.clone_from(&groups.sections);
-    let index = points(&mesh, factor, &mut structure);
+    let index = points(mesh, factor, &mut structure);
     let mut sets: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
     // curves for which an error was added, so that each causes one error instead of one for each of its elements
     let mut reported = BTreeSet::new();
@@ -53,8 +69,10 @@ pub fn read(
             );
             continue;
         };
-        let names: Vec<&str> = names(&mesh, 1, curve);
-        let Some(name) = group_of(curve, &names, groups, at, &mut reported, findings) else { continue };
+        let names: Vec<&str> = names(mesh, 1, curve);
+        let Some(name) = group_of(mesh, (curve, at), &names, groups, &mut reported, findings) else {
+            continue;
+        };
         let group = &groups.groups[name];
         let along = minus(structure.points[b].at, structure.points[a].at);
         let orientation = group.orientation.or(structure.up);
@@ -93,13 +111,28 @@ pub fn read(
     structure
 }
 
+/// Reads the contents of a mesh of any format; its errors are among the findings.
+fn read_mesh(bytes: &[u8], findings: &mut ImportFindings) -> Mesh {
+    let mut mesh = Mesh::default();
+    // the header is text in binary meshes too
+    let text = String::from_utf8_lossy(bytes);
+    if let Some(format) = header::format(&text, findings) {
+        match format.version {
+            _ if format.binary => binary::read(&mut mesh, bytes, format.version, findings),
+            MeshVersion::FourOne => mesh.read_41(&text, findings),
+            MeshVersion::Two => version2::read(&mut mesh, &text, findings),
+        }
+    }
+    mesh
+}
+
 /// The only one of the physical groups `names` of a curve that the sections file defines. If there is no such group
 /// or there are several, an error is added unless the curve is among `reported`.
 fn group_of<'m>(
-    curve: u64,
+    mesh: &Mesh,
+    (curve, at): (u64, FilePlace),
     names: &[&'m str],
     groups: &Sections,
-    at: FilePlace,
     reported: &mut BTreeSet<u64>,
     findings: &mut ImportFindings,
 ) -> Option<&'m str> {
@@ -109,10 +142,10 @@ fn group_of<'m>(
     }
     if reported.insert(curve) {
         let known: Vec<&str> = groups.groups.keys().map(String::as_str).collect();
-        let expected =
-            format!("must be in one physical group that is a section or in `members`, {}", list(names));
+        let [entity, set] = mesh.group_words;
+        let expected = format!("must be in one {set} that is a section or in `members`, {}", list(names));
         let hint = format!("in the sections file: {}", known.join(", "));
-        findings.error(ImportFinding::new(at, format!("curve {curve}"), expected).hint(hint));
+        findings.error(ImportFinding::new(at, format!("{entity} {curve}"), expected).hint(hint));
     }
     None
 }

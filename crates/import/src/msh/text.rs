@@ -6,7 +6,7 @@ use formats::text::fault::number;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
 
 /// Largest magnitude of a coordinate. In every unit of length it is within the limits of a beam spec.
-const LARGEST: f64 = MAGNITUDES[1] / 1e4;
+pub(super) const LARGEST: f64 = MAGNITUDES[1] / 1e4;
 
 /// A line divided into words, with the column of each word.
 #[derive(Clone, Debug)]

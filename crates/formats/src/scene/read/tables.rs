@@ -82,7 +82,10 @@ fn by_id<'s>(set: &'s TableSet, id: u32, at: &Place<'_>, check: &mut Check<'_>) 
     let found = set.table(id);
     if found.is_none() {
         let known: Vec<String> = set.tables.iter().map(|table| table.id.to_string()).collect();
-        let fault = Fault::new(at, "must be the number of a SPLINE in the file").got(id);
+        let fault = match set.left_out.iter().find(|table| table.id == Some(id)) {
+            Some(table) => modified(at, table.line).got(id),
+            None => Fault::new(at, "must be the number of a SPLINE in the file").got(id),
+        };
         check.faults.add(fault.hint(hint(&known)));
     }
     found
@@ -99,6 +102,10 @@ fn by_name<'s>(set: &'s TableSet, name: &str, at: &Place<'_>, check: &mut Check<
     }
     let known: Vec<String> = set.tables.iter().map(|table| format!("\"{}\"", table.name)).collect();
     let names: Vec<&str> = set.tables.iter().map(|table| table.name.as_str()).collect();
+    if let Some(table) = set.left_out.iter().find(|table| table.name == name) {
+        check.faults.add(modified(at, table.line).got(format!("\"{name}\"")).hint(hint(&known)));
+        return None;
+    }
     let several = !called.is_empty() || !own.is_empty();
     let expected = if several {
         "must be the name of exactly one table"
@@ -109,6 +116,12 @@ fn by_name<'s>(set: &'s TableSet, name: &str, at: &Place<'_>, check: &mut Check<
     let fault = Fault::new(at, expected).got(format!("\"{name}\""));
     check.faults.add(fault.hint(format!("{near}{}", hint(&known))));
     None
+}
+
+/// The fault of a table that was left out, because the command at `line` modifies it.
+fn modified(at: &Place<'_>, line: usize) -> Fault {
+    let expected = "must be a table that no later command of the file modifies";
+    Fault::new(at, format!("{expected} (`data_element modify spline` in line {line})"))
 }
 
 fn hint(known: &[String]) -> String {

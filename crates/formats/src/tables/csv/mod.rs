@@ -64,6 +64,7 @@ pub(super) fn read(source: &Source) -> Result<Parsed, Vec<Diagnostic>> {
         drafts,
         comments: sheet.comments,
         products: Vec::new(),
+        left_out: Vec::new(),
     })
 }
 

@@ -48,6 +48,7 @@ pub(in crate::tables) fn read(file: &str, bytes: &[u8]) -> Result<Parsed, Vec<Di
         units: given,
         missing_units: ["states no units", "such as an array units=[\"ft\", \"lbf\", \"s\"]"],
         products: pack.products(&drafts).map_err(one)?,
+        left_out: Vec::new(),
         drafts,
         comments: String::new(),
     })

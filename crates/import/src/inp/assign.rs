@@ -1,0 +1,122 @@
+//! Sections with their materials, and their assignment to elements.
+
+use super::model::{InpKind, InpModel};
+use super::resolve::Resolver;
+use super::section::{InpSection, MaterialOf};
+use super::values::key_of;
+use crate::findings::ImportFinding;
+use crate::structure::{ImportedMaterial, ImportedSection};
+
+impl Resolver<'_, '_> {
+    /// Adds the sections with their materials, and assigns them to elements.
+    pub(super) fn assign_sections(&mut self) {
+        let model = self.model;
+        for (place, section) in model.sections.iter().enumerate() {
+            let Some(material) = self.material(section) else { continue };
+            let about = format!("{}: ELSET", section.label);
+            let elements =
+                InpModel::targets(&model.element_sets, &model.elements, &section.set, &about, self.findings);
+            let is_cubic = |number: &u64| {
+                let kind = model.elements.get(number).map(|element| element.kind);
+                kind == Some(InpKind::Beam { sheared: false })
+            };
+            let is_rigid_in_shear = !elements.is_empty() && elements.iter().all(is_cubic);
+            let index = self.structure.sections.len();
+            let numbers = section.numbers;
+            // principal second moments of I12; the axes are turned in `members`
+            let mean = 0.5 * (numbers.iz + numbers.iy);
+            let radius = (0.5 * (numbers.iz - numbers.iy)).hypot(numbers.product);
+            let [iz, iy] = if numbers.product == 0.0 {
+                [numbers.iz, numbers.iy]
+            } else {
+                [mean + radius, mean - radius]
+            };
+            let beam = |value: f64| section.is_beam.then_some(value);
+            let g = self
+                .structure
+                .materials
+                .iter()
+                .find(|known| known.name == material)
+                .and_then(|known| known.g);
+            let [shear_y, shear_z] = match (section.shear_stiffness, g) {
+                _ if is_rigid_in_shear => [None; 2],
+                (Some(stiffness), Some(g)) => stiffness.map(|value| Some(value / g)),
+                _ => [beam(numbers.k * numbers.area); 2],
+            };
+            let positive = [Some(numbers.area), beam(iy), beam(iz), beam(numbers.j), shear_y, shear_z];
+            if positive.iter().flatten().any(|value| !value.is_finite() || *value <= 0.0) {
+                let expected = "must have properties within double precision";
+                self.findings.error(ImportFinding::new(section.set.at, &section.label, expected));
+                continue;
+            }
+            let name = format!("{} {}", section.set.text, index + 1);
+            self.structure.sections.push(ImportedSection {
+                name,
+                material,
+                area: Some(numbers.area),
+                iy: beam(iy),
+                iz: beam(iz),
+                j: beam(numbers.j),
+                shear_y: beam(1.0).and(shear_y),
+                shear_z: beam(1.0).and(shear_z),
+            });
+            for number in elements {
+                if self.section_of.insert(number, [index, place]).is_some() {
+                    let finding =
+                        ImportFinding::new(section.set.at, &about, "must not assign a second section");
+                    self.findings.error(finding.with_found(format!("element {number}")));
+                }
+            }
+        }
+    }
+
+    /// The name of the material of a section, which is added to the structure.
+    fn material(&mut self, section: &InpSection) -> Option<String> {
+        let (name, e, g, density) = match &section.material {
+            MaterialOf::Own([e, g, density]) => {
+                let name = format!("material of {} {}", section.set.text, self.structure.sections.len() + 1);
+                (name, *e, *g, (*density > 0.0).then_some(*density))
+            }
+            MaterialOf::Named(wanted) => {
+                let known =
+                    self.model.materials.iter().find(|known| key_of(&known.name) == key_of(&wanted.text));
+                let about = format!("{}: MATERIAL", section.label);
+                let Some(material) = known else {
+                    let finding = ImportFinding::new(wanted.at, about, "must be the name of a *MATERIAL");
+                    self.findings.error(finding.with_found(&wanted.text));
+                    return None;
+                };
+                let Some([e, nu]) = material.elastic else {
+                    let expected = "needs *ELASTIC";
+                    self.findings.error(ImportFinding::new(material.at, "*MATERIAL", expected));
+                    return None;
+                };
+                (material.name.clone(), e, e / (2.0 * (1.0 + nu)), material.density)
+            }
+        };
+        if !(g.is_finite() && g > 0.0) {
+            let expected = "must lead to moduli within double precision";
+            self.findings.error(ImportFinding::new(section.set.at, &section.label, expected));
+            return None;
+        }
+        if self.structure.materials.iter().all(|known| known.name != name) {
+            self.structure.materials.push(ImportedMaterial { name: name.clone(), e, g: Some(g), density });
+        }
+        Some(name)
+    }
+
+    /// The section without shear areas, for beams of Euler and Bernoulli that share it with others.
+    pub(super) fn rigid_in_shear(&mut self, section: usize) -> usize {
+        let of = &self.structure.sections[section];
+        if of.shear_y.is_none() {
+            return section;
+        }
+        let name = format!("{}, rigid in shear", of.name);
+        if let Some(known) = self.structure.sections.iter().position(|known| known.name == name) {
+            return known;
+        }
+        let copy = ImportedSection { name, shear_y: None, shear_z: None, ..of.clone() };
+        self.structure.sections.push(copy);
+        self.structure.sections.len() - 1
+    }
+}

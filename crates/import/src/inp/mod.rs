@@ -1,0 +1,101 @@
+//! Abaqus input files: beams and trusses with their sections, supports, springs, rigid links and masses.
+//!
+//! A file is read in three stages: `keyword` divides it into keywords with data lines, `model` sorts them by type, and
+//! `resolve` replaces numbers and names by indices into a structure. Files of parts are read in the flat form: one
+//! part with one instance that is not moved.
+//!
+//! A file without sections, as gmsh and meshio write it, needs a sections file; its sets of elements and nodes then
+//! have the meaning of physical groups of a mesh.
+//!
+//! # Source
+//! Abaqus Keywords Reference Guide; Abaqus Analysis User's Guide, part VI (beam elements, their axes and sections).
+
+mod assign;
+mod constraint;
+mod keyword;
+mod model;
+mod resolve;
+mod roles;
+mod scope;
+mod section;
+mod sets;
+mod values;
+
+use std::io;
+use std::path::Path;
+
+use super::bdf::{Omissions, OpenFile};
+use super::findings::{ImportFinding, ImportFindings};
+use super::msh::{Mesh, Sections, structure_of};
+use super::structure::ImportedStructure;
+use model::{InpKind, InpModel};
+
+/// Reads a file into `empty`, a structure that has a name, units and the upward direction only. `omit` states what is
+/// left out.
+///
+/// # Errors
+/// The file cannot be read; all other errors are among the findings.
+pub fn read(
+    path: &Path,
+    open: OpenFile<'_>,
+    empty: ImportedStructure,
+    omit: Omissions<'_>,
+    findings: &mut ImportFindings,
+) -> io::Result<ImportedStructure> {
+    let mut blocks = keyword::read(path, open, findings)?;
+    scope::with_instances(&mut blocks);
+    let model = InpModel::new(&blocks, omit, findings);
+    // a reference to something that could not be read would cause a second, misleading error
+    if findings.has_errors() {
+        return Ok(empty);
+    }
+    Ok(resolve::resolve(&model, empty, findings))
+}
+
+/// Reads a file without sections into `empty`. `factor` converts its coordinates to the unit of length of the structure,
+/// and `groups` are the sections of its sets of elements.
+///
+/// # Errors
+/// As [`read`].
+pub fn read_mesh(
+    path: &Path,
+    open: OpenFile<'_>,
+    factor: f64,
+    groups: &Sections,
+    empty: ImportedStructure,
+    omit: Omissions<'_>,
+    findings: &mut ImportFindings,
+) -> io::Result<ImportedStructure> {
+    let mut blocks = keyword::read(path, open, findings)?;
+    scope::with_instances(&mut blocks);
+    let model = InpModel::new(&blocks, omit, findings);
+    if let Some(section) = model.sections.first() {
+        let finding =
+            ImportFinding::new(section.set.at, &section.label, "must not be in a file with --sections");
+        findings.error(finding.hint("leave out --sections: the file has sections of its own"));
+    }
+    if findings.has_errors() {
+        return Ok(empty);
+    }
+    let mut mesh =
+        Mesh { group_words: ["element", "set of elements"], nodes: model.nodes.clone(), ..Mesh::default() };
+    // each element is an entity of its own, and each set a group
+    for (&number, element) in &model.elements {
+        if let (InpKind::Beam { .. } | InpKind::Truss, [a, b, ..]) = (element.kind, element.nodes.as_slice())
+        {
+            mesh.lines.insert(number, (number, [*a, *b], element.at));
+        }
+    }
+    for (group, set) in (1..).zip(model.element_sets.iter()) {
+        mesh.names.insert((1, group), set.name.clone());
+        for number in set.numbers(&mesh.lines) {
+            mesh.groups.entry((1, number)).or_default().push(group);
+        }
+    }
+    for (group, set) in (1..).zip(model.node_sets.iter()) {
+        mesh.names.insert((0, group), set.name.clone());
+        mesh.groups.insert((0, group), vec![group]);
+        mesh.points.insert(group, set.numbers(&mesh.nodes));
+    }
+    Ok(structure_of(&mesh, factor, groups, empty, findings))
+}

@@ -1,0 +1,117 @@
+//! Roles of the keywords that do not define the structure: which of them are left out, and why others are refused.
+
+/// Why a keyword that does not define the structure may be left out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum KeywordRole {
+    /// It is left out without a warning: titles and the frame of steps.
+    Frame,
+    /// It is left out with a warning: loads, solutions and output requests.
+    Request,
+    /// It cannot change the linear static stiffness, and is left out where the user asks for this.
+    NoStiffness,
+}
+
+const FRAME: &[&str] = &[
+    "HEADING",
+    "PREPRINT",
+    "STEP",
+    "END STEP",
+    "END PART",
+    "ASSEMBLY",
+    "END ASSEMBLY",
+    "END INSTANCE",
+    "RESTART",
+];
+
+const REQUESTS: &[&str] = &[
+    "STATIC",
+    "FREQUENCY",
+    "DYNAMIC",
+    "BUCKLE",
+    "STEADY STATE DYNAMICS",
+    "MODAL DYNAMIC",
+    "PERTURBATION",
+    "OUTPUT",
+    "NODE OUTPUT",
+    "ELEMENT OUTPUT",
+    "ENERGY OUTPUT",
+    "CONTACT OUTPUT",
+    "NODE PRINT",
+    "EL PRINT",
+    "NODE FILE",
+    "EL FILE",
+    "ENERGY PRINT",
+    "ENERGY FILE",
+    "MODAL PRINT",
+    "MODAL FILE",
+    "SECTION PRINT",
+    "SECTION FILE",
+    "FILE FORMAT",
+    "FILE OUTPUT",
+    "MONITOR",
+    "PRINT",
+    "CLOAD",
+    "DLOAD",
+    "DSLOAD",
+    "AMPLITUDE",
+    "TEMPERATURE",
+    "FIELD",
+    "CONTROLS",
+    "TIME POINTS",
+    "SECTION POINTS",
+];
+
+const NO_STIFFNESS: &[&str] = &[
+    "PLASTIC",
+    "DAMPING",
+    "MODAL DAMPING",
+    "GLOBAL DAMPING",
+    "EXPANSION",
+    "CONDUCTIVITY",
+    "SPECIFIC HEAT",
+    "CREEP",
+    "DASHPOT",
+    "SURFACE",
+    "INITIAL CONDITIONS",
+    "PHYSICAL CONSTANTS",
+    "RATE DEPENDENT",
+    "FAIL STRAIN",
+    "FAIL STRESS",
+    "CYCLIC HARDENING",
+    "BASE MOTION",
+    "DESIGN PARAMETER",
+    "DESIGN RESPONSE",
+];
+
+/// The role of a keyword; `None` if it may be part of the structure, or is not known.
+#[must_use]
+pub fn role(name: &str) -> Option<KeywordRole> {
+    if FRAME.contains(&name) {
+        Some(KeywordRole::Frame)
+    } else if REQUESTS.contains(&name) {
+        Some(KeywordRole::Request)
+    } else {
+        NO_STIFFNESS.contains(&name).then_some(KeywordRole::NoStiffness)
+    }
+}
+
+/// Advice for a keyword that is refused: what the reader supports instead.
+#[must_use]
+pub fn advice(name: &str) -> &'static str {
+    match name {
+        "EQUATION" | "COUPLING" | "KINEMATIC" | "DISTRIBUTING" | "KINEMATIC COUPLING" | "TIE" => {
+            "supported links are *RIGID BODY with NSET and *MPC BEAM, TIE and PIN"
+        }
+        "NORMAL" | "ORIENTATION" | "SYSTEM" | "TRANSFORM" => {
+            "coordinates and directions are those of the global axes"
+        }
+        "SHELL SECTION" | "SHELL GENERAL SECTION" | "MEMBRANE SECTION" => "members have *BEAM SECTION",
+        "CONNECTOR SECTION" | "CONNECTOR BEHAVIOR" | "CONNECTOR ELASTICITY" => {
+            "supported springs are SPRING1"
+        }
+        "BEAM SECTION OFFSET" | "BEAM ADDED INERTIA" | "BEAM FLUID INERTIA" => {
+            "the nodes of beams must be on their axes"
+        }
+        _ => "this keyword is not supported",
+    }
+}

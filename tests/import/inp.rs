@@ -1,0 +1,248 @@
+//! Abaqus input files: closed forms of their sections and directions, files of gmsh and meshio, refusals by name.
+
+use std::path::Path;
+
+use formats::text::diagnostic::Diagnostic;
+use formats::text::source::Source;
+use formats::units::Length;
+use import::{ImportOptions, Imported};
+use serde_json::json as value;
+
+use super::{displacements, frame, from_memory, json, plain, text, told};
+
+fn input(text: &str, options: &ImportOptions) -> Result<Imported, Vec<Diagnostic>> {
+    from_memory("model.inp", &[("model.inp", text)], options)
+}
+
+fn good(text: &str) -> Imported {
+    input(text, &plain()).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)))
+}
+
+/// A cantilever of 2 m along x with the n1 direction -z, fixed at node 1.
+fn cantilever(kind: &str, section: &str) -> String {
+    format!(
+        "*Heading\n a cantilever\n*Node, nset=all\n1, 0., 0., 0.\n2, 2., 0., 0.\n*Element, type={kind}, elset=beam\n\
+         1, 1, 2\n{section}*Material, name=Steel\n*Elastic\n2.1e11, 0.25\n*Density\n7850.,\n*Boundary\n1, encastre\n"
+    )
+}
+
+fn tip(text: &str, load: [f64; 6]) -> Vec<f64> {
+    let options = ImportOptions {
+        up: Some([0.0, 1.0, 0.0]),
+        rails: vec!["r=1/axis=1,0,0".parse().expect("a rail")],
+        ..plain()
+    };
+    let imported = input(text, &options).unwrap_or_else(|wrong| panic!("{}{text}", told(&wrong)));
+    displacements(&frame(&imported), &["node 2"], load).as_slice().to_vec()
+}
+
+fn close(found: f64, expected: f64) {
+    assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
+}
+
+#[test]
+fn sections_have_their_dimensions_along_the_axes_of_the_guide() {
+    // a along the 1-axis, which is -z; b along the 2-axis, t x n1 = x cross -z = y
+    let rect = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n0., 0., -1.\n";
+    let (e, g, a) = (2.1e11, 8.4e10, 0.03);
+    let found = tip(&cantilever("B33", rect), [0.0, 1e4, 1e4, 0.0, 0.0, 0.0]);
+    let bend = |i: f64| 1e4 * 8.0 / (3.0 * e * i);
+    close(found[1], bend(0.1 * 0.027 / 12.0));
+    close(found[2], bend(0.3 * 0.001 / 12.0));
+    // B31 deforms in shear too, with k = 0.85 for rectangles
+    let found = tip(&cantilever("B31", rect), [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+    close(found[1], bend(0.1 * 0.027 / 12.0) + 1e4 * 2.0 / (0.85 * g * a));
+    // transverse shear stiffnesses in place of k G A: K23 along the 2-axis
+    let shear = format!("{rect}*Transverse Shear Stiffness\n1.e8, 2.e8\n");
+    let found = tip(&cantilever("B31", &shear), [0.0, 1e4, 1e4, 0.0, 0.0, 0.0]);
+    close(found[1], bend(0.1 * 0.027 / 12.0) + 2e4 / 1e8);
+    close(found[2], bend(0.3 * 0.001 / 12.0) + 2e4 / 2e8);
+    // an I section bends about its 1-axis with its web along the 2-axis
+    let flanged =
+        "*Beam Section, elset=beam, material=steel, section=I\n0.15, 0.3, 0.2, 0.2, 0.02, 0.02, 0.01\n\n";
+    let found = tip(&cantilever("B33", flanged), [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+    close(found[1], bend((0.2 * 0.027 - 0.19 * 0.26f64.powi(3)) / 12.0));
+    for (section, area) in
+        [("CIRC\n0.1\n", 0.01 * std::f64::consts::PI), ("BOX\n0.1,0.2,0.01,0.02,0.01,0.02\n", 0.0072)]
+    {
+        let of = format!("*BEAM SECTION, ELSET=BEAM, MATERIAL=STEEL, SECTION={section}");
+        close(tip(&cantilever("B33", &of), [1e4, 0.0, 0.0, 0.0, 0.0, 0.0])[0], 1e4 * 2.0 / (e * area));
+    }
+}
+
+#[test]
+fn general_sections_bend_about_their_principal_axes() {
+    let general = "*Beam General Section, elset=beam, density=7850.\n0.01, 4.e-4, 1.e-4, 2.e-4, 3.e-6\n0,0,-1\n2.1e11, 8.e10\n";
+    let text = cantilever("B33", general);
+    let found = tip(&text, [0.0, 1e4, 0.0, 0.0, 0.0, 0.0]);
+    // the 2-axis is y and the 1-axis -z: M = E [[I11, -I12], [-I12, I22]] of the curvatures of y and z
+    let (i11, i12, i22) = (4e-4, 1e-4, 2e-4);
+    let det = i11 * i22 - i12 * i12;
+    let unit = 1e4 * 8.0 / (3.0 * 2.1e11);
+    close(found[1], unit * i22 / det);
+    close(found[2], unit * i12 / det);
+    let spec = json(&good(&text));
+    assert_eq!(spec["materials"][0]["density"], value!(7850.0));
+    assert_eq!(spec["sections"][0].get("Asy"), None, "B33 is rigid in shear");
+}
+
+#[test]
+fn supports_springs_masses_and_links_become_what_they_say() {
+    let text = "*NODE\n1,0,0,0\n2,2,0,0\n3,4,0,0\n4,4,1,0\n5,6,0,0\n*ELEMENT, TYPE=B31, ELSET=girder\n1,1,2\n2,2,3\n\
+        *ELEMENT, TYPE=T3D2, ELSET=tie\n3,3,5\n*ELEMENT, TYPE=SPRING1, ELSET=bearing\n4,2\n\
+        *ELEMENT, TYPE=MASS, ELSET=point\n5,3\n*SPRING, ELSET=bearing\n2\n5.e6\n*MASS, ELSET=point\n120.\n\
+        *NSET, NSET=ends, GENERATE\n1, 5, 4\n*BEAM SECTION, ELSET=girder, MATERIAL=steel, SECTION=PIPE\n0.1, 0.01\n0,1,0\n\
+        *SOLID SECTION, ELSET=tie, MATERIAL=steel\n0.002\n*MATERIAL, NAME=steel\n*ELASTIC\n2.1e11, 0.3\n\
+        *MPC\nBEAM, 4, 3\n*RELEASE\n2, S2, M1-T\n*BOUNDARY\nends, 1, 3\n1, 4\n*STEP\n*STATIC\n*CLOAD\n4, 2, -1.\n*END STEP\n";
+    let imported = good(text);
+    let spec = json(&imported);
+    assert_eq!(spec["cell_data"]["kind"], value!([["beam", "beam", "truss"]]));
+    assert_eq!(spec["cell_data"]["release_b"], value!([[[], ["rx", "ry"], []]]));
+    assert_eq!(spec["springs"], value!([{ "point": 1, "dof": "uy", "k": 5e6 }]));
+    assert_eq!(
+        spec["masses"],
+        value!([{ "point": 2, "mass": 120.0, "inertia": [0.0, 0.0, 0.0], "offset": [0.0, 0.0, 0.0] }])
+    );
+    assert_eq!(spec["links"], value!([{ "from": 2, "to": 3 }]));
+    assert_eq!(
+        spec["supports"],
+        value!([{ "point": 0, "fix": ["ux", "uy", "uz", "rx"] }, { "point": 4, "fix": ["ux", "uy", "uz"] }])
+    );
+    assert_eq!(spec["point_sets"]["ends"], value!([0, 4]));
+    let warned = told(&imported.warnings);
+    assert!(warned.contains("*CLOAD: is left out, once") && warned.contains("*STATIC"), "{warned}");
+}
+
+#[test]
+fn parts_are_read_in_the_flat_form_and_files_are_included() {
+    let beam = "*Beam Section, elset=beam, material=steel, section=CIRC\n0.1\n";
+    let flat = json(&good(&cantilever("B31", beam)));
+    let body = cantilever("B31", beam);
+    let body = body.replace("*Node,", "*Part, name=P\n*Node,").replace("*Material,", "*End Part\n*Assembly, name=A\n*Instance, name=P-1, part=P\n*End Instance\n*Nset, nset=foot, instance=P-1\n 1,\n*End Assembly\n*Material,");
+    let body = body.replace("1, encastre", "foot, encastre");
+    let parts = json(&good(&body));
+    for key in ["points", "cells", "supports", "materials"] {
+        assert_eq!(parts[key], flat[key], "{key}");
+    }
+    assert_eq!(parts["sections"][0]["name"], "P-1.beam 1", "names of a part have that of its instance");
+    assert_eq!(json(&good(&body.replace("\nfoot, enc", "\nP-1.1, enc")))["supports"], flat["supports"]);
+    let moved = body.replace("part=P\n*End", "part=P\n1., 0., 0.\n*End");
+    assert!(told(&input(&moved, &plain()).expect_err("moved")).contains("must not be moved"));
+    let text = cantilever("B31", beam);
+    let (head, tail) = text.split_once("*Material").expect("a material");
+    let (main, rest) = (format!("{head}*INCLUDE, INPUT=sub/rest.inc\n"), format!("*Material{tail}"));
+    let files = [("m/model.inp", main.as_str()), ("m/sub/rest.inc", &rest)];
+    assert_eq!(json(&from_memory("m/model.inp", &files, &plain()).expect("a model")), flat);
+    let files = [("m/model.inp", main.as_str()), ("m/sub/rest.inc", "*INCLUDE, INPUT=../model.inp\n")];
+    let wrong = told(&from_memory("m/model.inp", &files, &plain()).expect_err("a loop"));
+    assert!(wrong.contains("*INCLUDE"), "{wrong}");
+}
+
+#[test]
+fn a_name_within_a_part_differs_from_the_same_name_outside() {
+    let text = "*Part, name=Part-1\n*Node\n1, 0., 0., 0.\n2, 5., 0., 0.\n3, 10., 0., 0.\n*Element, type=B31\n1, 1, 2\n2, 2, 3\n\
+        *Nset, nset=Set-1, generate\n1, 3, 1\n*Elset, elset=Set-1\n1, 2\n\
+        *Beam Section, elset=Set-1, material=Steel, section=RECT\n0.1, 0.2\n0., 0., -1.\n*End Part\n\
+        *Assembly, name=Assembly\n*Instance, name=Part-1-1, part=Part-1\n*End Instance\n\
+        *Nset, nset=Set-1, instance=Part-1-1\n1, 3\n*End Assembly\n*Material, name=Steel\n*Elastic\n2.1e11, 0.3\n\
+        *Step, name=Step-1\n*Static\n1., 1.\n*Boundary\nSet-1, ENCASTRE\n*End Step\n";
+    let held = |text: &str| {
+        let spec = json(&good(text));
+        let supports = spec["supports"].as_array().expect("supports").iter();
+        supports.filter_map(|support| support["point"].as_u64()).collect::<Vec<u64>>()
+    };
+    assert_eq!(held(text), [0, 2]);
+    assert_eq!(held(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-1")), [0, 1, 2]);
+    assert_eq!(held(&text.replace("Boundary\nSet-1", "Boundary\nPART-1-1.2")), [1]);
+    let wrong = input(&text.replace("Boundary\nSet-1", "Boundary\nPart-1-1.Set-2"), &plain());
+    assert!(told(&wrong.expect_err("no such set")).contains("does not exist"));
+}
+
+#[test]
+fn what_is_not_understood_is_refused_by_name_and_left_out_where_it_cannot_matter() {
+    let beam = "*Beam Section, elset=beam, material=steel, section=RECT\n0.1, 0.3\n";
+    let model = cantilever("B31", beam);
+    for (more, part) in [
+        ("*EQUATION\n2\n", "*EQUATION: is not supported, once"),
+        ("*ELEMENT, TYPE=S4\n7,1,2,3,4\n8,1,2,3,4\n", "S4: is not supported, 2 times"),
+        ("*ELEMENT, TYPE=B31OS\n7,1,2\n", "B31OS: is not supported"),
+        ("*BOUNDARY\n2, 1, 1, 0.1\n", "can only be 0"),
+        ("*NSET, NSET=a\nb\n", "the name of a set that is defined before"),
+        ("*BOUNDARY\nnowhere, 1\n", "refers to a set or number that does not exist"),
+        ("*PLASTIC\n2.e8, 0.\n", "--skip-unused leaves it out"),
+        ("*NODE\n2, 0, 0, 0\n", "occurs twice"),
+        ("*NODE\n3, 0, zero, 0\n", "model.inp:"),
+    ] {
+        let wrong = told(&input(&format!("{model}{more}"), &plain()).expect_err(more));
+        assert!(wrong.contains(part), "{more}: {wrong}");
+    }
+    let unused = ImportOptions { skip_unused: true, ..plain() };
+    let more = "*PLASTIC\n2.e8, 0.\n*BOUNDARY\n2, 1, 1, 0.1\n";
+    let taken = input(&format!("{model}{more}"), &unused).unwrap_or_else(|wrong| panic!("{}", told(&wrong)));
+    let warned = told(&taken.warnings);
+    assert!(warned.contains("*PLASTIC") && warned.contains("kept at rest"), "{warned}");
+    let shells = ImportOptions { skip: vec!["S4".to_owned(), "EQUATION".to_owned()], ..plain() };
+    assert!(input(&format!("{model}*ELEMENT, TYPE=S4\n7,1,2,3,4\n*EQUATION\n2\n"), &shells).is_ok());
+    for (section, part) in [
+        ("*Beam Section, elset=beam, material=steel, section=L\n.1,.1,.01,.01\n", "is not supported, got L"),
+        (
+            "*Beam Section, elset=beam, material=steel, section=I\n.1,.3,.2,.2,.02,.02,.01\n",
+            "height of the centroid, 0.15",
+        ),
+        ("*Beam Section, elset=beam, material=wood, section=RECT\n.1,.3\n", "the name of a *MATERIAL"),
+        ("*Beam Section, elset=beam, material=steel, section=RECT\n.1,-.3\n", "must be positive"),
+        ("*Beam Section, elset=beam, material=steel, section=RECT\n.1,.3\n1,0,0\n", "n1 direction"),
+        ("", "must have a section"),
+    ] {
+        let wrong = told(&input(&cantilever("B31", section), &plain()).expect_err(section));
+        assert!(wrong.contains(part), "{section}: {wrong}");
+    }
+    let wrong = told(&input(&model, &ImportOptions::default()).expect_err("no units"));
+    assert!(wrong.contains("--length and --force"), "{wrong}");
+}
+
+#[test]
+fn files_of_gmsh_and_meshio_need_sections_by_the_names_of_their_sets() {
+    let sections = text("meshes/portal.json");
+    let options = |name: &str| ImportOptions {
+        length: Some(Length::Millimetre),
+        up: Some([0.0, 0.0, 1.0]),
+        sections: Some(Source {
+            name: "sections.json".to_owned(),
+            text: sections.replace("runway girder", name),
+        }),
+        ..ImportOptions::default()
+    };
+    for (file, girder, feet) in
+        [("gmsh.inp", "runway_girder", "support_feet"), ("meshio.inp", "girder", "feet")]
+    {
+        let bytes = text(&format!("meshes/{file}"));
+        let read = |options: &ImportOptions| from_memory(file, &[(file, &bytes)], options);
+        let asked = ImportOptions {
+            fix: vec![format!("{feet}=ux,uy,uz,rx,ry,rz").parse().expect("a support")],
+            rails: vec![format!("crane={girder}").parse().expect("a rail")],
+            ..options(girder)
+        };
+        let imported = read(&asked).unwrap_or_else(|wrong| panic!("{file}: {}", told(&wrong)));
+        let spec = json(&imported);
+        assert_eq!(spec["points"].as_array().map(Vec::len), Some(15), "{file}");
+        assert_eq!(spec["cells"][0]["data"].as_array().map(Vec::len), Some(15), "{file}");
+        assert_eq!(spec["cell_sets"]["brace"], value!([[14]]), "{file}");
+        assert_eq!(spec["supports"].as_array().map(Vec::len), Some(3), "{file}");
+        let model = frame(&imported).model;
+        assert_eq!(model.members[14].kind, fea::MemberKind::Truss, "{file}");
+        let wrong = told(&read(&options("other")).expect_err("a set without a section"));
+        assert!(wrong.contains("must be in one set of elements that is a section"), "{file}: {wrong}");
+        let wrong = told(&read(&plain()).expect_err("no sections"));
+        assert!(wrong.contains("--sections"), "{file}: {wrong}");
+    }
+}
+
+#[test]
+fn an_inp_file_of_nastran_is_read_as_bulk_data() {
+    let deck = format!("ID A,B\nCEND\nBEGIN BULK\n{}", text("decks/pinned.bdf"));
+    let found = from_memory("deck.inp", &[("deck.inp", &deck)], &plain());
+    assert!(found.is_ok(), "{}", told(&found.expect_err("an error")));
+    let open = |_: &Path| Err(std::io::ErrorKind::NotFound.into());
+    assert!(import::import(Path::new("none.inp"), &open, &plain()).is_err());
+}
