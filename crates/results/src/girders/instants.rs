@@ -31,7 +31,7 @@ pub(super) struct LoadState<'a> {
 #[derive(Clone)]
 enum StateValues<'a> {
     Row(&'a [f64]),
-    Between(Between<'a>),
+    Between(Box<Between<'a>>),
     Limit(Vec<f64>),
 }
 
@@ -168,7 +168,7 @@ impl LoadStates {
     }
 
     /// What interpolates at a time that is counted in rows; at a row its number instead.
-    fn between(&self, position: f64) -> Result<usize, Between<'_>> {
+    fn between(&self, position: f64) -> Result<usize, Box<Between<'_>>> {
         let last = self.len() - 1;
         let row = (position.max(0.0) as usize).min(last.saturating_sub(1));
         let fraction = position - row as f64;
@@ -181,7 +181,7 @@ impl LoadStates {
         let ends = [self.row(row), self.row(row + 1)];
         let time = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
         let cubics = self.starts(row, position).map(|start| Some(Cubic::new(self.four(start?), time)));
-        Err(Between { ends, fraction, cubics })
+        Err(Box::new(Between { ends, fraction, cubics }))
     }
 
     fn four(&self, start: usize) -> [&[f64]; 4] {
