@@ -9,7 +9,8 @@
 //!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
 //!    beyond m modes times that factor is the error of the new run.
 //! 4. The first run is chosen if the difference and the error of the new run together are within the tolerance, and
-//!    otherwise the new run if its error is within 0.8 of the tolerance. If neither is, the number of modes is raised by
+//!    otherwise the new run if its error is within 0.8 of the tolerance (within the tolerance where no further run would
+//!    help). If neither is, the number of modes is raised by
 //!    the new estimates, and step 3 is repeated, up to three times. After that the error is reported as exceeding the
 //!    tolerance.
 //!
@@ -38,7 +39,7 @@ const SAFE: f64 = 0.8;
 /// Estimate for influence functions, relative to the tolerance, above which they are not expected to suffice.
 const HOPELESS: f64 = 10.0;
 /// Estimate for which the number of modes is chosen in a run that only checks influence functions, relative to their own.
-const CHECKED: f64 = 0.02;
+const CHECKED: f64 = 0.015;
 /// Frequency below which modes interact with bodies that bounce on their wheels, relative to that of the fastest bounce.
 const ABOVE_CONTACT: f64 = 3.0;
 /// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
@@ -370,8 +371,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for (own, &count) in open.iter().zip(counts) {
             let tail = own.tail(count);
             let error = TailError { error: factor * tail.error, ..tail };
-            let is_within = error.error <= SAFE * own.tolerance;
-            let reason = if is_within { Reason::Sufficient } else { insufficient };
+            // the margin decides whether another run is worth its cost, which is over here
+            let reason = if error.error <= own.tolerance { Reason::Sufficient } else { insufficient };
             self.settle(own, higher.fidelities[own.structure], reason, &error);
         }
     }
