@@ -436,7 +436,7 @@ pub struct ImportArgs {
     /// Leave out what cannot change statics, such as optimisation, aeroelasticity and damping; each is listed
     #[arg(long)]
     pub skip_unused: bool,
-    /// Where the mass of bulk-data elements acts [default: as the deck states, by PARAM COUPMASS]
+    /// Where the mass of bulk-data elements acts [default: along beams, and at the ends of rods unless PARAM COUPMASS is above 0]
     #[arg(long, value_name = "WHERE")]
     pub mass: Option<MassArg>,
 }

@@ -152,12 +152,13 @@ fn partial_links_become_hinges_and_supports() {
 }
 
 #[test]
-fn mass_is_lumped_at_the_ends_unless_the_deck_asks_for_consistent_mass() {
+fn mass_may_be_lumped_at_the_ends_of_all_members() {
     let text = format!(
         "{STEEL}GRID,1,,0.,0.,0.\nGRID,2,,2.,0.,0.\nGRID,3,,2.,0.,4.\nCBAR,1,5,1,2,0.,1.,0.\nCBEAM,2,6,2,3,0.,1.,0.\n\
          ,,,0.,0.,0.,0.,0.,-1.\nPBAR,5,1,.02,1.-4,2.-4,1.-4,40.\nPBEAM,6,1,.01,1.-4,2.-4,,1.-4\nPARAM,WTMASS,.5\n"
     );
-    let spec = json(&good(&text));
+    let lumped = ImportOptions { mass: Some(MassDistribution::Lumped), ..plain() };
+    let spec = json(&deck(&text, &lumped).expect("a deck"));
     assert!(spec["materials"][0].get("density").is_none());
     // half of (8000 A + NSM) L at each end, and rho (I1 + I2) L in twist for CBEAM
     let (bar, beam, twist) =
@@ -179,6 +180,12 @@ fn mass_is_lumped_at_the_ends_unless_the_deck_asks_for_consistent_mass() {
     let consistent = good(&format!("{text}PARAM,COUPMASS,1\n"));
     assert_eq!(consistent.text, deck(&text, &asked).expect("a deck").text);
     assert!(json(&consistent).get("masses").is_none());
+    // by default the mass of beams acts along them, and that of rods at their ends
+    assert_eq!(good(&text).text, consistent.text);
+    let rods = format!("{STEEL}{LINE}CROD,1,5,1,2\nPROD,5,1,.02\n");
+    let rods = json(&good(&rods));
+    assert_eq!(rods["masses"].as_array().map(Vec::len), Some(2));
+    assert!(rods["materials"][0].get("density").is_none());
 }
 
 #[test]

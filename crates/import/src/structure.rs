@@ -74,6 +74,8 @@ pub struct ImportedMember {
 pub enum MassDistribution {
     /// Half of it at each end, in translation.
     Lumped,
+    /// That of rods and tubes at their ends, that of beams along them.
+    LumpedRods,
     /// Evenly along them.
     Distributed,
 }

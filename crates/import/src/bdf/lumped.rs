@@ -2,7 +2,8 @@
 //!
 //! NASTRAN lumps the mass of bars, beams, rods and tubes unless PARAM COUPMASS is above 0: half of it is at each end of
 //! the flexible part, in translation. Half of the inertia in twist of a CBEAM is there too. A beam spec has it as rigid
-//! masses, whose moments of inertia are about the global axes.
+//! masses, whose moments of inertia are about the global axes. By default this is done for rods and tubes alone: the mass of a
+//! beam acts along it, so that its own weight bends it, whatever the number of elements.
 //!
 //! # Source
 //! NASTRAN quick reference guides, parameter COUPMASS.
@@ -10,7 +11,7 @@
 use std::collections::BTreeMap;
 
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use crate::structure::{ImportedMass, ImportedStructure};
+use crate::structure::{ImportedMass, ImportedStructure, MassDistribution};
 use formats::vector::{length, minus};
 
 /// Mass of a member.
@@ -27,8 +28,13 @@ pub struct MemberMass {
 /// Deviation of the axis of a member from a global axis that is taken for rounding.
 const ALIGNED: f64 = 1e-9;
 
-/// Adds the masses of all members at their ends; `masses` has one entry for each of them.
-pub fn add(structure: &mut ImportedStructure, masses: &[MemberMass], findings: &mut ImportFindings) {
+/// Adds the masses of members at their ends; `masses` has one entry for each member, zero where its mass is distributed.
+pub fn add(
+    structure: &mut ImportedStructure,
+    masses: &[MemberMass],
+    mass: MassDistribution,
+    findings: &mut ImportFindings,
+) {
     // ends of several members at one place have one mass; the key of the place has the bits of its coordinates
     let mut places: BTreeMap<(usize, [u64; 3]), ImportedMass> = BTreeMap::new();
     let mut skew: Option<(FilePlace, usize)> = None;
@@ -66,8 +72,11 @@ pub fn add(structure: &mut ImportedStructure, masses: &[MemberMass], findings: &
     }
     let first = masses.iter().find(|mass| mass.per_length > 0.0);
     if let Some(first) = first {
-        let message = "is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
-        let finding = ImportFinding::new(first.card, "mass of elements", message);
+        let of_rods = "of rods and tubes is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0; that of \
+                       beams acts along them";
+        let of_all = "of elements is lumped at their ends, as NASTRAN does unless PARAM COUPMASS is above 0";
+        let message = if mass == MassDistribution::LumpedRods { of_rods } else { of_all };
+        let finding = ImportFinding::new(first.card, "mass", message);
         findings.warn(finding.hint("--mass distributed spreads it along them"));
     }
     if let Some((card, count)) = skew {

@@ -4,7 +4,7 @@ use super::element::{ElementCard, Orientation, SectionOf as Given};
 use super::lumped::MemberMass;
 use super::property::Property;
 use super::resolve::Resolver;
-use super::section::mass_per_length;
+use super::section::{is_lumped, mass_per_length};
 use crate::axes::{LocalAxes, combined};
 use crate::findings::{FilePlace, ImportFinding};
 use crate::structure::ImportedMember;
@@ -141,7 +141,8 @@ impl<'d> Resolver<'d, '_> {
         use_kind_of(property, &mut member);
         let bar = self.adapt(property, element.card, &about, along, &mut member)?;
         self.structure.members.push(member);
-        let [per_length, twist] = mass_per_length(self.deck, property);
+        let is_lumped = is_lumped(self.asked.mass, property);
+        let [per_length, twist] = if is_lumped { mass_per_length(self.deck, property) } else { [0.0; 2] };
         let twists = element.kind == "CBEAM" && property.j > 0.0;
         let mass = MemberMass { card: element.card, per_length, twist: if twists { twist } else { 0.0 } };
         self.member_masses.push(mass);

@@ -72,7 +72,7 @@ pub fn resolve(
         systems,
         grids,
         index: BTreeMap::new(),
-        sections: SectionTable::new(asked.mass == MassDistribution::Distributed),
+        sections: SectionTable::new(asked.mass),
         member_masses: Vec::new(),
         partial: Vec::new(),
         structure: empty,
@@ -85,8 +85,8 @@ pub fn resolve(
     resolver.supports(asked.spc);
     resolver.springs();
     resolver.partial_links();
-    if asked.mass == MassDistribution::Lumped {
-        lumped::add(&mut resolver.structure, &resolver.member_masses, resolver.findings);
+    if asked.mass != MassDistribution::Distributed {
+        lumped::add(&mut resolver.structure, &resolver.member_masses, asked.mass, resolver.findings);
     }
     resolver.sets();
     resolver.structure

@@ -12,12 +12,12 @@ use super::material::MaterialCard;
 use super::property::Property;
 use crate::PARTS;
 use crate::findings::{ImportFinding, ImportFindings};
-use crate::structure::{ImportedMaterial, ImportedSection, ImportedStructure};
+use crate::structure::{ImportedMaterial, ImportedSection, ImportedStructure, MassDistribution};
 
 /// The sections and materials that have been added to a structure.
 pub struct SectionTable {
-    /// Whether materials have the mass of their members, which is lumped otherwise.
-    pub has_mass: bool,
+    /// Where the mass of members acts: materials have it unless it is lumped.
+    mass: MassDistribution,
     /// Index of the section by number of the property and end: true for end B.
     indices: BTreeMap<(u64, bool), usize>,
     /// Names of the materials.
@@ -25,10 +25,10 @@ pub struct SectionTable {
 }
 
 impl SectionTable {
-    /// A table without sections; `has_mass` is true if the materials have the mass of their members.
+    /// A table without sections.
     #[must_use]
-    pub fn new(has_mass: bool) -> SectionTable {
-        SectionTable { has_mass, indices: BTreeMap::new(), materials: Vec::new() }
+    pub fn new(mass: MassDistribution) -> SectionTable {
+        SectionTable { mass, indices: BTreeMap::new(), materials: Vec::new() }
     }
 
     /// Adds a section with the area of the section `index` alone and without mass, for the bar along the neutral axis of
@@ -75,8 +75,11 @@ impl SectionTable {
         let wtmass = deck.wtmass.unwrap_or(1.0);
         let mut density = known.density * wtmass;
         let mut material = format!("MAT1 {}", property.material);
-        if !self.has_mass {
+        if is_lumped(self.mass, property) {
             density = 0.0;
+            if self.mass == MassDistribution::LumpedRods && known.density > 0.0 {
+                material += " without mass";
+            }
         } else if property.nsm > 0.0 {
             density += property.nsm * wtmass / property.area;
             material = format!("{material} and NSM of {name}");
@@ -106,6 +109,16 @@ impl SectionTable {
             self.indices.insert(key, index);
         }
         Some(index)
+    }
+}
+
+/// Whether the mass of members with a property is lumped at their ends.
+#[must_use]
+pub fn is_lumped(mass: MassDistribution, property: &Property) -> bool {
+    match mass {
+        MassDistribution::Lumped => true,
+        MassDistribution::LumpedRods => matches!(property.kind.as_str(), "PROD" | "CONROD" | "PTUBE"),
+        MassDistribution::Distributed => false,
     }
 }
 
