@@ -195,6 +195,14 @@ fn is_bulk_data(bytes: &[u8]) -> bool {
     bytes.split(|byte| *byte == b'\n').any(begins)
 }
 
+/// Errors of the flags, among those that only bulk data have, that are given.
+fn only_for_bulk_data(flags: &[(&str, bool)]) -> Vec<Diagnostic> {
+    let given = flags.iter().filter(|(_, given)| *given);
+    given
+        .map(|(flag, _)| refused(flag, ["is only available for bulk data".to_owned(), String::new()]))
+        .collect()
+}
+
 /// Reads an Abaqus input file; the options specify the units, or the unit of length and a sections file for a file
 /// without sections.
 fn read_input(
@@ -205,12 +213,8 @@ fn read_input(
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let mut wrong = Vec::new();
-    for (flag, _) in [("--spc", options.spc.is_some()), ("--mass", options.mass.is_some())]
-        .into_iter()
-        .filter(|(_, given)| *given)
-    {
-        wrong.push(refused(flag, ["is only available for bulk data".to_owned(), String::new()]));
-    }
+    let given = [("--spc", options.spc.is_some()), ("--mass", options.mass.is_some())];
+    wrong.extend(only_for_bulk_data(&given));
     if options.sections.is_some() && options.force.is_some() {
         let message = "is not available with --sections, which states the unit of force".to_owned();
         wrong.push(refused("--force", [message, String::new()]));
@@ -294,16 +298,14 @@ fn read_mesh(
         );
         wrong.push(missing.hint(hint));
     }
-    let deck = [
+    let given = [
         ("--spc", options.spc.is_some()),
         ("--skip", !options.skip.is_empty()),
         ("--skip-unused", options.skip_unused),
         ("--mass", options.mass.is_some()),
         ("--force", options.force.is_some()),
     ];
-    for (flag, _) in deck.into_iter().filter(|(_, given)| *given) {
-        wrong.push(refused(flag, ["is only available for bulk data".to_owned(), String::new()]));
-    }
+    wrong.extend(only_for_bulk_data(&given));
     let (Some(length), Some(source)) = (options.length, &options.sections) else { return Err(wrong) };
     if !wrong.is_empty() {
         return Err(wrong);

@@ -144,21 +144,18 @@ fn deflected(
     let at: Vec<Probe> = places.iter().map(|&x| Probe { rail: own.rail, x, axis: Axis::Vertical }).collect();
     let mut shapes: Vec<(f64, Vec<f64>)> = places.iter().map(|x| (*x, Vec::new())).collect();
     let frames = wheels.first().map_or(0, |wheel| wheel[0].len());
+    let fixed = surface.at_places(&at)?;
     let mut down = vec![0.0; at.len()];
     for frame in 0..frames {
-        let on = input
-            .wheels
-            .iter()
-            .zip(wheels)
-            .filter(|(wheel, _)| scene.rails[wheel.rail].structure == own.structure);
+        let on = input.wheels.iter().zip(wheels);
+        let on = on.filter(|(wheel, _)| scene.rails[wheel.rail].structure == own.structure);
         let loads: Vec<(Probe, f64)> = on
             .map(|(wheel, [x, _, force])| {
                 let rail = scene.rails[wheel.rail].rail;
                 (Probe { rail, x: x[frame], axis: Axis::Vertical }, force[frame])
             })
             .collect();
-        down.fill(0.0);
-        surface.displacements(&at, &loads, &mut down)?;
+        fixed.under(&loads, &[], &mut down)?;
         for (shape, down) in shapes.iter_mut().zip(&down) {
             shape.1.push(*down);
         }
