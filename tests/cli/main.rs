@@ -264,8 +264,8 @@ fn an_imported_deck_can_be_solved_at_once() {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     let spec = json(&run.stdout);
     assert_eq!(spec["rails"]["crane"]["stations"], serde_json::json!([0.0, 6.0, 12.0]));
-    let told = "warning: deck.bdf:12:1: mass of elements: is lumped at their ends, as NASTRAN does unless PARAM COUPMASS \
-                is above 0  hint: --mass distributed spreads it along them\n\
+    let told = "warning: deck.bdf:15:1: mass: of rods and tubes is lumped at their ends, as NASTRAN does unless PARAM \
+                COUPMASS is above 0; that of beams acts along them  hint: --mass distributed spreads it along them\n\
                 warning: deck.bdf:18:1: CELAS2 6: is left out, because all its ends are restrained\n";
     assert_eq!(text(&run.stderr), told);
     let run = girderway(&folder, &[&deck[..], &["-o", "spec.json"]].concat());
