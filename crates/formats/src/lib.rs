@@ -24,9 +24,9 @@
 //! ```
 //!
 //! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
-//! [`scene`], [`design`], [`schema`].
+//! [`scene`], [`design`], [`sweep`], [`schema`].
 //!
-//! Wings, lowest first: limits, text, vector, units, check, practice_words, spec, grid, tables, scene, design, schema
+//! Wings, lowest first: limits, text, vector, units, check, practice_words, spec, grid, tables, scene, design, sweep, schema
 
 pub mod check;
 pub mod design;
@@ -36,6 +36,7 @@ mod practice_words;
 pub mod scene;
 pub mod schema;
 pub mod spec;
+pub mod sweep;
 pub mod tables;
 pub mod text;
 pub mod units;

@@ -77,3 +77,11 @@ pub(crate) const TRAIN_WHEELS: Limit =
 /// Trains of a case of a design, which are tried in every order.
 pub(crate) const CASE_TRAINS: Limit =
     Limit { most: 5, reason: "n trains are tried in n! orders, each turned both ways" };
+
+/// Runs of a sweep. A shard of a larger one is a sweep of its own.
+pub(crate) const SWEEP_RUNS: Limit =
+    Limit { most: 10_000_000, reason: "the results of each run are a row of one table" };
+
+/// Axes of a sweep; the parameters of Sobol sequences are known for this number of dimensions.
+pub(crate) const SWEEP_AXES: Limit =
+    Limit { most: 100, reason: "each axis is a dimension of the space that the runs must fill" };

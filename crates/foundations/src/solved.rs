@@ -72,12 +72,13 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, 
     Ok(SolvedModel { model, rails, surface, grid, girder: spec.girder().cloned(), size })
 }
 
-/// A spec and its solution.
+/// A spec and its solution. Copies share both.
+#[derive(Clone)]
 pub struct SolvedStructure {
     /// The spec.
     pub spec: Arc<Spec>,
     /// Its solution.
-    pub solution: SolvedModel,
+    pub solution: Arc<SolvedModel>,
 }
 
 /// Lists every distinct spec of the document once, as (name of its tables, file, spec). The name is that of the
@@ -108,7 +109,7 @@ pub fn distinct_specs(document: &Document) -> Vec<(String, &str, &Arc<Spec>)> {
 pub fn solution_of<'a>(known: &'a [SolvedStructure], origin: &Origin) -> Option<&'a SolvedModel> {
     match origin {
         Origin::Spec { spec, .. } => {
-            known.iter().find(|entry| entry.spec == *spec).map(|entry| &entry.solution)
+            known.iter().find(|entry| entry.spec == *spec).map(|entry| &*entry.solution)
         }
         Origin::Tables { .. } => None,
     }
@@ -127,7 +128,7 @@ pub fn solve_specs(
             Some(Ok(source)) => spec.locate_error(&source, &error),
             _ => SolveError::NoSolution(error.to_string()),
         })?;
-        Ok(SolvedStructure { spec: Arc::clone(spec), solution })
+        Ok(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solution) })
     });
     solved.collect()
 }

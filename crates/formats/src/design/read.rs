@@ -37,7 +37,17 @@ impl Design {
     /// # Errors
     /// All faults of both files, each with its place.
     pub fn open(path: &Path) -> Result<(Design, Inputs), Vec<Diagnostic>> {
-        let (mut inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
+        let inputs = Inputs::open_bytes(path).map_err(|error| vec![*error])?;
+        Design::read(inputs)
+    }
+
+    /// Reads the design that is the first of the files, and the spec that it names, which is not read again where it
+    /// is among the files already.
+    ///
+    /// # Errors
+    /// As [`Design::open`].
+    pub fn read(mut inputs: Inputs) -> Result<(Design, Inputs), Vec<Diagnostic>> {
+        let source = inputs.all()[0].source().map_err(|error| vec![*error])?;
         let mut wrong = Vec::new();
         let read = source.read(FORMAT, |raw: &RawDesign, faults| {
             Some(read(raw, &source.name, &mut inputs, faults, &mut wrong))

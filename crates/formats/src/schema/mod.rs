@@ -14,6 +14,7 @@ use serde_json::{Value, json};
 use crate::design::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 use crate::grid::file::RawGrid;
 use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
+use crate::sweep::{RawAxis, RawLaw, RawScalar, RawSweep};
 use crate::spec::{Block, RawDetail, RawSectionShape, RawShape, RawSpec, Reference};
 use crate::text::entries::Entries;
 
@@ -42,6 +43,14 @@ pub fn scene() -> Value {
 #[must_use]
 pub fn design() -> Value {
     of::<RawDesign>("Design", crate::design::FORMAT, "Design of girderway")
+}
+
+/// The schema of sweeps.
+#[must_use]
+pub fn sweep() -> Value {
+    let mut schema = of::<RawSweep>("Sweep", crate::sweep::FORMAT, "Sweep of girderway");
+    schema["required"] = json!(["format", "axes", "sampling", "results"]);
+    schema
 }
 
 /// The schema of an item of `compare`: a label, and members of a scene that are merged into it. A null removes a named
@@ -119,6 +128,12 @@ schemas! {
     RawDead, "Dead", |generator| {
         let parts = generator.subschema_for::<RawDeadLoads>();
         json_schema!({ "anyOf": [{ "type": "boolean" }, parts] })
+    };
+    RawScalar, "Scalar", |_generator| json_schema!({ "type": ["number", "string", "boolean"] });
+    RawAxis, "Axis", |generator| {
+        let value = generator.subschema_for::<RawScalar>();
+        let law = generator.subschema_for::<RawLaw>();
+        json_schema!({ "anyOf": [{ "type": "array", "items": value, "minItems": 1 }, law] })
     };
     RawPick, "Pick", |_generator| json_schema!({ "type": ["integer", "string"] });
     RawNode, "Node", |generator| {

@@ -89,6 +89,15 @@ impl Inputs {
         Ok(&self.read[index])
     }
 
+    /// Puts other contents in place of those of a file, by its index in [`Inputs::all`].
+    ///
+    /// # Panics
+    /// If there is no such file.
+    pub fn replace(&mut self, index: usize, bytes: Vec<u8>) {
+        self.read[index].sha256 = sha256(&bytes);
+        self.read[index].bytes = bytes;
+    }
+
     /// The file that was read under this name.
     #[must_use]
     pub fn find(&self, name: &str) -> Option<&Input> {

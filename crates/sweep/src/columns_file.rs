@@ -1,0 +1,128 @@
+//! The table of results as a Parquet file.
+
+use std::sync::Arc;
+
+use formats::sweep::Scalar;
+use parquet::basic::{LogicalType, Repetition, Type as Physical};
+use parquet::column::writer::ColumnWriter;
+use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
+use parquet::schema::types::Type;
+
+use crate::table::ResultTable;
+
+/// Rows of a group, which readers take at once.
+const GROUP: usize = 1 << 17;
+
+/// The results as a Parquet file with the columns of [`ResultTable::csv`]: `run` as an integer, axes as numbers, strings
+/// or true and false, results as numbers that may be missing.
+///
+/// # Errors
+/// None in practice: writing to memory does not fail.
+pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
+    let kinds: Vec<Physical> = (0..table.axes.len()).map(|axis| kind(table, axis)).collect();
+    let mut fields = vec![field("run", Physical::INT64, Repetition::REQUIRED)?];
+    for (name, kind) in table.axes.iter().zip(&kinds) {
+        fields.push(field(name, *kind, Repetition::REQUIRED)?);
+    }
+    for name in &table.columns {
+        fields.push(field(name, Physical::DOUBLE, Repetition::OPTIONAL)?);
+    }
+    let schema = Type::group_type_builder("results").with_fields(fields).build()?;
+    let properties = WriterProperties::builder().set_created_by("girderway".to_owned()).build();
+    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
+    for rows in table.rows.chunks(GROUP) {
+        let mut group = writer.next_row_group()?;
+        let mut next = |write: &mut dyn FnMut(&mut SerializedColumnWriter<'_>) -> Result<(), ParquetError>| {
+            let Some(mut column) = group.next_column()? else { return Ok(()) };
+            write(&mut column)?;
+            column.close()
+        };
+        let runs: Vec<i64> = rows.iter().map(|row| row.run as i64).collect();
+        next(&mut |column| column.typed::<Int64Type>().write_batch(&runs, None, None).map(drop))?;
+        for (axis, kind) in kinds.iter().enumerate() {
+            let values = rows.iter().map(|row| &row.axes[axis]);
+            match kind {
+                Physical::DOUBLE => {
+                    let numbers: Vec<f64> = values.filter_map(Scalar::number).collect();
+                    next(&mut |column| column.typed::<DoubleType>().write_batch(&numbers, None, None).map(drop))?;
+                }
+                Physical::BOOLEAN => {
+                    let flags: Vec<bool> = values.map(|value| *value == Scalar::Flag(true)).collect();
+                    next(&mut |column| column.typed::<BoolType>().write_batch(&flags, None, None).map(drop))?;
+                }
+                _ => {
+                    let texts: Vec<ByteArray> =
+                        values.map(|value| ByteArray::from(value.to_string().into_bytes())).collect();
+                    next(&mut |column| column.typed::<ByteArrayType>().write_batch(&texts, None, None).map(drop))?;
+                }
+            }
+        }
+        for result in 0..table.columns.len() {
+            let there: Vec<i16> = rows.iter().map(|row| i16::from(row.values[result].is_some())).collect();
+            let numbers: Vec<f64> = rows.iter().filter_map(|row| row.values[result]).collect();
+            next(&mut |column| match column.untyped() {
+                ColumnWriter::DoubleColumnWriter(writer) => {
+                    writer.write_batch(&numbers, Some(&there), None).map(drop)
+                }
+                _ => Ok(()),
+            })?;
+        }
+        group.close()?;
+    }
+    writer.into_inner()
+}
+
+/// The type of an axis: that of its values in the first run.
+fn kind(table: &ResultTable, axis: usize) -> Physical {
+    match table.rows.first().map(|row| &row.axes[axis]) {
+        Some(Scalar::Text(_)) => Physical::BYTE_ARRAY,
+        Some(Scalar::Flag(_)) => Physical::BOOLEAN,
+        Some(Scalar::Number(_)) | None => Physical::DOUBLE,
+    }
+}
+
+fn field(name: &str, kind: Physical, repetition: Repetition) -> Result<Arc<Type>, ParquetError> {
+    let text = (kind == Physical::BYTE_ARRAY).then_some(LogicalType::String);
+    let builder = Type::primitive_type_builder(name, kind).with_repetition(repetition);
+    builder.with_logical_type(text).build().map(Arc::new)
+}
+
+#[cfg(test)]
+mod tests {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+
+    use super::*;
+    use crate::table::TableRow;
+
+    #[test]
+    fn a_parquet_file_has_the_values_of_the_table() {
+        let row = |run: usize, word: &str, value: Option<f64>| TableRow {
+            run,
+            axes: vec![Scalar::Number(0.1 * run as f64), Scalar::Text(word.to_owned()), Scalar::Flag(run == 1)],
+            values: vec![value, Some(-1.5)],
+        };
+        let table = ResultTable {
+            axes: ["/a", "/b", "/c"].map(str::to_owned).to_vec(),
+            columns: ["x.max", "x.min"].map(str::to_owned).to_vec(),
+            rows: vec![row(1, "influence", Some(0.1)), row(3, "rigid", None)],
+            failures: Vec::new(),
+        };
+        let bytes = parquet(&table).expect("memory");
+        assert_eq!(bytes, parquet(&table).expect("memory"), "equal tables give equal bytes");
+        let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).expect("a Parquet file");
+        let rows: Vec<_> =
+            reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+        assert_eq!(rows.len(), 2);
+        assert_eq!(rows[1].get_long(0).expect("a number"), 3);
+        assert_eq!(rows[1].get_double(1).expect("a number"), 0.1 * 3.0);
+        assert_eq!(rows[1].get_string(2).expect("a string"), "rigid");
+        assert!(rows[0].get_bool(3).expect("a flag"));
+        assert_eq!(rows[0].get_double(4).expect("a number"), 0.1);
+        assert!(rows[1].get_double(4).is_err(), "a missing result");
+        assert_eq!(rows[1].get_double(5).expect("a number"), -1.5);
+    }
+}

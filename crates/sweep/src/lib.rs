@@ -1,0 +1,56 @@
+//! Many runs of one scene or design with other values of its axes.
+//!
+//! A [`formats::sweep::Sweep`] names the axes. A [`RunPlan`] has the values of every run, which depend on the sweep
+//! alone. A [`Runner`] puts them into the files, runs the scene or design, and returns the results by name. The rows of
+//! all runs make a [`ResultTable`], of which the statistics follow: distributions ([`ColumnStatistics`]), governing
+//! runs, and the sensitivity of each result to each axis ([`sensitivities`]).
+//!
+//! ```
+//! use formats::sweep::Sweep;
+//! use sweep::{ResultTable, RunPlan, Runner};
+//!
+//! let folder = tempfile::tempdir().expect("a temporary folder");
+//! let file = folder.path().join("sweep.json");
+//! let scene = std::fs::canonicalize("../../examples/yang_yau/scene.json").expect("an example");
+//! let text = format!(
+//!     r#"{{"format": "girderway-sweep/1", "scene": {scene:?}, "axes": {{"/motions/0/speed/0/1": [20, 25]}},
+//!      "sampling": "grid", "results": ["girder.midspan"]}}"#
+//! );
+//! std::fs::write(&file, text).expect("writable");
+//! let (sweep, _) = Sweep::open(&file).expect("a sweep without faults");
+//!
+//! let plan = RunPlan::new(&sweep);
+//! let runner = Runner::new(&sweep);
+//! let rows: Vec<_> = (1..=plan.runs()).map(|run| (run, runner.run(&plan.values(run)))).collect();
+//! let table = ResultTable::new(&sweep, &plan, rows);
+//! assert_eq!(table.columns, ["girder.midspan.max", "girder.midspan.min"]);
+//! assert_eq!(table.rows.len(), 2);
+//! ```
+//!
+//! Wings, lowest first: points, plan, outcome, values, runner, table, statistics, sensitivity, columns_file
+//!
+//! 1. `points`, `plan`: points of the unit hypercube; the values of the axes in each run;
+//! 2. `outcome`, `values`, `runner`: what a run gives; results by name; one run;
+//! 3. `table`: the results of all runs;
+//! 4. `statistics`, `sensitivity`: what follows from the table;
+//! 5. `columns_file`: the table as a Parquet file.
+
+#[cfg(feature = "parquet")]
+mod columns_file;
+mod outcome;
+mod plan;
+mod points;
+mod runner;
+mod sensitivity;
+mod statistics;
+mod table;
+mod values;
+
+#[cfg(feature = "parquet")]
+pub use columns_file::parquet;
+pub use outcome::{RunOutcome, RunRow};
+pub use plan::RunPlan;
+pub use runner::Runner;
+pub use sensitivity::{Sensitivity, sensitivities};
+pub use statistics::{ColumnStatistics, Interval};
+pub use table::{ResultTable, TableRow};
