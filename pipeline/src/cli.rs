@@ -71,6 +71,9 @@ pub enum Command {
     /// Envelopes, extremes and reactions of wheel trains on a structure, statically and exactly, with limits of codes
     #[command(after_help = "Example:\n  girderway design examples/runway/design.json -o out")]
     Design(DesignArgs),
+    /// Many runs of a scene or design with other values of its axes, on all cores; resumes where it was interrupted
+    #[command(after_help = "Example:\n  girderway sweep examples/runway/sweep.json -o out")]
+    Sweep(SweepArgs),
     /// List rolled sections and crane rails by name, with dimensions and properties
     #[command(after_help = "Example:\n  girderway sections heb")]
     Sections(SectionsArgs),
@@ -121,6 +124,38 @@ pub struct DesignArgs {
     pub fail_on_limit: bool,
 }
 
+/// Arguments of `sweep`.
+#[derive(Clone, Debug, Args)]
+pub struct SweepArgs {
+    /// Sweep file
+    #[arg(required_unless_present = "merge", value_name = "SWEEP")]
+    pub sweep: Option<PathBuf>,
+    /// Output folder [default: girderway-out/NAME-sweep, after the sweep's name; a shard: NAME-sweep-K-of-N; one run: NAME-run-K]
+    #[arg(short, long, value_name = "DIR")]
+    pub output: Option<PathBuf>,
+    /// Replace files in the folder that girderway did not write, or that have been changed since, and discard the runs of another sweep that was interrupted there
+    #[arg(long)]
+    pub force: bool,
+    /// Only shard K of N: every N-th run from run K
+    #[arg(long, value_name = "K/N", value_parser = shard, conflicts_with = "merge")]
+    pub shard: Option<(usize, usize)>,
+    /// Join the folders of all shards of a sweep, in place of running one
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with = "sweep", requires = "output")]
+    pub merge: Vec<PathBuf>,
+    /// Repeat one run with everything that `run` or `design` writes
+    #[arg(long, value_name = "K", conflicts_with_all = ["shard", "merge"])]
+    pub run: Option<usize>,
+}
+
+/// Reads `K/N`.
+fn shard(text: &str) -> Result<(usize, usize), String> {
+    let parts = text.split_once('/').and_then(|(k, n)| Some((k.parse().ok()?, n.parse().ok()?)));
+    match parts {
+        Some((k, n)) if 1 <= k && k <= n => Ok((k, n)),
+        _ => Err("must be K/N with K from 1 to N, such as 3/8".to_owned()),
+    }
+}
+
 /// Arguments of `sections`.
 #[derive(Clone, Debug, Args)]
 pub struct SectionsArgs {
@@ -150,6 +185,8 @@ pub enum SchemaArg {
     Scene,
     /// Design
     Design,
+    /// Sweep
+    Sweep,
     /// Summary of a run
     Summary,
 }

@@ -4,7 +4,7 @@
 //! The libraries perform the work itself: `formats` reads files, `foundations` and `results` compute, and `deck`,
 //! `report` and `study` produce the output.
 //!
-//! Wings, lowest first: cli, clock, exit, progress, interrupt, manifest, journal, output, folder, crosscheck, commands
+//! Wings, lowest first: cli, clock, exit, progress, interrupt, manifest, journal, output, folder, sweep_rows, shard, crosscheck, commands
 
 pub mod cli;
 pub mod clock;
@@ -17,3 +17,5 @@ pub mod journal;
 pub mod manifest;
 pub mod output;
 pub mod progress;
+mod shard;
+mod sweep_rows;

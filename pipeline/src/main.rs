@@ -42,6 +42,7 @@ fn dispatch(cli: Cli) -> Result<Exit, Failure> {
         Command::Crosscheck(args) => commands::crosscheck::run(&args, cli.global),
         Command::Study(args) => commands::study::run(&args, cli.global),
         Command::Design(args) => commands::design::run(&args, cli.global),
+        Command::Sweep(args) => commands::sweep::run(&args, cli.global),
         Command::Sections(args) => commands::sections::run(&args, cli.global),
         Command::Schema(args) => commands::schema::run(&args, cli.global),
         Command::Init(args) => commands::init::run(&args, cli.global),

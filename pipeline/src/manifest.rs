@@ -25,11 +25,25 @@ pub struct Manifest {
     pub outputs: Vec<OutputEntry>,
 }
 
-#[derive(Clone, Debug, Serialize)]
-struct InputEntry {
+/// A file read.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct InputEntry {
     name: String,
     bytes: usize,
     sha256: String,
+}
+
+impl InputEntry {
+    /// The entries of files, in the order in which they were read.
+    #[must_use]
+    pub fn all(inputs: &Inputs) -> Vec<InputEntry> {
+        let entry = |input: &formats::text::inputs::Input| InputEntry {
+            name: input.name.clone(),
+            bytes: input.bytes.len(),
+            sha256: input.sha256.clone(),
+        };
+        inputs.all().iter().map(entry).collect()
+    }
 }
 
 /// A file written.
@@ -49,18 +63,19 @@ impl Manifest {
     /// Creates the manifest of a command from its inputs and settings.
     #[must_use]
     pub fn new(command: &str, inputs: &Inputs, settings: Value) -> Manifest {
-        let entry = |input: &formats::text::inputs::Input| InputEntry {
-            name: input.name.clone(),
-            bytes: input.bytes.len(),
-            sha256: input.sha256.clone(),
-        };
+        Manifest::of_entries(command, InputEntry::all(inputs), settings)
+    }
+
+    /// Creates the manifest of a command from the entries of its inputs and its settings.
+    #[must_use]
+    pub fn of_entries(command: &str, inputs: Vec<InputEntry>, settings: Value) -> Manifest {
         Manifest {
             format: FORMAT,
             program: "girderway",
             version: env!("CARGO_PKG_VERSION"),
             command: command.to_owned(),
             settings,
-            inputs: inputs.all().iter().map(entry).collect(),
+            inputs,
             outputs: Vec::new(),
         }
     }

@@ -1,6 +1,7 @@
-//! A parallel map over the items of a list. No other module of the libraries of the workspace starts threads.
+//! Parallel maps over the items of a list. No other module of the libraries of the workspace starts threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{SyncSender, sync_channel};
 
 /// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine
 /// has) and returns the results in the order of the items. They do not depend on the number of threads.
@@ -45,9 +46,101 @@ pub fn parallel_map<T: Sync, R: Send>(
     made.into_iter().map(|(_, made)| made).collect()
 }
 
+/// Evaluates `work(item)` for each of `items` on `threads` threads (`None`: as many as the machine has) and passes each
+/// result to `receive` on the calling thread as soon as it is there, in any order. `receive` returns whether to go on;
+/// after `false` no further work begins. At most a few results wait, so that memory does not grow with the number of
+/// items.
+///
+/// ```
+/// use results::threads::parallel_stream;
+///
+/// let mut sum = 0;
+/// parallel_stream(&[1, 2, 3, 4], Some(2), |n| n * n, |_, square| {
+///     sum += square;
+///     true
+/// });
+/// assert_eq!(sum, 30);
+/// ```
+///
+/// # Panics
+/// If `work` panics, with its message.
+pub fn parallel_stream<T: Sync, R: Send>(
+    items: &[T],
+    threads: Option<u16>,
+    work: impl Fn(&T) -> R + Sync,
+    mut receive: impl FnMut(&T, R) -> bool,
+) {
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    let threads = threads.map_or(available, usize::from).clamp(1, items.len().max(1));
+    let next = AtomicUsize::new(0);
+    let (sender, receiver) = sync_channel(2 * threads);
+    let worker = |sender: SyncSender<(usize, R)>| {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(item) = items.get(index) else { return };
+            // the receiver is gone if no further results are wanted
+            if sender.send((index, work(item))).is_err() {
+                return;
+            }
+        }
+    };
+    let worker = &worker;
+    std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..threads)
+            .map(|_| {
+                let sender = sender.clone();
+                scope.spawn(move || worker(sender))
+            })
+            .collect();
+        drop(sender);
+        for (index, result) in &receiver {
+            if !receive(&items[index], result) {
+                break;
+            }
+        }
+        drop(receiver);
+        for worker in workers {
+            if let Err(panic) = worker.join() {
+                std::panic::resume_unwind(panic);
+            }
+        }
+    });
+}
+
 #[cfg(test)]
 mod tests {
-    use super::parallel_map;
+    use super::{parallel_map, parallel_stream};
+
+    #[test]
+    fn a_stream_has_every_result_once_and_ends_where_it_is_told() {
+        let items: Vec<u64> = (0..100).collect();
+        for threads in [Some(1), Some(3), None] {
+            let mut seen = Vec::new();
+            parallel_stream(
+                &items,
+                threads,
+                |n| n * n,
+                |n, square| {
+                    assert_eq!(square, n * n);
+                    seen.push(*n);
+                    true
+                },
+            );
+            seen.sort_unstable();
+            assert_eq!(seen, items);
+            let mut count = 0;
+            parallel_stream(
+                &items,
+                threads,
+                |n| *n,
+                |_, _| {
+                    count += 1;
+                    count < 5
+                },
+            );
+            assert_eq!(count, 5);
+        }
+    }
 
     #[test]
     fn results_keep_the_order_of_their_items_on_any_number_of_threads() {

@@ -35,11 +35,12 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
     let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
     for rows in table.rows.chunks(GROUP) {
         let mut group = writer.next_row_group()?;
-        let mut next = |write: &mut dyn FnMut(&mut SerializedColumnWriter<'_>) -> Result<(), ParquetError>| {
-            let Some(mut column) = group.next_column()? else { return Ok(()) };
-            write(&mut column)?;
-            column.close()
-        };
+        let mut next =
+            |write: &mut dyn FnMut(&mut SerializedColumnWriter<'_>) -> Result<(), ParquetError>| {
+                let Some(mut column) = group.next_column()? else { return Ok(()) };
+                write(&mut column)?;
+                column.close()
+            };
         let runs: Vec<i64> = rows.iter().map(|row| row.run as i64).collect();
         next(&mut |column| column.typed::<Int64Type>().write_batch(&runs, None, None).map(drop))?;
         for (axis, kind) in kinds.iter().enumerate() {
@@ -47,7 +48,9 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
             match kind {
                 Physical::DOUBLE => {
                     let numbers: Vec<f64> = values.filter_map(Scalar::number).collect();
-                    next(&mut |column| column.typed::<DoubleType>().write_batch(&numbers, None, None).map(drop))?;
+                    next(&mut |column| {
+                        column.typed::<DoubleType>().write_batch(&numbers, None, None).map(drop)
+                    })?;
                 }
                 Physical::BOOLEAN => {
                     let flags: Vec<bool> = values.map(|value| *value == Scalar::Flag(true)).collect();
@@ -56,7 +59,9 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
                 _ => {
                     let texts: Vec<ByteArray> =
                         values.map(|value| ByteArray::from(value.to_string().into_bytes())).collect();
-                    next(&mut |column| column.typed::<ByteArrayType>().write_batch(&texts, None, None).map(drop))?;
+                    next(&mut |column| {
+                        column.typed::<ByteArrayType>().write_batch(&texts, None, None).map(drop)
+                    })?;
                 }
             }
         }
@@ -102,7 +107,11 @@ mod tests {
     fn a_parquet_file_has_the_values_of_the_table() {
         let row = |run: usize, word: &str, value: Option<f64>| TableRow {
             run,
-            axes: vec![Scalar::Number(0.1 * run as f64), Scalar::Text(word.to_owned()), Scalar::Flag(run == 1)],
+            axes: vec![
+                Scalar::Number(0.1 * run as f64),
+                Scalar::Text(word.to_owned()),
+                Scalar::Flag(run == 1),
+            ],
             values: vec![value, Some(-1.5)],
         };
         let table = ResultTable {
@@ -114,8 +123,7 @@ mod tests {
         let bytes = parquet(&table).expect("memory");
         assert_eq!(bytes, parquet(&table).expect("memory"), "equal tables give equal bytes");
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).expect("a Parquet file");
-        let rows: Vec<_> =
-            reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
+        let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
         assert_eq!(rows.len(), 2);
         assert_eq!(rows[1].get_long(0).expect("a number"), 3);
         assert_eq!(rows[1].get_double(1).expect("a number"), 0.1 * 3.0);

@@ -7,7 +7,7 @@
 //!
 //! ```
 //! use formats::sweep::Sweep;
-//! use sweep::{ResultTable, RunPlan, Runner};
+//! use sweep::{ResultTable, RunPlan, RunRecord, Runner};
 //!
 //! let folder = tempfile::tempdir().expect("a temporary folder");
 //! let file = folder.path().join("sweep.json");
@@ -21,36 +21,42 @@
 //!
 //! let plan = RunPlan::new(&sweep);
 //! let runner = Runner::new(&sweep);
-//! let rows: Vec<_> = (1..=plan.runs()).map(|run| (run, runner.run(&plan.values(run)))).collect();
-//! let table = ResultTable::new(&sweep, &plan, rows);
+//! let record = |run| RunRecord { run, axes: plan.values(run), outcome: runner.run(&plan.values(run)) };
+//! let table = ResultTable::new(sweep.pointers(), (1..=plan.runs()).map(record).collect());
 //! assert_eq!(table.columns, ["girder.midspan.max", "girder.midspan.min"]);
 //! assert_eq!(table.rows.len(), 2);
 //! ```
 //!
-//! Wings, lowest first: points, plan, outcome, values, runner, table, statistics, sensitivity, columns_file
+//! Wings, lowest first: points, plan, outcome, info, values, runner, records, table, statistics, sensitivity, summary, columns_file
 //!
 //! 1. `points`, `plan`: points of the unit hypercube; the values of the axes in each run;
-//! 2. `outcome`, `values`, `runner`: what a run gives; results by name; one run;
-//! 3. `table`: the results of all runs;
-//! 4. `statistics`, `sensitivity`: what follows from the table;
+//! 2. `outcome`, `info`, `values`, `runner`: what a run gives; what a sweep is; results by name; one run;
+//! 3. `records`, `table`: runs as lines of text; the results of all runs;
+//! 4. `statistics`, `sensitivity`, `summary`: what follows from the table;
 //! 5. `columns_file`: the table as a Parquet file.
 
 #[cfg(feature = "parquet")]
 mod columns_file;
+mod info;
 mod outcome;
 mod plan;
 mod points;
+mod records;
 mod runner;
 mod sensitivity;
 mod statistics;
+mod summary;
 mod table;
 mod values;
 
 #[cfg(feature = "parquet")]
 pub use columns_file::parquet;
-pub use outcome::{RunOutcome, RunRow};
+pub use info::SweepInfo;
+pub use outcome::{RunFailure, RunOutcome, RunRow};
 pub use plan::RunPlan;
+pub use records::{RecordLines, RunRecord, read_records, scalar_json};
 pub use runner::Runner;
 pub use sensitivity::{Sensitivity, sensitivities};
-pub use statistics::{ColumnStatistics, Interval};
+pub use statistics::{ColumnStatistics, Interval, QUANTILES};
+pub use summary::summary;
 pub use table::{ResultTable, TableRow};

@@ -1,5 +1,7 @@
 //! What a run gives: results by name, or the reason why there are none.
 
+use formats::units::Dimension;
+
 /// The results of a run, by name, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunRow {
@@ -7,16 +9,44 @@ pub struct RunRow {
     pub names: Vec<String>,
     /// Their values, all finite.
     pub values: Vec<f64>,
+    /// Their dimensions; empty for a row that was read from a file.
+    pub dimensions: Vec<Dimension>,
 }
 
 impl RunRow {
     /// Adds a result.
-    pub(crate) fn add(&mut self, name: String, value: f64) {
+    pub(crate) fn add(&mut self, name: String, value: f64, dimension: Dimension) {
         self.names.push(name);
         // no negative zero
         self.values.push(value + 0.0);
+        self.dimensions.push(dimension);
     }
 }
 
 /// The results of a run, or the reason why it has none.
 pub type RunOutcome = Result<RunRow, String>;
+
+/// Why a run has no results.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum RunFailure {
+    /// The run does not have a result that is wanted: its index in the list of the sweep, and the reason.
+    Missing(usize, String),
+    /// There is no run.
+    Failed(String),
+}
+
+impl RunFailure {
+    /// The reason.
+    #[must_use]
+    pub fn why(self) -> String {
+        match self {
+            RunFailure::Missing(_, why) | RunFailure::Failed(why) => why,
+        }
+    }
+}
+
+impl From<String> for RunFailure {
+    fn from(why: String) -> Self {
+        RunFailure::Failed(why)
+    }
+}

@@ -99,9 +99,8 @@ mod tests {
     fn a_grid_has_every_combination_once_and_its_last_axis_changes_first() {
         let list = AxisValues::List([5.0, 50.0, 100.0].map(Scalar::Number).to_vec());
         let plan = plan(vec![list, AxisValues::Range(0.0, 1.0, 3)], 9, None);
-        let rows: Vec<Vec<f64>> = (1..=9)
-            .map(|run| plan.values(run).iter().filter_map(Scalar::number).collect())
-            .collect();
+        let rows: Vec<Vec<f64>> =
+            (1..=9).map(|run| plan.values(run).iter().filter_map(Scalar::number).collect()).collect();
         assert_eq!(rows[..4], [vec![5.0, 0.0], vec![5.0, 0.5], vec![5.0, 1.0], vec![50.0, 0.0]]);
         assert_eq!(rows[8], [100.0, 1.0]);
     }

@@ -10,10 +10,11 @@ use formats::spec::{SolveError, Spec};
 use formats::sweep::{Scalar, Sweep, SweepInput};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
+use formats::units::Units;
 use foundations::{SolvedStructure, distinct_specs, solve_specs};
 use results::{before, cases, run_error};
 
-use crate::outcome::RunOutcome;
+use crate::outcome::{RunFailure, RunOutcome, RunRow};
 use crate::values;
 
 /// Number of solved structures that are kept, the ones used last.
@@ -40,12 +41,19 @@ impl<'s> Runner<'s> {
         self.sweep.target.with(&changes)
     }
 
-    /// Runs the scene or design as its files are, without values of axes.
+    /// Runs the scene or design as its files are, without values of axes; returns its units and results.
     ///
     /// # Errors
     /// As [`Runner::run`].
-    pub fn run_as_written(&self) -> RunOutcome {
-        self.run_files(self.sweep.target.inputs().clone())
+    pub fn run_as_written(&self) -> Result<(Units, RunRow), RunFailure> {
+        let inputs = self.sweep.target.inputs().clone();
+        let units = match &self.sweep.input {
+            SweepInput::Scene(_) => {
+                Document::read_scene(inputs.clone()).map(|document| document.scene().units)
+            }
+            SweepInput::Design(_) => Design::read(inputs.clone()).map(|(design, _)| design.units),
+        };
+        Ok((units.map_err(|wrong| first(&wrong))?, self.run_files(inputs)?))
     }
 
     /// Runs the scene or design with values of the axes, in their order.
@@ -54,17 +62,17 @@ impl<'s> Runner<'s> {
     /// Why the run has no results: faults of the files with these values, a structure that does not stand, a scene that
     /// cannot start, a run that is incomplete, results that it does not have. The text has one line.
     pub fn run(&self, values: &[Scalar]) -> RunOutcome {
-        self.run_files(self.inputs(values))
+        self.run_files(self.inputs(values)).map_err(RunFailure::why)
     }
 
-    fn run_files(&self, inputs: Inputs) -> RunOutcome {
+    fn run_files(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
         match &self.sweep.input {
             SweepInput::Scene(_) => self.run_scene(inputs),
             SweepInput::Design(_) => self.run_design(inputs),
         }
     }
 
-    fn run_scene(&self, inputs: Inputs) -> RunOutcome {
+    fn run_scene(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
         let document = Document::read_scene(inputs).map_err(|wrong| first(&wrong))?;
         before::check(&document).map_err(|wrong| first(&wrong))?;
         let known = self.solved(&document)?;
@@ -72,12 +80,12 @@ impl<'s> Runner<'s> {
             cases::simulate(&document, &known, Some(1), &|_| ()).map_err(|error| line(&error.to_string()))?;
         let outcome = outcomes.pop().ok_or_else(|| "the scene has no case".to_owned())?;
         match run_error::reason_incomplete(&outcome.run.status, document.scene()) {
-            Some(why) => Err(line(&why)),
+            Some(why) => Err(line(&why).into()),
             None => values::of_scene(&self.sweep.results, document.scene(), &outcome),
         }
     }
 
-    fn run_design(&self, inputs: Inputs) -> RunOutcome {
+    fn run_design(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
         let (read, inputs) = Design::read(inputs).map_err(|wrong| first(&wrong))?;
         let read = design::with_combinations(&read);
         let result = design::solve(&read, &inputs).map_err(|error| match error {

@@ -49,7 +49,8 @@ pub fn sensitivities(table: &ResultTable, column: usize) -> Vec<Sensitivity> {
     let axis = |k: usize| {
         let values: Vec<&Scalar> = rows.iter().map(|(row, _)| &row.axes[k]).collect();
         let numbers: Option<Vec<f64>> = values.iter().map(|value| value.number()).collect();
-        let rank_correlation = numbers.as_deref().and_then(|numbers| correlation(&ranks(numbers), &ranks_of_results));
+        let rank_correlation =
+            numbers.as_deref().and_then(|numbers| correlation(&ranks(numbers), &ranks_of_results));
         Sensitivity {
             rank_correlation,
             chance: rank_correlation.map(|r| chance_of_correlation(r, results.len())),
@@ -66,7 +67,8 @@ fn ranks(values: &[f64]) -> Vec<f64> {
     let mut ranks = vec![0.0; values.len()];
     let mut from = 0;
     while from < order.len() {
-        let to = (from..order.len()).find(|&k| values[order[k]] != values[order[from]]).unwrap_or(order.len());
+        let to =
+            (from..order.len()).find(|&k| values[order[k]] != values[order[from]]).unwrap_or(order.len());
         let mean = (from + 1 + to) as f64 / 2.0;
         order[from..to].iter().for_each(|&index| ranks[index] = mean);
         from = to;
@@ -127,7 +129,8 @@ fn first_order(classes: &[usize], results: &[f64]) -> Option<f64> {
         sums[class].0 += value - mean;
         sums[class].1 += 1.0;
     }
-    let between: f64 = sums.iter().filter(|(_, count)| *count > 0.0).map(|(sum, count)| sum * sum / count).sum();
+    let between: f64 =
+        sums.iter().filter(|(_, count)| *count > 0.0).map(|(sum, count)| sum * sum / count).sum();
     let all: f64 = results.iter().map(|value| (value - mean).powi(2)).sum();
     let explained = between / all;
     Some((1.0 - (1.0 - explained) * (n - 1.0) / (n - groups as f64)).clamp(0.0, 1.0))

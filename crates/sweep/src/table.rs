@@ -1,9 +1,8 @@
 //! The results of all runs as one table.
 
-use formats::sweep::{Scalar, Sweep};
+use formats::sweep::Scalar;
 
-use crate::outcome::{RunOutcome, RunRow};
-use crate::plan::RunPlan;
+use crate::records::RunRecord;
 
 /// The results of the runs of a sweep, in the order of their numbers.
 ///
@@ -33,28 +32,26 @@ pub struct TableRow {
 }
 
 impl ResultTable {
-    /// The table of runs by number, in any order.
+    /// The table of runs in any order; `axes` are the pointers of the axes.
     #[must_use]
-    pub fn new(sweep: &Sweep, plan: &RunPlan, mut outcomes: Vec<(usize, RunOutcome)>) -> ResultTable {
-        outcomes.sort_by_key(|(run, _)| *run);
+    pub fn new(axes: Vec<String>, mut records: Vec<RunRecord>) -> ResultTable {
+        records.sort_by_key(|record| record.run);
         let mut table = ResultTable {
-            axes: sweep.axes.iter().map(|axis| axis.pointer.clone()).collect(),
+            axes,
             columns: Vec::new(),
-            rows: Vec::with_capacity(outcomes.len()),
+            rows: Vec::with_capacity(records.len()),
             failures: Vec::new(),
         };
-        let mut known: Option<(Vec<String>, Vec<usize>)> = None;
-        for (run, outcome) in outcomes {
-            let axes = plan.values(run);
+        let mut known: (Vec<String>, Vec<usize>) = (Vec::new(), Vec::new());
+        for RunRecord { run, axes, outcome } in records {
             match outcome {
                 Ok(row) => {
-                    let places = match known.take() {
-                        Some((names, places)) if names == row.names => (names, places),
-                        _ => table.places(&row),
-                    };
+                    if known.0 != row.names {
+                        let places = table.places(&row.names);
+                        known = (row.names, places);
+                    }
                     let mut values = vec![None; table.columns.len()];
-                    places.1.iter().zip(&row.values).for_each(|(&place, &value)| values[place] = Some(value));
-                    known = Some(places);
+                    known.1.iter().zip(&row.values).for_each(|(&place, &value)| values[place] = Some(value));
                     table.rows.push(TableRow { run, axes, values });
                 }
                 Err(why) => table.failures.push((run, axes, why)),
@@ -65,17 +62,15 @@ impl ResultTable {
         table
     }
 
-    /// The names of a row and their columns, which are added where they are new.
-    fn places(&mut self, row: &RunRow) -> (Vec<String>, Vec<usize>) {
-        let mut places = Vec::with_capacity(row.names.len());
-        for name in &row.names {
-            let place = self.columns.iter().position(|known| known == name).unwrap_or_else(|| {
+    /// The columns of results by their names, which are added where they are new.
+    fn places(&mut self, names: &[String]) -> Vec<usize> {
+        let place = |name: &String| {
+            self.columns.iter().position(|known| known == name).unwrap_or_else(|| {
                 self.columns.push(name.clone());
                 self.columns.len() - 1
-            });
-            places.push(place);
-        }
-        (row.names.clone(), places)
+            })
+        };
+        names.iter().map(place).collect()
     }
 
     /// Values of a column with the numbers of their runs.

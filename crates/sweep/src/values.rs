@@ -2,18 +2,23 @@
 
 use formats::scene::Scene;
 use formats::sweep::ResultKind;
+use formats::units::Dimension;
 use results::case_result::CaseResult;
 use serde_json::Value;
 
-use crate::outcome::RunRow;
+use crate::outcome::{RunFailure, RunRow};
 
 /// The results of a scene's run that are wanted.
 ///
 /// # Errors
 /// A result that the run does not have.
-pub(crate) fn of_scene(kinds: &[ResultKind], scene: &Scene, outcome: &CaseResult) -> Result<RunRow, String> {
+pub(crate) fn of_scene(
+    kinds: &[ResultKind],
+    scene: &Scene,
+    outcome: &CaseResult,
+) -> Result<RunRow, RunFailure> {
     let mut row = RunRow::default();
-    for kind in kinds {
+    for (index, kind) in kinds.iter().enumerate() {
         let before = row.names.len();
         match kind {
             ResultKind::Peaks => {
@@ -31,7 +36,7 @@ pub(crate) fn of_scene(kinds: &[ResultKind], scene: &Scene, outcome: &CaseResult
             ResultKind::Ratios => code_ratios(outcome, &mut row),
         }
         if row.names.len() == before {
-            return Err(missing(kind, outcome));
+            return Err(RunFailure::Missing(index, missing(kind, outcome)));
         }
     }
     Ok(row)
@@ -41,19 +46,19 @@ pub(crate) fn of_scene(kinds: &[ResultKind], scene: &Scene, outcome: &CaseResult
 ///
 /// # Errors
 /// A result that the design does not have.
-pub(crate) fn of_design(kinds: &[ResultKind], summary: &Value) -> Result<RunRow, String> {
+pub(crate) fn of_design(kinds: &[ResultKind], summary: &Value) -> Result<RunRow, RunFailure> {
     let mut row = RunRow::default();
     let has_several_cases = summary["cases"].as_array().is_some_and(|cases| cases.len() > 1);
-    for kind in kinds {
+    for (index, kind) in kinds.iter().enumerate() {
         let before = row.names.len();
         match kind {
             ResultKind::Extremes => extremes(&summary["extremes"], has_several_cases, &mut row),
             _ => design_ratios(summary, has_several_cases, &mut row),
         }
         if row.names.len() == before {
-            return Err("the design has no limits of codes and no strengths, so there are no \"ratios\"; give \
-                        `practice` or `fy`"
-                .to_owned());
+            let why = "the design has no limits of codes and no strengths, so there are no \"ratios\"; give \
+                       `practice` or `fy`";
+            return Err(RunFailure::Missing(index, why.to_owned()));
         }
     }
     Ok(row)
@@ -61,14 +66,14 @@ pub(crate) fn of_design(kinds: &[ResultKind], summary: &Value) -> Result<RunRow,
 
 /// Largest and smallest value of a column.
 fn peaks(name: &str, outcome: &CaseResult, row: &mut RunRow) {
-    let values = outcome.columns.values(name);
-    if values.is_empty() {
-        return;
-    }
+    let found =
+        outcome.columns.columns.iter().find(|column| column.name == name && !column.values.is_empty());
+    let Some(found) = found else { return };
+    let values = &found.values;
     let most = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let least = values.iter().copied().fold(f64::INFINITY, f64::min);
-    row.add(format!("{name}.max"), most);
-    row.add(format!("{name}.min"), least);
+    row.add(format!("{name}.max"), most, found.dimension);
+    row.add(format!("{name}.min"), least, found.dimension);
 }
 
 /// Values of the entries of `extremes` in a summary, named by their members.
@@ -78,7 +83,8 @@ fn extremes(all: &Value, has_several_cases: bool, row: &mut RunRow) {
         let case = has_several_cases.then(|| format!("case {}", entry["case"]));
         let span = entry["span"].as_u64().map(|span| format!("span {span}"));
         // torsion and normal forces have no plane of their own
-        let plane = text("plane").filter(|_| !matches!(entry["quantity"].as_str(), Some("normal" | "torsion")));
+        let plane =
+            text("plane").filter(|_| !matches!(entry["quantity"].as_str(), Some("normal" | "torsion")));
         let parts = [
             case,
             text("rail"),
@@ -90,8 +96,15 @@ fn extremes(all: &Value, has_several_cases: bool, row: &mut RunRow) {
             plane,
             text("kind"),
         ];
+        let dimension = match (entry["quantity"].as_str(), entry["direction"].as_str()) {
+            (Some("deflection"), _) => Dimension::LENGTH,
+            (Some("moment" | "torsion" | "Mx" | "My" | "Mz"), _) | (_, Some("rx" | "ry" | "rz")) => {
+                Dimension::MOMENT
+            }
+            _ => Dimension::FORCE,
+        };
         if let Some(value) = entry["value"].as_f64() {
-            row.add(parts.into_iter().flatten().collect::<Vec<_>>().join("."), value);
+            row.add(parts.into_iter().flatten().collect::<Vec<_>>().join("."), value, dimension);
         }
     }
 }
@@ -99,9 +112,9 @@ fn extremes(all: &Value, has_several_cases: bool, row: &mut RunRow) {
 /// Fatigue damage of one run at each stress point.
 fn fatigue(outcome: &CaseResult, row: &mut RunRow) {
     for point in &outcome.fatigue {
-        row.add(format!("{}.damage", point.column), point.damage.sum);
+        row.add(format!("{}.damage", point.column), point.damage.sum, Dimension::NUMBER);
         if let Some(life) = point.life {
-            row.add(format!("{}.life damage", point.column), life);
+            row.add(format!("{}.life damage", point.column), life, Dimension::NUMBER);
         }
     }
 }
@@ -110,14 +123,14 @@ fn fatigue(outcome: &CaseResult, row: &mut RunRow) {
 fn code_ratios(outcome: &CaseResult, row: &mut RunRow) {
     let Some(codes) = &outcome.codes else { return };
     for comparison in &codes.rows {
-        row.add(comparison.name.to_owned(), comparison.measured.value);
+        row.add(comparison.name.to_owned(), comparison.measured.value, comparison.dimension);
         let mut names: Vec<String> = Vec::new();
         for value in &comparison.values {
             let name = format!("{}.{} {}", comparison.name, value.clause.standard, value.clause.clause);
             let twins = names.iter().filter(|known| **known == name).count();
             let unique = if twins > 0 { format!("{name} ({})", twins + 1) } else { name.clone() };
             names.push(name);
-            row.add(unique, value.value);
+            row.add(unique, value.value, comparison.dimension);
         }
     }
     let limits = codes.json();
@@ -130,12 +143,17 @@ fn code_ratios(outcome: &CaseResult, row: &mut RunRow) {
             entry["to"]
         );
         for code in entry["codes"].as_array().into_iter().flatten() {
-            let (Some(value), Some(limit)) = (entry["static_deflection"].as_f64(), code["value"].as_f64()) else {
+            let (Some(value), Some(limit)) = (entry["static_deflection"].as_f64(), code["value"].as_f64())
+            else {
                 continue;
             };
             if limit > 0.0 {
                 let named = |key: &str| code[key].as_str().unwrap_or_default().to_owned();
-                row.add(format!("{place}.{} {}", named("code"), named("clause")), value / limit);
+                row.add(
+                    format!("{place}.{} {}", named("code"), named("clause")),
+                    value / limit,
+                    Dimension::NUMBER,
+                );
             }
         }
     }
@@ -154,12 +172,12 @@ fn design_ratios(summary: &Value, has_several_cases: bool, row: &mut RunRow) {
         if let (Some(value), Some(most)) = (limit["value"].as_f64(), limit["limit"].as_f64())
             && most > 0.0
         {
-            row.add(name(limit, &["quantity", "code", "clause"]), value.abs() / most);
+            row.add(name(limit, &["quantity", "code", "clause"]), value.abs() / most, Dimension::NUMBER);
         }
     }
     for stress in summary["stresses"].as_array().into_iter().flatten() {
         if let Some(used) = stress["utilisation"].as_f64() {
-            row.add(name(stress, &["section", "quantity"]), used);
+            row.add(name(stress, &["section", "quantity"]), used, Dimension::NUMBER);
         }
     }
 }

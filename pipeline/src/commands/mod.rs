@@ -17,3 +17,4 @@ pub mod shell;
 pub mod sim;
 pub mod splines;
 pub mod study;
+pub mod sweep;

@@ -42,31 +42,53 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
 /// Function that returns the solved structures of a document; the path is that of the output folder.
 type Source = fn(&Document, &Path, &Progress) -> Result<Vec<SolvedStructure>, Failure>;
 
+/// Performs `run` on a document that is read.
+pub(super) fn of_document(
+    name: &str,
+    document: &Document,
+    path: &Path,
+    force: bool,
+    global: Global,
+) -> Result<Exit, Failure> {
+    whole(name, (document, path, force), (global, StageClock::new()), solve)
+}
+
 /// Performs the common part of `run` and `sim` with the solved structures that `structures` returns.
 pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Source) -> Result<Exit, Failure> {
-    let progress = Progress::new(global);
-    let mut clock = StageClock::new();
+    let clock = StageClock::new();
     let document = Document::open(&args.scene)?;
-    before::check(&document)?;
+    let path =
+        args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&document.scene().name));
+    whole(name, (&document, &path, args.force), (global, clock), structures)
+}
+
+/// Checks, simulates and writes a document into a folder.
+fn whole(
+    name: &str,
+    (document, path, force): (&Document, &Path, bool),
+    (global, mut clock): (Global, StageClock),
+    structures: Source,
+) -> Result<Exit, Failure> {
+    let progress = Progress::new(global);
+    before::check(document)?;
     progress.warn_of_commas(&document.inputs);
     let scene = document.scene();
-    let path = args.output.clone().unwrap_or_else(|| PathBuf::from("girderway-out").join(&scene.name));
-    check_names(&document, &path)?;
-    let mut folder = OutputFolder::open(&path, name, args.force, &planned_files(name, &document))?;
+    check_names(document, path)?;
+    let mut folder = OutputFolder::open(path, name, force, &planned_files(name, document))?;
     clock.lap("read");
 
-    let known = structures(&document, &path, &progress)?;
+    let known = structures(document, path, &progress)?;
     clock.lap("fea");
     let bar = progress.bar("simulating", 1000);
-    let outcomes = simulate(&document, &known, global.threads, &|now| match now {
+    let outcomes = simulate(document, &known, global.threads, &|now| match now {
         SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
         SimulationProgress::Trial(foundations) => bar.name(&format!("simulating, trial on {foundations}")),
     })
-    .map_err(|error| located(&document, error))?;
+    .map_err(|error| located(document, error))?;
     drop(bar);
     clock.lap("simulation");
 
-    for ((name, ..), entry) in distinct_specs(&document).iter().zip(&known) {
+    for ((name, ..), entry) in distinct_specs(document).iter().zip(&known) {
         let solved = &entry.solution;
         folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, solved.surface.as_ref()));
         if let Some(text) = tables::adm(name, &solved.grid).map_err(unexpected)? {
@@ -92,18 +114,18 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
         .map(|outcome| (outcome.label.as_str(), &outcome.columns, &outcome.response))
         .collect();
     let comparison = RunComparison::new(&runs, global.threads);
-    let summary = summary::of_document(&document, &outcomes, comparison.json(&runs));
+    let summary = summary::of_document(document, &outcomes, comparison.json(&runs));
     folder.add("summary.json", output::json(&summary));
     clock.lap("tables");
 
-    let mut figures = figures(&document, &outcomes, &known, &comparison);
+    let mut figures = figures(document, &outcomes, &known, &comparison);
     for (name, svg) in figures.draw(global.threads) {
         folder.add(&format!("plots/{name}.svg"), svg.file());
     }
     clock.lap("plots");
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(&known, &structure.origin)).collect();
-    let report = run_report::report(&document, &outcomes, &solved, &comparison, figures.figures);
+    let report = run_report::report(document, &outcomes, &solved, &comparison, figures.figures);
     folder.add("report.html", report.html(global.threads).map_err(unexpected)?);
     clock.lap("report");
     folder.add_varying("timing.json", output::json(&clock.json()));
@@ -112,7 +134,7 @@ pub(super) fn job(name: &str, args: &Arguments, global: Global, structures: Sour
     for OmittedFigure { name, why } in figures.omitted {
         progress.say(&format!("warning: the figure {name} is omitted because it cannot be drawn: {why}"));
     }
-    finish(&outcomes, &summary, &written, &document, global, &progress)
+    finish(&outcomes, &summary, &written, document, global, &progress)
 }
 
 /// Converts an error of the simulation. Faults of the scene that only its solved structures show, and bodies without a

@@ -16,6 +16,7 @@ pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
         SchemaArg::Grid => schema::grid(),
         SchemaArg::Scene => schema::scene(),
         SchemaArg::Design => schema::design(),
+        SchemaArg::Sweep => schema::sweep(),
         SchemaArg::Summary => results::summary::schema(),
     };
     output::deliver(args.output.as_deref(), &output::json(&schema), &Progress::new(global))?;

@@ -45,7 +45,10 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedSt
         let listed =
             entries.iter().find(|entry| entry.name == grid).and_then(|entry| entry.sha256.as_deref());
         let path = folder.join(&grid);
-        known.push(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solved(spec, &path, listed)?) });
+        known.push(SolvedStructure {
+            spec: Arc::clone(spec),
+            solution: Arc::new(solved(spec, &path, listed)?),
+        });
     }
     Ok(known)
 }

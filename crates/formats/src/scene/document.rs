@@ -89,10 +89,13 @@ impl Document {
     pub fn read_scene(mut inputs: Inputs) -> Result<Document, Vec<Diagnostic>> {
         let source = inputs.all()[0].source().map_err(|error| vec![*error])?;
         let mut files = Files::of(&mut inputs);
-        let read = source.read(FORMAT, |raw: &RawScene, faults| scene::read(raw, &source.name, &mut files, faults));
+        let read =
+            source.read(FORMAT, |raw: &RawScene, faults| scene::read(raw, &source.name, &mut files, faults));
         let mut wrong = files.wrong;
         match read {
-            Ok(scene) if wrong.is_empty() => Ok(Document { cases: vec![Case { label: None, scene }], inputs }),
+            Ok(scene) if wrong.is_empty() => {
+                Ok(Document { cases: vec![Case { label: None, scene }], inputs })
+            }
             Ok(_) => Err(wrong),
             Err(mut own) => {
                 own.append(&mut wrong);

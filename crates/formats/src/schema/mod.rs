@@ -14,8 +14,8 @@ use serde_json::{Value, json};
 use crate::design::{RawCase, RawDead, RawDeadLoads, RawDesign, RawForces, RawNamedCase};
 use crate::grid::file::RawGrid;
 use crate::scene::{RawColumns, RawNode, RawPick, RawScene};
-use crate::sweep::{RawAxis, RawLaw, RawScalar, RawSweep};
 use crate::spec::{Block, RawDetail, RawSectionShape, RawShape, RawSpec, Reference};
+use crate::sweep::{RawAxis, RawLaw, RawScalar, RawSweep};
 use crate::text::entries::Entries;
 
 /// The schema of beam specs.

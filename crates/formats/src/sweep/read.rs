@@ -36,8 +36,9 @@ impl Sweep {
         let (inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
         let mut wrong = Vec::new();
-        let read = source
-            .read(FORMAT, |raw: &RawSweep, faults| Some(read(raw, &source.name, &folder, faults, &mut wrong)));
+        let read = source.read(FORMAT, |raw: &RawSweep, faults| {
+            Some(read(raw, &source.name, &folder, faults, &mut wrong))
+        });
         match read {
             Ok(Some(sweep)) if wrong.is_empty() => Ok((sweep, inputs)),
             Ok(_) => Err(wrong),
@@ -213,7 +214,8 @@ fn axis_values(
         RawAxis::Law(law) => {
             let values = law_values(law, at, faults)?;
             if sampling == Some(Sampling::Grid) && values.levels().is_none() {
-                let fault = Fault::new(at, "must be a list or a range with `\"sampling\": \"grid\"`").of_value();
+                let fault =
+                    Fault::new(at, "must be a list or a range with `\"sampling\": \"grid\"`").of_value();
                 faults.add(fault.hint("distributions need \"latin\" or \"sobol\" and `count`"));
                 return None;
             }
@@ -223,14 +225,10 @@ fn axis_values(
 }
 
 fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisValues> {
-    let given = [
-        law.range.is_some(),
-        law.uniform.is_some(),
-        law.normal.is_some(),
-        law.lognormal.is_some(),
-    ];
+    let given = [law.range.is_some(), law.uniform.is_some(), law.normal.is_some(), law.lognormal.is_some()];
     if given.iter().filter(|given| **given).count() != 1 {
-        let fault = Fault::new(at, "must have one of `range`, `uniform`, `normal` and `lognormal`").of_value();
+        let fault =
+            Fault::new(at, "must have one of `range`, `uniform`, `normal` and `lognormal`").of_value();
         faults.add(fault);
         return None;
     }
@@ -238,7 +236,12 @@ fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisV
     let positive = |pair: [f64; 2], index: usize, key: &str, what: &str, faults: &mut Faults| {
         if pair[index] <= 0.0 {
             let place = at.key(key);
-            faults.add(Fault::new(&place.index(index), "must be positive").got(number(pair[index])).hint(what).of_value());
+            faults.add(
+                Fault::new(&place.index(index), "must be positive")
+                    .got(number(pair[index]))
+                    .hint(what)
+                    .of_value(),
+            );
         }
     };
     let values = if let Some([from, to, levels]) = law.range {
@@ -249,7 +252,8 @@ fn law_values(law: &RawLaw, at: &Place<'_>, faults: &mut Faults) -> Option<AxisV
             let fault = Fault::new(&place.index(2), expected).got(number(levels)).of_value();
             faults.add(fault.hint("a range is [first, last, number of values]"));
         } else if (levels == 1.0) != (from == to) {
-            let fault = Fault::new(&place, "must have several values between two ends, or one value at both").of_value();
+            let fault = Fault::new(&place, "must have several values between two ends, or one value at both")
+                .of_value();
             faults.add(fault);
         }
         AxisValues::Range(from, to, if is_count { levels as usize } else { 1 })

@@ -73,19 +73,22 @@ impl SweepTarget {
     /// The place of the value to which a pointer leads, such as `/bodies/crane/weight` or `spec.json#/girder/E`, and
     /// the value.
     pub(super) fn find(&self, pointer: &str) -> Result<(AxisPlace, Scalar), PointerError> {
-        let (file, within) = pointer.split_once('#').map_or((None, pointer), |(file, rest)| (Some(file), rest));
+        let (file, within) =
+            pointer.split_once('#').map_or((None, pointer), |(file, rest)| (Some(file), rest));
         let all = self.inputs.all();
         let index = match file {
             None => 0,
-            Some(name) => all.iter().skip(1).position(|input| input.name == name).map(|k| k + 1).ok_or_else(
-                || PointerError {
-                    expected: format!("must name a file of the {}, \"{name}\" is none", self.word()),
-                    hint: match all.iter().skip(1).map(|input| input.name.as_str()).collect::<Vec<_>>() {
-                        names if names.is_empty() => "it names no file".to_owned(),
-                        names => format!("its files: {}", names.join(", ")),
-                    },
-                },
-            )?,
+            Some(name) => {
+                all.iter().skip(1).position(|input| input.name == name).map(|k| k + 1).ok_or_else(|| {
+                    PointerError {
+                        expected: format!("must name a file of the {}, \"{name}\" is none", self.word()),
+                        hint: match all.iter().skip(1).map(|input| input.name.as_str()).collect::<Vec<_>>() {
+                            names if names.is_empty() => "it names no file".to_owned(),
+                            names => format!("its files: {}", names.join(", ")),
+                        },
+                    }
+                })?
+            }
         };
         let Ok(source) = all[index].source() else {
             return Err(PointerError {
@@ -96,7 +99,12 @@ impl SweepTarget {
         self.value(&source, within, index)
     }
 
-    fn value(&self, source: &Source, pointer: &str, file: usize) -> Result<(AxisPlace, Scalar), PointerError> {
+    fn value(
+        &self,
+        source: &Source,
+        pointer: &str,
+        file: usize,
+    ) -> Result<(AxisPlace, Scalar), PointerError> {
         if !pointer.starts_with('/') {
             return Err(PointerError {
                 expected: "must be a JSON pointer".to_owned(),
@@ -156,7 +164,9 @@ fn nowhere(node: &TreeNode<'_>, walked: &str, key: &str, file: &str) -> PointerE
     let above = if walked.is_empty() { "the file" } else { walked };
     let hint = match below(node) {
         below if below.is_empty() => format!("{above} has nothing below it"),
-        below => format!("{above} has {below}; a key that the file leaves out cannot be varied until it is written there"),
+        below => format!(
+            "{above} has {below}; a key that the file leaves out cannot be varied until it is written there"
+        ),
     };
     PointerError { expected: format!("must lead to a value of {file}, \"{key}\" is not in {above}"), hint }
 }

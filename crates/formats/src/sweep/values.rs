@@ -25,6 +25,14 @@ pub struct Sweep {
     pub results: Vec<ResultKind>,
 }
 
+impl Sweep {
+    /// Pointers of the axes, which head their columns.
+    #[must_use]
+    pub fn pointers(&self) -> Vec<String> {
+        self.axes.iter().map(|axis| axis.pointer.clone()).collect()
+    }
+}
+
 /// What is run.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SweepInput {

@@ -2,6 +2,7 @@
 //!
 //! `rail_sketch` draws a rail with supports and wheels, `design` the envelopes of a design, `influence_lines` the
 //! influence lines of its governing values with the wheels above them.
+//! `sweep` draws the distributions of the results of many runs.
 //! `run_figure` is a figure with its name; `motion`, `rails`, `responses`, `structures` and `animation` make figures,
 //! and `run` collects those of a run in the order of the report.
 
@@ -16,3 +17,4 @@ pub(crate) mod responses;
 pub mod run;
 pub mod run_figure;
 pub(crate) mod structures;
+pub(crate) mod sweep;

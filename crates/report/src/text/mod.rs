@@ -16,3 +16,4 @@ mod run_governing;
 pub mod run_report;
 mod run_verdict;
 mod structure_words;
+pub mod sweep_report;

@@ -1,0 +1,132 @@
+//! Runs as lines of text, one JSON object each, which are only appended and can be read after any interruption.
+//!
+//! The first line of a file of runs is for its owner. A line `{"names": [...]}` has the names of the results of the runs
+//! that follow; a line `{"run": 7, "axes": [...], "values": [...]}` is a run, and `{"run": 7, "axes": [...], "failure":
+//! "..."}` one without results. Numbers have as many digits as their doubles need.
+
+use formats::sweep::Scalar;
+use serde_json::{Value, json};
+
+use crate::outcome::{RunOutcome, RunRow};
+
+/// One run of a sweep with its values and results.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RunRecord {
+    /// Number of the run, from 1.
+    pub run: usize,
+    /// Values of the axes.
+    pub axes: Vec<Scalar>,
+    /// Its results.
+    pub outcome: RunOutcome,
+}
+
+/// Writes runs as lines.
+#[derive(Clone, Debug, Default)]
+pub struct RecordLines {
+    names: Option<Vec<String>>,
+}
+
+impl RecordLines {
+    /// Lines of a run, each with its newline: the names of its results, unless they are those of the run before, and
+    /// the run.
+    pub fn lines(&mut self, record: &RunRecord) -> String {
+        let axes: Vec<Value> = record.axes.iter().map(scalar_json).collect();
+        match &record.outcome {
+            Err(why) => format!("{}\n", json!({ "run": record.run, "axes": axes, "failure": why })),
+            Ok(row) => {
+                let line = json!({ "run": record.run, "axes": axes, "values": row.values });
+                if self.names.as_ref() == Some(&row.names) {
+                    return format!("{line}\n");
+                }
+                self.names = Some(row.names.clone());
+                format!("{}\n{line}\n", json!({ "names": row.names }))
+            }
+        }
+    }
+}
+
+/// The runs in a text of lines; each run once, the first of those with the same number. Reading ends at the first line
+/// that is not whole, which an interrupted writer leaves.
+#[must_use]
+pub fn read_records(text: &str) -> Vec<RunRecord> {
+    let mut names: Vec<String> = Vec::new();
+    let mut seen = std::collections::BTreeSet::new();
+    let mut records = Vec::new();
+    for line in text.split_inclusive('\n').filter(|line| line.ends_with('\n')) {
+        let Ok(value) = serde_json::from_str::<Value>(line) else { break };
+        if let Some(list) = value["names"].as_array() {
+            names = list.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect();
+            continue;
+        }
+        let Some(record) = record(&value, &names) else { break };
+        if seen.insert(record.run) {
+            records.push(record);
+        }
+    }
+    records
+}
+
+fn record(value: &Value, names: &[String]) -> Option<RunRecord> {
+    let run = usize::try_from(value["run"].as_u64()?).ok()?;
+    let axes = value["axes"].as_array()?.iter().map(scalar).collect::<Option<Vec<_>>>()?;
+    let outcome = match value["failure"].as_str() {
+        Some(why) => Err(why.to_owned()),
+        None => {
+            let values: Vec<f64> =
+                value["values"].as_array()?.iter().map(Value::as_f64).collect::<Option<_>>()?;
+            let is_whole = values.len() == names.len();
+            is_whole.then(|| Ok(RunRow { names: names.to_vec(), values, dimensions: Vec::new() }))?
+        }
+    };
+    Some(RunRecord { run, axes, outcome })
+}
+
+/// A value of an axis as JSON.
+#[must_use]
+pub fn scalar_json(value: &Scalar) -> Value {
+    match value {
+        Scalar::Number(number) => json!(number),
+        Scalar::Text(text) => json!(text),
+        Scalar::Flag(flag) => json!(flag),
+    }
+}
+
+fn scalar(value: &Value) -> Option<Scalar> {
+    match value {
+        Value::Number(number) => number.as_f64().map(Scalar::Number),
+        Value::String(text) => Some(Scalar::Text(text.clone())),
+        Value::Bool(flag) => Some(Scalar::Flag(*flag)),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(names: &[&str], values: &[f64]) -> RunOutcome {
+        let names = names.iter().map(|name| (*name).to_owned()).collect();
+        Ok(RunRow { names, values: values.to_vec(), dimensions: Vec::new() })
+    }
+
+    #[test]
+    fn lines_are_read_back_to_the_last_bit_and_up_to_the_first_torn_one() {
+        let axes = vec![Scalar::Number(0.1 + 0.2), Scalar::Text("rigid".to_owned()), Scalar::Flag(true)];
+        let records = [
+            RunRecord { run: 2, axes: axes.clone(), outcome: row(&["a", "b"], &[1.0 / 3.0, -1e-300]) },
+            RunRecord { run: 1, axes: axes.clone(), outcome: Err("it falls \"down\"".to_owned()) },
+            RunRecord { run: 3, axes: axes.clone(), outcome: row(&["a", "b"], &[5e-324, 1.0]) },
+            RunRecord { run: 4, axes, outcome: row(&["a"], &[2.0]) },
+        ];
+        let mut writer = RecordLines::default();
+        let text: String = records.iter().map(|record| writer.lines(record)).collect();
+        assert_eq!(text.matches("names").count(), 2);
+        assert_eq!(read_records(&text), records);
+        let twice = format!("{text}{text}");
+        assert_eq!(read_records(&twice), records);
+        for cut in 0..text.len() {
+            let found = read_records(&text[..cut]);
+            assert_eq!(found, records[..found.len()], "cut at {cut}");
+        }
+    }
+}

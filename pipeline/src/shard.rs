@@ -1,0 +1,142 @@
+//! Shards of a sweep: what a shard's folder holds beside its results, and all shards read back.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use serde_json::{Value, json};
+use sweep::{RunRecord, SweepInfo, read_records};
+
+use crate::exit::Failure;
+use crate::manifest::{InputEntry, MANIFEST, listed_files};
+use formats::text::diagnostic::Diagnostic;
+use formats::text::inputs::sha256;
+
+/// Name of the file that describes a shard.
+pub(crate) const SHARD: &str = "shard.json";
+
+/// Name of the file with the runs of a shard.
+pub(crate) const ROWS: &str = "rows.jsonl";
+
+const FORMAT: &str = "girderway-shard/1";
+
+/// The description of a shard.
+pub(crate) struct Shard {
+    /// Key of the whole sweep.
+    pub key: String,
+    /// Number of the shard, from 1.
+    pub shard: usize,
+    /// Number of shards.
+    pub of: usize,
+    /// The sweep.
+    pub info: SweepInfo,
+}
+
+impl Shard {
+    /// The description as JSON, with the files that the sweep read.
+    pub fn json(&self, inputs: &[InputEntry]) -> Value {
+        json!({
+            "format": FORMAT,
+            "sweep": self.key,
+            "shard": self.shard,
+            "of": self.of,
+            "info": self.info,
+            "inputs": inputs,
+        })
+    }
+}
+
+/// All shards of a sweep, joined.
+pub(crate) struct JoinedShards {
+    /// The sweep.
+    pub info: SweepInfo,
+    /// The files that it read.
+    pub inputs: Vec<InputEntry>,
+    /// All runs, in the order of their numbers.
+    pub records: Vec<RunRecord>,
+}
+
+#[derive(Deserialize)]
+struct ShardFile {
+    format: String,
+    sweep: String,
+    shard: usize,
+    of: usize,
+    info: SweepInfo,
+    inputs: Vec<InputEntry>,
+}
+
+/// Reads the folders of all shards of a sweep.
+///
+/// # Errors
+/// A folder without a whole shard, shards of different sweeps, a shard that is there twice, shards or runs that are
+/// missing; all faults of a kind at once.
+pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Failure> {
+    let mut wrong = Vec::new();
+    let mut read: Vec<(&Path, ShardFile, Vec<RunRecord>)> = Vec::new();
+    for folder in folders {
+        match read_shard(folder) {
+            Ok((shard, records)) => read.push((folder, shard, records)),
+            Err(diagnostic) => wrong.push(diagnostic),
+        }
+    }
+    let Some((first, known, _)) = read.first() else { return Err(Failure::Input(wrong)) };
+    let (of, runs) = (known.of, known.info.runs);
+    let mut seen: BTreeMap<usize, &Path> = BTreeMap::new();
+    for (folder, shard, records) in &read {
+        let fault = |expected: String| Diagnostic::of_file(folder.display().to_string(), expected);
+        if shard.sweep != known.sweep || shard.of != of {
+            let expected = format!(
+                "is a shard of another sweep than {}, or of other files or another version",
+                first.display()
+            );
+            wrong.push(fault(expected).hint("run the shard again"));
+        } else if let Some(other) = seen.insert(shard.shard, folder) {
+            wrong.push(fault(format!("is shard {} of {of}, as {} is", shard.shard, other.display())));
+        }
+        let expected = (shard.shard..=runs).step_by(of.max(1));
+        if !records.iter().map(|record| record.run).eq(expected) {
+            wrong.push(fault("does not have all its runs".to_owned()).hint("run the shard again"));
+        }
+    }
+    let missing: Vec<String> = (1..=of).filter(|k| !seen.contains_key(k)).map(|k| k.to_string()).collect();
+    if wrong.is_empty() && !missing.is_empty() {
+        let expected = format!("--merge needs all {of} shards, {} missing", missing.join(", "));
+        wrong.push(Diagnostic::of_file("command line", expected).hint("name the folder of each shard"));
+    }
+    if !wrong.is_empty() {
+        return Err(Failure::Input(wrong));
+    }
+    let mut records = Vec::with_capacity(runs);
+    let mut description = None;
+    for (_, shard, own) in read {
+        records.extend(own);
+        description.get_or_insert((shard.info, shard.inputs));
+    }
+    records.sort_by_key(|record: &RunRecord| record.run);
+    let (info, inputs) = description.expect("there is a first shard");
+    Ok(JoinedShards { info, inputs, records })
+}
+
+/// Reads one shard, whose files must be as its manifest lists them.
+fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<RunRecord>), Diagnostic> {
+    let fault = |expected: &str| Diagnostic::of_file(folder.display().to_string(), expected);
+    let none =
+        || fault("is not the folder of a finished shard").hint("girderway sweep SWEEP --shard K/N makes one");
+    let manifest = fs::read(folder.join(MANIFEST)).map_err(|_| none())?;
+    let listed = listed_files(&manifest).ok_or_else(none)?;
+    let file = |name: &str| {
+        let bytes = fs::read(folder.join(name)).map_err(|_| none())?;
+        let entry = listed.iter().find(|entry| entry.name == name).ok_or_else(none)?;
+        if entry.sha256.as_deref() != Some(&sha256(&bytes)) {
+            return Err(fault(&format!("has a {name} that was changed")).hint("run the shard again"));
+        }
+        String::from_utf8(bytes).map_err(|_| none())
+    };
+    let shard: ShardFile = serde_json::from_str(&file(SHARD)?).map_err(|_| none())?;
+    if shard.format != FORMAT {
+        return Err(none());
+    }
+    Ok((shard, read_records(&file(ROWS)?)))
+}

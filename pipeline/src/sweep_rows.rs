@@ -1,0 +1,117 @@
+//! The runs of a sweep that are made: a file in the output folder to which each run is appended, from which an
+//! interrupted sweep resumes.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+use sweep::{RecordLines, RunRecord, read_records};
+
+use crate::exit::Failure;
+use crate::interrupt;
+use crate::output::cannot_write;
+use formats::text::diagnostic::Diagnostic;
+
+/// Name of the file in an output folder.
+const ROWS: &str = ".girderway-sweep";
+
+const FORMAT: &str = "girderway-sweep-rows/1";
+
+/// The file of runs. The caller holds the lock of the output folder.
+pub(crate) struct SweepRows {
+    path: PathBuf,
+    file: File,
+    lines: RecordLines,
+}
+
+impl SweepRows {
+    /// Opens the file in a folder for the sweep with a key, and returns the runs that it has. A line that an
+    /// interrupted process left unfinished is removed.
+    ///
+    /// # Errors
+    /// The file belongs to a sweep with another key, unless it may be discarded; an operation of the file system fails.
+    pub fn open(folder: &Path, key: &str, may_discard: bool) -> Result<(SweepRows, Vec<RunRecord>), Failure> {
+        let path = folder.join(ROWS);
+        let fail = |error: io::Error| cannot_write(&path, &error);
+        let text = match fs::read(&path) {
+            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
+            Err(error) => return Err(fail(error)),
+        };
+        let head = format!("{}\n", json!({ "format": FORMAT, "sweep": key }));
+        let records = match text.split_once('\n') {
+            Some((first, rest)) if format!("{first}\n") == head => read_records(rest),
+            // a process that was interrupted before it had written the first line
+            None => Vec::new(),
+            Some((first, _)) if !may_discard => return Err(other_sweep(folder, first)),
+            Some(_) => Vec::new(),
+        };
+        let mut lines = RecordLines::default();
+        let kept: String = records.iter().map(|record| lines.lines(record)).collect();
+        fs::write(&path, format!("{head}{kept}")).map_err(fail)?;
+        let file = OpenOptions::new().append(true).open(&path).map_err(fail)?;
+        interrupt::leaves_runs(folder);
+        Ok((SweepRows { path, file, lines }, records))
+    }
+
+    /// Appends a run.
+    ///
+    /// # Errors
+    /// The file cannot be written.
+    pub fn add(&mut self, record: &RunRecord) -> Result<(), Failure> {
+        let text = self.lines.lines(record);
+        self.file.write_all(text.as_bytes()).map_err(|error| cannot_write(&self.path, &error))
+    }
+
+    /// Removes the file, after the results are written.
+    pub fn remove(self) {
+        // a file that cannot be removed remains and is known by its key
+        let _ = fs::remove_file(&self.path);
+    }
+}
+
+/// The error of a folder with the runs of another sweep.
+fn other_sweep(folder: &Path, first: &str) -> Failure {
+    let is_ours = serde_json::from_str::<Value>(first).is_ok_and(|head| head["format"] == FORMAT);
+    let file = folder.join(ROWS).display().to_string();
+    let expected = if is_ours {
+        "holds the runs of another sweep that was interrupted, or of this one with other files or another version"
+    } else {
+        "is not a file of runs"
+    };
+    let fault = Diagnostic::of_file(file, expected);
+    fault.hint("name another folder with -o, or discard these runs with --force").into()
+}
+
+#[cfg(test)]
+mod tests {
+    use formats::sweep::Scalar;
+
+    use super::*;
+
+    #[test]
+    fn runs_of_a_dead_process_are_kept_and_a_torn_line_is_removed() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let record =
+            |run: usize| RunRecord { run, axes: vec![Scalar::Number(0.5)], outcome: Err("no".to_owned()) };
+        let (mut rows, known) = SweepRows::open(folder.path(), "key", false).expect("writable");
+        assert!(known.is_empty());
+        rows.add(&record(1)).expect("writable");
+        rows.add(&record(2)).expect("writable");
+        drop(rows);
+        let path = folder.path().join(ROWS);
+        let text = fs::read_to_string(&path).expect("readable");
+        fs::write(&path, &text[..text.len() - 5]).expect("writable");
+        let (mut rows, known) = SweepRows::open(folder.path(), "key", false).expect("writable");
+        assert_eq!(known, [record(1)]);
+        rows.add(&record(2)).expect("writable");
+        assert_eq!(fs::read_to_string(&path).expect("readable"), text);
+        drop(rows);
+        assert!(SweepRows::open(folder.path(), "other", false).is_err());
+        let (rows, known) = SweepRows::open(folder.path(), "other", true).expect("writable");
+        assert!(known.is_empty());
+        rows.remove();
+        assert!(!path.exists());
+    }
+}
