@@ -29,7 +29,7 @@ fn main() -> Outcome<()> {
     let document = Document::open(&wanted.scene).map_err(|_| "the scene cannot be read")?;
     let mut known = Vec::new();
     for (_, _, spec) in distinct_specs(&document) {
-        known.push(SolvedStructure { spec: spec.clone(), solution: solve(spec)? });
+        known.push(SolvedStructure { spec: spec.clone(), solution: solve(spec)?.into() });
     }
     print!(
         "{:12} {:>9} {:>10} {:>9} {:>7} {:>7} {:>7} {:>9} {:>9} {:>9}",

@@ -1,23 +1,13 @@
 //! What the program says when the user stops it with Ctrl-C.
 
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use outputs::journal::folder_at_work;
 
 /// Exit status of a program that was stopped by the keyboard: 128 and the number of the signal.
 const STOPPED: i32 = 130;
 
-/// The output folder in which the program is at work, if any.
-static FOLDER: Mutex<Option<PathBuf>> = Mutex::new(None);
-
-/// From now on a stop leaves the journal of a run in `folder`; `None`: it leaves nothing.
-pub(crate) fn leaves(folder: Option<&Path>) {
-    *FOLDER.lock().unwrap_or_else(PoisonError::into_inner) = folder.map(Path::to_owned);
-}
-
 /// What a stop leaves, in a sentence.
 fn left() -> String {
-    let folder = FOLDER.lock().unwrap_or_else(PoisonError::into_inner);
-    match folder.as_deref() {
+    match folder_at_work() {
         None => "girderway: stopped; no file was written or changed\n".to_owned(),
         Some(folder) => format!(
             "girderway: stopped; every file in {} is whole, those of an earlier result included; the next run there \

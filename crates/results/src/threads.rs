@@ -1,6 +1,9 @@
-//! A parallel map over the items of a list. No other module of the libraries of the workspace starts threads.
+//! Threads: a parallel map over the items of a list, and work that its caller watches. No other module of the libraries
+//! of the workspace starts threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::time::Duration;
 
 /// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine
 /// has) and returns the results in the order of the items. They do not depend on the number of threads.
@@ -43,6 +46,44 @@ pub fn parallel_map<T: Sync, R: Send>(
     });
     made.sort_by_key(|(index, _)| *index);
     made.into_iter().map(|(_, made)| made).collect()
+}
+
+/// Performs `work` on a thread of its own, and calls `watch` from the calling thread every `interval` until it is
+/// done. Where `watch` decides that the work shall stop, it says so by a flag that `work` reads.
+///
+/// ```
+/// use std::sync::atomic::{AtomicBool, Ordering};
+/// use std::time::Duration;
+///
+/// use results::threads::watched;
+///
+/// let stop = AtomicBool::new(false);
+/// let work = || {
+///     let mut rounds = 0_u64;
+///     while !stop.load(Ordering::Relaxed) {
+///         rounds += 1;
+///     }
+///     rounds
+/// };
+/// let rounds = watched(Duration::from_millis(1), work, || stop.store(true, Ordering::Relaxed));
+/// assert!(rounds > 0, "the work lasts until its caller has stopped it");
+/// ```
+///
+/// # Panics
+/// If `work` panics, with its message.
+pub fn watched<R: Send>(interval: Duration, work: impl FnOnce() -> R + Send, mut watch: impl FnMut()) -> R {
+    std::thread::scope(|scope| {
+        let (ended, ends) = mpsc::channel::<()>();
+        let worker = scope.spawn(move || {
+            // dropped when the work ends, also by a panic
+            let _ended = ended;
+            work()
+        });
+        while ends.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
+            watch();
+        }
+        worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
 }
 
 #[cfg(test)]

@@ -8,7 +8,6 @@ use serde_json::Value;
 use super::run::job;
 use crate::cli::{Global, SceneArgs as Arguments};
 use crate::exit::{Exit, Failure};
-use crate::manifest::{MANIFEST, OutputEntry, listed_files};
 use crate::progress::Progress;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
@@ -17,6 +16,7 @@ use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use foundations::SolvedModel;
 use foundations::{SolvedStructure, distinct_specs};
+use outputs::manifest::{MANIFEST, OutputEntry, listed_files};
 
 /// Hint of errors of the tables.
 const HINT: &str = "`girderway run` makes the tables";
@@ -36,7 +36,7 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedSt
         // a spec with pads is solved again because its pads depend on the scene, which may have changed
         if !spec.pads().is_empty() {
             let solved = foundations::solve(spec).map_err(Failure::untrusted)?;
-            known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved });
+            known.push(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solved) });
             continue;
         }
         let manifest = folder.join(MANIFEST);
@@ -45,7 +45,10 @@ fn load(document: &Document, folder: &Path, _: &Progress) -> Result<Vec<SolvedSt
         let listed =
             entries.iter().find(|entry| entry.name == grid).and_then(|entry| entry.sha256.as_deref());
         let path = folder.join(&grid);
-        known.push(SolvedStructure { spec: Arc::clone(spec), solution: solved(spec, &path, listed)? });
+        known.push(SolvedStructure {
+            spec: Arc::clone(spec),
+            solution: Arc::new(solved(spec, &path, listed)?),
+        });
     }
     Ok(known)
 }

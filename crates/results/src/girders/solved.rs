@@ -22,7 +22,7 @@ impl<'a> SolvedMembers<'a> {
     /// # Errors
     /// Those of [`MemberForces::new`].
     pub fn of(&self, solved: &SolvedModel) -> Option<Result<&MemberForces, trains::Error>> {
-        let index = self.known.iter().position(|entry| std::ptr::eq(&entry.solution, solved))?;
+        let index = self.known.iter().position(|entry| std::ptr::eq(&*entry.solution, solved))?;
         let members = self.members[index].get_or_init(|| MemberForces::new(&solved.model, &solved.rails));
         Some(members.as_ref().map_err(Clone::clone))
     }

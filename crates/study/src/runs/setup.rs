@@ -118,7 +118,10 @@ impl<'k> SetupCache<'k> {
             return Ok(at);
         }
         let of = |known: &SolvedStructure| {
-            Ok(SolvedStructure { spec: Arc::clone(&known.spec), solution: table(&known.solution, count)? })
+            Ok(SolvedStructure {
+                spec: Arc::clone(&known.spec),
+                solution: Arc::new(table(&known.solution, count)?),
+            })
         };
         let all = self.known.iter().map(of).collect::<Result<Vec<SolvedStructure>, Error>>()?;
         self.tables.push((count, all));
