@@ -160,7 +160,19 @@ impl From<WriteError> for Failure {
 
 impl From<results::Error> for Failure {
     fn from(error: results::Error) -> Self {
-        Failure::untrusted(error)
+        match error {
+            results::Error::Input(diagnostics) => Failure::Input(diagnostics),
+            other => Failure::untrusted(other),
+        }
+    }
+}
+
+impl From<outputs::Error> for Failure {
+    fn from(error: outputs::Error) -> Self {
+        match error {
+            outputs::Error::Files(diagnostics) => Failure::Input(diagnostics),
+            outputs::Error::NotShown(why) | outputs::Error::NoResults(why) => Failure::Untrusted(why),
+        }
     }
 }
 

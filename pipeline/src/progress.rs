@@ -80,6 +80,12 @@ impl Bar {
         self.0.set_position(position);
     }
 
+    /// Moves a bar to `position` of `length`.
+    pub fn set_of(&self, position: u64, length: u64) {
+        self.0.set_length(length);
+        self.0.set_position(position);
+    }
+
     /// Changes the message of a bar.
     pub fn name(&self, message: &str) {
         self.0.set_message(message.to_owned());

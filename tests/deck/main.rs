@@ -41,7 +41,7 @@ impl Loaded {
         let document = Document::open(path).expect("a valid scene");
         let solve = |spec: &Arc<_>| SolvedStructure {
             spec: Arc::clone(spec),
-            solution: foundations::solve(spec).expect("a structure that stands").into(),
+            solution: Arc::new(foundations::solve(spec).expect("a structure that stands")),
         };
         let known = distinct_specs(&document).into_iter().map(|(_, _, spec)| solve(spec)).collect();
         Loaded { document, known }

@@ -502,7 +502,9 @@ fn generated_scene(bytes: &[u8]) -> u64 {
     let mut known = Vec::new();
     for (_, _, spec) in distinct_specs(&document) {
         match foundations::solve(spec) {
-            Ok(solution) => known.push(SolvedStructure { spec: Arc::clone(spec), solution: solution.into() }),
+            Ok(solution) => {
+                known.push(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solution) })
+            }
             Err(error) => return signature([error.to_string().as_str()]),
         }
     }

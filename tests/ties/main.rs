@@ -165,7 +165,7 @@ fn run(scene: &str, girder: &str) -> Vec<CaseResult> {
         .into_iter()
         .map(|(_, _, spec)| SolvedStructure {
             spec: Arc::clone(spec),
-            solution: solve(spec).expect("it stands").into(),
+            solution: Arc::new(solve(spec).expect("it stands")),
         })
         .collect();
     simulate(&document, &known, None, &|_| ()).expect("runs")

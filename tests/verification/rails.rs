@@ -32,7 +32,7 @@ fn run(structure: &str, dof: &str, wheel: &str, scene: &str, survey: &str) -> Ca
         .into_iter()
         .map(|(_, _, spec)| SolvedStructure {
             spec: Arc::clone(spec),
-            solution: solve(spec).expect("it stands").into(),
+            solution: Arc::new(solve(spec).expect("it stands")),
         })
         .collect();
     simulate(&document, &known, None, &|_| ()).expect("runs").remove(0)

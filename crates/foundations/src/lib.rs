@@ -48,6 +48,7 @@ pub use select::{
     AutoRun, TrialObserver, check_name, fidelity_name, select_and_run, selection_doubt, selection_reason,
 };
 pub use solved::{
-    SolvedModel, SolvedStructure, SystemSize, distinct_specs, solution_of, solve, solve_specs, solve_to,
+    SolvedModel, SolvedStructure, StructureCache, SystemSize, distinct_specs, solution_of, solve,
+    solve_specs, solve_to,
 };
 pub use tables::influence_blocks;

@@ -1,6 +1,7 @@
 //! FE solutions of the structures of a scene, computed once for all foundations that are built from them.
 
-use std::sync::Arc;
+use std::collections::VecDeque;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use fea::FactoredFrame;
 use formats::grid::StationGrid;
@@ -123,12 +124,73 @@ pub fn solve_specs(
     document: &Document,
     specs: &[(String, &str, &Arc<Spec>)],
 ) -> Result<Vec<SolvedStructure>, SolveError> {
-    let solved = specs.iter().map(|&(_, file, spec)| {
-        let solution = solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
-            Some(Ok(source)) => spec.locate_error(&source, &error),
-            _ => SolveError::NoSolution(error.to_string()),
-        })?;
-        Ok(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solution) })
-    });
-    solved.collect()
+    specs.iter().map(|&(_, file, spec)| solve_spec(document, file, spec)).collect()
+}
+
+/// Solves one spec of a document, which was read from `file`.
+fn solve_spec(document: &Document, file: &str, spec: &Arc<Spec>) -> Result<SolvedStructure, SolveError> {
+    let solution = solve(spec).map_err(|error| match document.inputs.find(file).map(Input::source) {
+        Some(Ok(source)) => spec.locate_error(&source, &error),
+        _ => SolveError::NoSolution(error.to_string()),
+    })?;
+    Ok(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solution) })
+}
+
+/// Number of solutions that a [`StructureCache`] keeps.
+const KEPT: usize = 64;
+
+/// A solution that is computed once, by the first who asks.
+type Entry = (Arc<Spec>, Arc<OnceLock<Result<SolvedStructure, SolveError>>>);
+
+/// Solutions of the specs of many documents, each computed once and shared by all threads. The last 64 are kept.
+///
+/// ```
+/// use std::sync::Arc;
+///
+/// use formats::scene::Document;
+/// use foundations::{StructureCache, distinct_specs};
+///
+/// let cache = StructureCache::default();
+/// let document = Document::open("../../examples/bogie/scene.json".as_ref()).expect("a scene without faults");
+/// let [first, second] = [0, 1].map(|_| cache.solve(&document).expect("a girder that stands"));
+/// assert!(Arc::ptr_eq(&first[0].solution, &second[0].solution));
+/// assert_eq!(first.len(), distinct_specs(&document).len());
+/// ```
+#[derive(Default)]
+pub struct StructureCache {
+    entries: Mutex<VecDeque<Entry>>,
+}
+
+impl StructureCache {
+    /// The solutions of the distinct specs of a document ([`distinct_specs`]).
+    ///
+    /// # Errors
+    /// As [`solve_specs`].
+    pub fn solve(&self, document: &Document) -> Result<Vec<SolvedStructure>, SolveError> {
+        let specs = distinct_specs(document);
+        specs.iter().map(|&(_, file, spec)| self.solve_one(document, file, spec)).collect()
+    }
+
+    fn solve_one(
+        &self,
+        document: &Document,
+        file: &str,
+        spec: &Arc<Spec>,
+    ) -> Result<SolvedStructure, SolveError> {
+        let cell = {
+            let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
+            match entries.iter().find(|(known, _)| known == spec) {
+                Some((_, cell)) => Arc::clone(cell),
+                None => {
+                    if entries.len() == KEPT {
+                        entries.pop_front();
+                    }
+                    let cell = Arc::default();
+                    entries.push_back((Arc::clone(spec), Arc::clone(&cell)));
+                    cell
+                }
+            }
+        };
+        cell.get_or_init(|| solve_spec(document, file, spec)).clone()
+    }
 }

@@ -5,8 +5,8 @@ use formats::scene::{Document, Scene};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::fault::{Fault, Faults};
 use formats::text::place::Place;
-use formats::text::tree::TreeNode;
 
+use crate::Error;
 use crate::run_error::equilibrium_hint;
 
 /// Checks every case of a document as [`foundations::check_scene`] does, and locates what is wrong.
@@ -24,18 +24,7 @@ pub fn check(document: &Document) -> Result<(), Vec<Diagnostic>> {
     let mut wrong: Vec<Diagnostic> = Vec::new();
     for case in &document.cases {
         let Some(fault) = fault(&case.scene) else { continue };
-        let source = document.inputs.all()[0].source().map_err(|error| vec![*error])?;
-        let faults = Faults(vec![fault]);
-        let tree = source.tree();
-        let labelled = |entry: &TreeNode<'_>| {
-            let label = entry.member("label").and_then(|label| label.value.as_text());
-            label.is_some() && label == case.label.as_deref()
-        };
-        let comparisons = tree.root().member("compare").map(|list| list.value.items()).unwrap_or_default();
-        let found = match comparisons.iter().position(labelled) {
-            Some(index) => tree.diagnose_merged(index, &faults),
-            None => tree.diagnose(&faults),
-        };
+        let found = document.diagnose(case.label.as_deref(), &Faults(vec![fault]));
         wrong.extend(found.into_iter().filter(|new| !wrong.contains(new)).collect::<Vec<_>>());
     }
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
@@ -77,5 +66,23 @@ pub fn of_error(error: &foundations::Error, scene: &Scene) -> Option<Fault> {
             Some(fault.hint(hint))
         }
         _ => None,
+    }
+}
+
+/// Locates an error of the simulation in the scene: faults that only the solved structures show, and bodies without a
+/// static equilibrium on them. Other errors remain as they are.
+#[must_use]
+pub fn located(document: &Document, error: Error) -> Error {
+    let diagnosed = |fault: Fault| document.diagnose(None, &Faults(vec![fault]));
+    match &error {
+        Error::Foundation(found) => match of_error(found, document.scene()) {
+            Some(fault) => Error::Input(diagnosed(fault)),
+            None => error,
+        },
+        Error::Run { body: Some(body), .. } => {
+            let fault = Fault::new(&Place::root().key("bodies").key(body), error.to_string()).at_key();
+            Error::NoSolution(diagnosed(fault).iter().map(ToString::to_string).collect())
+        }
+        _ => error,
     }
 }

@@ -7,7 +7,7 @@
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sim::{Foundation, History, Run};
+use sim::{Foundation, History, Run, Status};
 
 use crate::Error;
 use crate::case_result::CaseResult;
@@ -57,6 +57,23 @@ pub fn simulate(
     threads: Option<u16>,
     progress: &(dyn Fn(SimulationProgress<'_>) + Sync),
 ) -> Result<Vec<CaseResult>, Error> {
+    let observed = |now: SimulationProgress<'_>| {
+        progress(now);
+        ControlFlow::Continue(())
+    };
+    simulate_while(document, known, threads, &observed)
+}
+
+/// Runs every case like [`simulate`], until `progress` breaks off.
+///
+/// # Errors
+/// Those of [`simulate`]; [`Error::Stopped`] where `progress` breaks off.
+pub fn simulate_while(
+    document: &Document,
+    known: &[SolvedStructure],
+    threads: Option<u16>,
+    progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
+) -> Result<Vec<CaseResult>, Error> {
     let cases = &document.cases;
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
     let members = SolvedMembers::new(known);
@@ -65,10 +82,13 @@ pub fn simulate(
             // with "auto" a case is run several times, and its time starts again from zero in each run
             done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
             let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
-            progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)));
-            ControlFlow::Continue(())
+            progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)))
         };
-        run_case(case, (known, &members), &|trial| progress(SimulationProgress::Trial(trial)), &mut watch)
+        let trial = |trial: &str| {
+            // the steps of the trial ask again whether to go on
+            let _ = progress(SimulationProgress::Trial(trial));
+        };
+        run_case(case, (known, &members), &trial, &mut watch)
     });
     outcomes.into_iter().collect()
 }
@@ -114,6 +134,9 @@ fn run_case(
         }
         other => Error::Foundation(other),
     })?;
+    if run.status == Status::Stopped {
+        return Err(Error::Stopped);
+    }
     let solved: Vec<Option<&SolvedModel>> =
         scene.structures.iter().map(|structure| solution_of(known, &structure.origin)).collect();
     let lines = response::influence_lines(&scene, &built, &solved)?;
@@ -126,12 +149,21 @@ fn run_case(
     }
     // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
     let mut left = if run.strike.is_some() { 0 } else { 1_usize };
+    let mut is_stopped = false;
     let mut repeat = |rows: usize| {
         left = left.checked_sub(1)?;
-        repeated(&scene, &input, &run, &foundations, rows)
+        let mut watch = |t: f64| {
+            let now = watch(t);
+            is_stopped |= now.is_break();
+            now
+        };
+        repeated(&scene, &input, &run, &foundations, rows, &mut watch)
     };
     let mut girders =
         girders::of_run(&prepared, (&scene, &input), [&run.history, &run.steps], &foundations, &mut repeat);
+    if is_stopped {
+        return Err(Error::Stopped);
+    }
     girders.reactions.iter_mut().for_each(|reaction| reaction.extend_to(&response.envelopes));
     run.steps = History::default();
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
@@ -152,12 +184,13 @@ fn repeated(
     run: &Run,
     foundations: &[Foundation],
     rows: usize,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Option<History> {
     if !run.status.is_complete() {
         return None;
     }
     let finer = sim::Scene { output_parts: rows, ..input.scene.clone() };
-    let again = sim::run_by(scene.stepping, &finer, foundations, &mut |_| ControlFlow::Continue(())).ok()?;
+    let again = sim::run_by(scene.stepping, &finer, foundations, watch).ok()?;
     again.status.is_complete().then_some(again.history)
 }
 

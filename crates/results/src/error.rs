@@ -1,11 +1,22 @@
 //! Errors of the evaluation of a checked scene.
 
 use formats::scene::motion::UnequalFractions;
+use formats::spec::SolveError;
+use formats::text::diagnostic::Diagnostic;
 use thiserror::Error;
 
 /// The reason why a scene has no results.
 #[derive(Debug, Error)]
 pub enum Error {
+    /// The scene or one of its files is invalid: every fault with its place.
+    #[error("{}", lines(.0))]
+    Input(Vec<Diagnostic>),
+    /// A structure or a scene has no trustworthy solution.
+    #[error("{0}")]
+    NoSolution(String),
+    /// The run was stopped by its observer.
+    #[error("the run was stopped")]
+    Stopped,
     /// A foundation cannot be built.
     #[error(transparent)]
     Foundation(#[from] foundations::Error),
@@ -67,4 +78,24 @@ pub enum Error {
         /// Time of the first such value.
         time: f64,
     },
+}
+
+/// One line for each diagnostic.
+fn lines(diagnostics: &[Diagnostic]) -> String {
+    diagnostics.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}
+
+impl From<Vec<Diagnostic>> for Error {
+    fn from(diagnostics: Vec<Diagnostic>) -> Self {
+        Error::Input(diagnostics)
+    }
+}
+
+impl From<SolveError> for Error {
+    fn from(error: SolveError) -> Self {
+        match error {
+            SolveError::Input(diagnostics) => Error::Input(diagnostics),
+            SolveError::NoSolution(why) => Error::NoSolution(why),
+        }
+    }
 }

@@ -25,7 +25,7 @@
 //! ```
 //!
 //! Wings, lowest first: error, threads, columns, layout, response, girders, codes, fatigue, case_result, run_error, before, warning,
-//! summary, observe, cases
+//! summary, observe, cases, scene_run, many
 
 pub mod before;
 pub mod case_result;
@@ -36,9 +36,11 @@ mod error;
 pub mod fatigue;
 pub mod girders;
 pub mod layout;
+pub mod many;
 pub mod observe;
 pub mod response;
 pub mod run_error;
+pub mod scene_run;
 pub mod summary;
 pub mod threads;
 pub mod warning;

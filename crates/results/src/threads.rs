@@ -1,7 +1,9 @@
-//! Parallel maps over the items of a list. No other module of the libraries of the workspace starts threads.
+//! Threads: parallel maps over the items of a list, and work that its caller watches. No other module of the libraries
+//! of the workspace starts threads.
 
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::mpsc::{self, RecvTimeoutError, SyncSender};
+use std::time::Duration;
 
 /// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine
 /// has) and returns the results in the order of the items. They do not depend on the number of threads.
@@ -46,6 +48,44 @@ pub fn parallel_map<T: Sync, R: Send>(
     made.into_iter().map(|(_, made)| made).collect()
 }
 
+/// Performs `work` on a thread of its own, and calls `watch` from the calling thread every `interval` until it is
+/// done. Where `watch` decides that the work shall stop, it says so by a flag that `work` reads.
+///
+/// ```
+/// use std::sync::atomic::{AtomicBool, Ordering};
+/// use std::time::Duration;
+///
+/// use results::threads::watched;
+///
+/// let stop = AtomicBool::new(false);
+/// let work = || {
+///     let mut rounds = 0_u64;
+///     while !stop.load(Ordering::Relaxed) {
+///         rounds += 1;
+///     }
+///     rounds
+/// };
+/// let rounds = watched(Duration::from_millis(1), work, || stop.store(true, Ordering::Relaxed));
+/// assert!(rounds > 0, "the work lasts until its caller has stopped it");
+/// ```
+///
+/// # Panics
+/// If `work` panics, with its message.
+pub fn watched<R: Send>(interval: Duration, work: impl FnOnce() -> R + Send, mut watch: impl FnMut()) -> R {
+    std::thread::scope(|scope| {
+        let (ended, ends) = mpsc::channel::<()>();
+        let worker = scope.spawn(move || {
+            // dropped when the work ends, also by a panic
+            let _ended = ended;
+            work()
+        });
+        while ends.recv_timeout(interval) == Err(RecvTimeoutError::Timeout) {
+            watch();
+        }
+        worker.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    })
+}
+
 /// Evaluates `work(item)` for each of `items` on `threads` threads (`None`: as many as the machine has) and passes each
 /// result to `receive` on the calling thread as soon as it is there, in any order. `receive` returns whether to go on;
 /// after `false` no further work begins. At most a few results wait, so that memory does not grow with the number of
@@ -73,7 +113,7 @@ pub fn parallel_stream<T: Sync, R: Send>(
     let available = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = threads.map_or(available, usize::from).clamp(1, items.len().max(1));
     let next = AtomicUsize::new(0);
-    let (sender, receiver) = sync_channel(2 * threads);
+    let (sender, receiver) = mpsc::sync_channel(2 * threads);
     let worker = |sender: SyncSender<(usize, R)>| {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);

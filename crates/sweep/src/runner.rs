@@ -1,37 +1,32 @@
 //! One run of a sweep.
 
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::ops::ControlFlow;
 
 use design::DesignError;
 use formats::design::Design;
-use formats::scene::{Document, Origin};
-use formats::spec::{SolveError, Spec};
+use formats::scene::{Document, SceneSource};
 use formats::sweep::{Scalar, Sweep, SweepInput};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use formats::units::Units;
-use foundations::{SolvedStructure, distinct_specs, solve_specs};
-use results::{before, cases, run_error};
+use foundations::StructureCache;
+use results::scene_run::SceneRun;
 
 use crate::outcome::{RunFailure, RunOutcome, RunRow};
 use crate::values;
-
-/// Number of solved structures that are kept, the ones used last.
-const KEPT: usize = 16;
 
 /// Runs the scene or design of a sweep. Solved structures are kept, so that each is solved once where the axes do not
 /// change it.
 pub struct Runner<'s> {
     sweep: &'s Sweep,
-    solved: Mutex<VecDeque<SolvedStructure>>,
+    solved: StructureCache,
 }
 
 impl<'s> Runner<'s> {
     /// A runner without solved structures.
     #[must_use]
-    pub const fn new(sweep: &'s Sweep) -> Runner<'s> {
-        Runner { sweep, solved: Mutex::new(VecDeque::new()) }
+    pub fn new(sweep: &'s Sweep) -> Runner<'s> {
+        Runner { sweep, solved: StructureCache::default() }
     }
 
     /// The files of a run: those of the scene or design with the values of the axes in them.
@@ -48,12 +43,10 @@ impl<'s> Runner<'s> {
     pub fn run_as_written(&self) -> Result<(Units, RunRow), RunFailure> {
         let inputs = self.sweep.target.inputs().clone();
         let units = match &self.sweep.input {
-            SweepInput::Scene(_) => {
-                Document::read_scene(inputs.clone()).map(|document| document.scene().units)
-            }
-            SweepInput::Design(_) => Design::read(inputs.clone()).map(|(design, _)| design.units),
+            SweepInput::Scene(_) => scene(inputs.clone())?.scene().units,
+            SweepInput::Design(_) => Design::read(inputs.clone()).map_err(|wrong| first(&wrong))?.0.units,
         };
-        Ok((units.map_err(|wrong| first(&wrong))?, self.run_files(inputs)?))
+        Ok((units, self.run_files(inputs)?))
     }
 
     /// Runs the scene or design with values of the axes, in their order.
@@ -73,15 +66,15 @@ impl<'s> Runner<'s> {
     }
 
     fn run_scene(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
-        let document = Document::read_scene(inputs).map_err(|wrong| first(&wrong))?;
-        before::check(&document).map_err(|wrong| first(&wrong))?;
-        let known = self.solved(&document)?;
-        let mut outcomes =
-            cases::simulate(&document, &known, Some(1), &|_| ()).map_err(|error| line(&error.to_string()))?;
-        let outcome = outcomes.pop().ok_or_else(|| "the scene has no case".to_owned())?;
-        match run_error::reason_incomplete(&outcome.run.status, document.scene()) {
+        let document = scene(inputs)?;
+        let run = SceneRun::of(document, &self.solved, Some(1), &|_| ControlFlow::Continue(()));
+        let run = run.map_err(|error| match error {
+            results::Error::Input(wrong) => first(&wrong),
+            other => line(&other.to_string()),
+        })?;
+        match run.reason_incomplete() {
             Some(why) => Err(line(&why).into()),
-            None => values::of_scene(&self.sweep.results, document.scene(), &outcome),
+            None => values::of_scene(&self.sweep.results, run.document.scene(), &run.cases[0]),
         }
     }
 
@@ -94,45 +87,11 @@ impl<'s> Runner<'s> {
         })?;
         values::of_design(&self.sweep.results, &design::summary(&read, &result))
     }
+}
 
-    /// The solved structures of a document: those kept, and the others solved and kept.
-    fn solved(&self, document: &Document) -> Result<Vec<SolvedStructure>, String> {
-        let specs = distinct_specs(document);
-        let kept = |spec: &Arc<Spec>| self.kept(spec);
-        let mut known: Vec<SolvedStructure> = specs.iter().filter_map(|(.., spec)| kept(spec)).collect();
-        let new: Vec<_> =
-            specs.into_iter().filter(|(.., spec)| known.iter().all(|entry| entry.spec != **spec)).collect();
-        let solved = solve_specs(document, &new).map_err(|error| match error {
-            SolveError::Input(wrong) => first(&wrong),
-            SolveError::NoSolution(why) => line(&why),
-        })?;
-        self.keep(&solved);
-        known.extend(solved);
-        // the foundations find a solution by the spec that the scene has
-        let origins = document.scene().structures.iter().map(|structure| &structure.origin);
-        debug_assert!(origins.into_iter().all(|origin| match origin {
-            Origin::Spec { spec, .. } => known.iter().any(|entry| entry.spec == *spec),
-            Origin::Tables { .. } => true,
-        }));
-        Ok(known)
-    }
-
-    fn kept(&self, spec: &Arc<Spec>) -> Option<SolvedStructure> {
-        let all = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
-        all.iter().find(|entry| entry.spec == *spec).cloned()
-    }
-
-    fn keep(&self, solved: &[SolvedStructure]) {
-        let mut all = self.solved.lock().unwrap_or_else(PoisonError::into_inner);
-        for entry in solved {
-            if all.iter().all(|known| known.spec != entry.spec) {
-                all.push_back(entry.clone());
-            }
-        }
-        while all.len() > KEPT {
-            all.pop_front();
-        }
-    }
+/// The scene of files, without its comparisons.
+fn scene(inputs: Inputs) -> Result<Document, String> {
+    SceneSource::of(inputs).and_then(|source| source.document(None, false)).map_err(|wrong| first(&wrong))
 }
 
 /// The first of several faults, and how many more there are.

@@ -7,6 +7,8 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use formats::text::diagnostic::Diagnostic;
+use outputs::files;
+use outputs::files::json as json_text;
 use report::chart::stack;
 use study::table_quality::{
     TableQuality, TableQualitySettings, TableReadingMethod, TableSource, figure, json, text,
@@ -42,15 +44,14 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     drop(bar);
     if let (Some(path), Some(form)) = (args.output.as_deref(), form) {
         let body = match form {
-            Form::Json => output::json(&json::json(&subject, &all)),
+            Form::Json => json_text(&json::json(&subject, &all)),
             Form::Page => figure::page(&subject, &all).map_err(Failure::untrusted)?,
             Form::Picture => drawing(&subject, &all)?,
         };
-        output::write(path, body.as_bytes())?;
+        files::write(path, body.as_bytes())?;
         progress.say(&format!("wrote {}", path.display()));
     }
-    let text =
-        if global.json { output::json(&json::json(&subject, &all)) } else { text::text(&subject, &all) };
+    let text = if global.json { json_text(&json::json(&subject, &all)) } else { text::text(&subject, &all) };
     output::print(&text)?;
     let failed = all.iter().any(|found| !found.verdicts.is_empty());
     Ok(if failed { Exit::Differs } else { Exit::Done })

@@ -8,8 +8,6 @@ use crate::crosscheck::{
     self, Environment, Error, Peer, PeerComparison, PeerOutcome, PlainGrid, Station, plot,
 };
 use crate::exit::{Exit, Failure};
-use crate::folder::{OutputFolder, PlannedFiles};
-use crate::manifest::Manifest;
 use crate::output;
 use crate::progress::Progress;
 use formats::grid::block::GridBlock;
@@ -18,6 +16,9 @@ use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use formats::text::source::Source;
 use formats::units::Dimension;
+use outputs::files::json as json_text;
+use outputs::folder::{OutputFolder, PlannedFiles};
+use outputs::manifest::Manifest;
 
 /// Ratio of effective shear area to area of a solid rectangle.
 const RECTANGLE: f64 = 5.0 / 6.0;
@@ -59,7 +60,7 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
             Err(why) => result.absent.push((peer, why)),
         }
     }
-    let text = if global.json { output::json(&result.json()) } else { result.table() };
+    let text = if global.json { json_text(&result.json()) } else { result.table() };
     output::print(&text)?;
     if let Some(mut folder) = folder {
         fill(&mut folder, &result, &check.spec)?;
@@ -176,7 +177,7 @@ fn broken(error: &Error) -> Failure {
 
 /// Adds the files of the output folder: the result as JSON and as text, and charts of the differences.
 fn fill(folder: &mut OutputFolder, result: &PeerComparison, spec: &Spec) -> Result<(), Failure> {
-    folder.add("crosscheck.json", output::json(&result.json()));
+    folder.add("crosscheck.json", json_text(&result.json()));
     folder.add("crosscheck.txt", result.table());
     let unit = spec.units.label(Dimension::LENGTH);
     for outcome in &result.outcomes {

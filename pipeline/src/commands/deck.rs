@@ -12,6 +12,8 @@ use deck::{self, DeckForm, check};
 use formats::scene::Document;
 use formats::text::diagnostic::Diagnostic;
 use foundations::distinct_specs;
+use outputs::files;
+use outputs::files::json as json_text;
 
 /// Writes the data set to the named file and its command file into the same folder, or the data set alone to
 /// standard output.
@@ -38,7 +40,8 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     if !unsupported.0.is_empty() {
         return Err(document.inputs.all()[0].source()?.diagnose(&unsupported).into());
     }
-    let only = Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone() };
+    let only =
+        Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone(), changes: None };
     results::before::check(&only)?;
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
@@ -53,7 +56,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
         None => output::print(&text)?,
         Some(path) => {
             let beside = command_file(path);
-            output::write_together(&[(path, text.as_bytes()), (&beside, deck.commands.as_bytes())])?;
+            files::write_together(&[(path, text.as_bytes()), (&beside, deck.commands.as_bytes())])?;
             progress.say(&format!("wrote {}", path.display()));
             progress.say(&format!("wrote {}", beside.display()));
         }
@@ -69,7 +72,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     }
     // if the data set is written to standard output, nothing else may be written there
     if global.json && args.output.is_some() {
-        output::print(&output::json(&report.json()))?;
+        output::print(&json_text(&report.json()))?;
     }
     if report.holds() {
         Ok(Exit::Done)

@@ -6,17 +6,13 @@ use serde_json::json;
 
 use crate::cli::{DesignArgs, Global};
 use crate::exit::{Exit, Failure};
-use crate::folder::{OutputFolder, PlannedFiles};
-use crate::manifest::Manifest;
 use crate::output;
 use crate::progress::Progress;
-use design::{DesignError, DesignResult, LimitCheck};
+use design::{DesignError, LimitCheck};
 use formats::design::Design;
 use formats::text::inputs::Inputs;
-use report::text::design_report::design_report;
-
-/// Files that the command writes.
-const FILES: [&str; 5] = ["envelope.csv", "reactions.csv", "influence.csv", "summary.json", "report.html"];
+use outputs::design_files::{SolvedDesign, open_design_folder};
+use outputs::files::json as json_text;
 
 /// Reads and solves the design, and writes its tables, summary and report.
 ///
@@ -28,7 +24,7 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     Progress::new(global).warn_of_commas(&inputs);
     let folder = || PathBuf::from("girderway-out").join(format!("{}-design", read.name));
     let path = args.output.clone().unwrap_or_else(folder);
-    let result = of_design(&read, &inputs, &path, args.force, global)?;
+    let SolvedDesign { result, .. } = of_design(&read, inputs, &path, args.force, global)?;
     let strained = result.stresses.iter().filter(|stress| stress.utilisation() > 1.0);
     let (limits, stresses) =
         (result.limits.iter().filter(|limit| !limit.within()).count(), strained.clone().count());
@@ -48,33 +44,22 @@ pub fn run(args: &DesignArgs, global: Global) -> Result<Exit, Failure> {
     Err(Failure::Differs(said.join("; ")))
 }
 
-/// Solves a design that is read, and writes its tables, summary and report.
+/// Solves a design that is read, and writes its files into a folder.
 pub(super) fn of_design(
     read: &Design,
-    inputs: &Inputs,
+    inputs: Inputs,
     path: &Path,
     force: bool,
     global: Global,
-) -> Result<DesignResult, Failure> {
+) -> Result<SolvedDesign, Failure> {
     let progress = Progress::new(global);
-    let planned =
-        PlannedFiles { names: FILES.iter().map(|name| (*name).to_owned()).collect(), plots: Vec::new() };
-    let mut folder = OutputFolder::open(path, "design", force, &planned)?;
-    let read = design::with_combinations(read);
-    let failed = |error| match error {
+    let folder = open_design_folder(path, force)?;
+    let solved = SolvedDesign::of(read, inputs).map_err(|error| match error {
         DesignError::Input(diagnostics) => Failure::Input(diagnostics),
         DesignError::NoSolution(why) => Failure::Untrusted(why),
-    };
-    let result = design::solve(&read, inputs).map_err(failed)?;
-    let lines = design::governing_lines(&read, inputs, &result).map_err(failed)?;
-    let summary = design::summary(&read, &result);
-    folder.add("envelope.csv", design::envelope_csv(&read, &result).map_err(Failure::untrusted)?);
-    folder.add("reactions.csv", design::reactions_csv(&result).map_err(Failure::untrusted)?);
-    folder.add("influence.csv", design::influence_csv(&read, &lines).map_err(Failure::untrusted)?);
-    folder.add("summary.json", output::json(&summary));
-    let report = design_report(&read, &result, &lines);
-    folder.add("report.html", report.html(global.threads).map_err(Failure::untrusted)?);
-    let written = folder.commit(Manifest::new("design", inputs, json!({})))?;
+    })?;
+    let written = solved.write(folder, global.threads)?;
+    let SolvedDesign { design: read, result, .. } = &solved;
     for warning in &result.warnings {
         progress.say(&format!("warning: {warning}"));
     }
@@ -83,10 +68,10 @@ pub(super) fn of_design(
     }
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
-        let all = json!({ "output": written.display().to_string(), "summary": summary });
-        output::print(&output::json(&all))?;
+        let all = json!({ "output": written.display().to_string(), "summary": solved.summary() });
+        output::print(&json_text(&all))?;
     }
-    Ok(result)
+    Ok(solved)
 }
 
 /// The limit that is exceeded most, in words.

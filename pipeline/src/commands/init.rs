@@ -6,11 +6,13 @@ use serde_json::json;
 
 use crate::cli::{Global, InitArgs, Starter};
 use crate::exit::{Exit, Failure};
-use crate::folder::check_path;
 use crate::output;
 use crate::progress::Progress;
 use formats::schema;
 use formats::text::diagnostic::Diagnostic;
+use outputs::files;
+use outputs::files::json as json_text;
+use outputs::folder::check_path;
 
 /// Folder of the schemas, in that of the files.
 const SCHEMAS: &str = "schema";
@@ -67,16 +69,16 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
     if !taken.is_empty() {
         return Err(taken.into());
     }
-    output::make(&folder.join(SCHEMAS))?;
+    files::make(&folder.join(SCHEMAS))?;
     for (path, text) in &files {
-        output::write_new(path, text.as_bytes())?;
+        files::write_new(path, text.as_bytes())?;
         progress.say(&format!("wrote {}", path.display()));
     }
     let scene = files[0].0.display().to_string();
     progress.say(&format!("next: girderway run {scene}"));
     if global.json {
         let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
-        output::print(&output::json(&json!({ "scene": scene, "files": names })))?;
+        output::print(&json_text(&json!({ "scene": scene, "files": names })))?;
     }
     Ok(Exit::Done)
 }
@@ -85,7 +87,7 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
 fn schemas() -> Vec<(&'static str, String)> {
     let all =
         [("beam.json", schema::beam()), ("scene.json", schema::scene()), ("design.json", schema::design())];
-    all.into_iter().map(|(name, schema)| (name, output::json(&schema))).collect()
+    all.into_iter().map(|(name, schema)| (name, json_text(&schema))).collect()
 }
 
 /// A file with the path of its schema as its first member; a file without a schema as it is.

@@ -9,7 +9,6 @@ pub mod fea;
 mod fewest;
 pub mod import;
 pub mod init;
-mod planned;
 pub mod run;
 pub mod schema;
 pub mod sections;

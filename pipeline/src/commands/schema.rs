@@ -5,6 +5,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use formats::schema;
+use outputs::files::json as json_text;
 
 /// Writes the schema to the named file or to standard output.
 ///
@@ -19,6 +20,6 @@ pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
         SchemaArg::Sweep => schema::sweep(),
         SchemaArg::Summary => results::summary::schema(),
     };
-    output::deliver(args.output.as_deref(), &output::json(&schema), &Progress::new(global))?;
+    output::deliver(args.output.as_deref(), &json_text(&schema), &Progress::new(global))?;
     Ok(Exit::Done)
 }

@@ -7,6 +7,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use formats::text::diagnostic::Diagnostic;
 use formats::text::fault::alternatives;
+use outputs::files::json as json_text;
 use sections::{RailProfile, RolledSection, STEEL_DENSITY, SectionSeries, crane_rails, rolled_sections};
 
 /// Millimetres in an inch.
@@ -34,7 +35,7 @@ pub fn run(args: &SectionsArgs, global: Global) -> Result<Exit, Failure> {
     let text = if global.json {
         let sections: Vec<Value> = found.iter().map(|section| section_json(section)).collect();
         let rails: Vec<Value> = rails.iter().map(|rail| rail_json(rail)).collect();
-        output::json(&json!({ "sections": sections, "crane_rails": rails }))
+        json_text(&json!({ "sections": sections, "crane_rails": rails }))
     } else {
         [metric(&found), american(&found), rail_table(&rails)]
             .into_iter()

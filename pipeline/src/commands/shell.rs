@@ -4,9 +4,10 @@ use clap::CommandFactory;
 
 use crate::cli::{Cli, CompletionsArgs, Global, ManArgs};
 use crate::exit::{Exit, Failure};
-use crate::folder::check_path;
 use crate::output;
 use crate::progress::Progress;
+use outputs::files;
+use outputs::folder::check_path;
 
 /// Writes the completions of a shell to standard output.
 ///
@@ -35,7 +36,7 @@ pub fn man(args: &ManArgs, global: Global) -> Result<Exit, Failure> {
         return Ok(Exit::Done);
     };
     check_path(folder)?;
-    output::make(folder)?;
+    files::make(folder)?;
     let commands: Vec<clap::Command> = command.get_subcommands().cloned().collect();
     for command in std::iter::once(command).chain(commands) {
         if command.get_name() == "help" {

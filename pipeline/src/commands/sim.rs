@@ -8,7 +8,6 @@ use serde_json::Value;
 use super::run::job;
 use crate::cli::{Global, SceneArgs as Arguments};
 use crate::exit::{Exit, Failure};
-use crate::manifest::{MANIFEST, OutputEntry, listed_files};
 use crate::progress::Progress;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
@@ -17,6 +16,7 @@ use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use foundations::SolvedModel;
 use foundations::{SolvedStructure, distinct_specs};
+use outputs::manifest::{MANIFEST, OutputEntry, listed_files};
 
 /// Hint of errors of the tables.
 const HINT: &str = "`girderway run` makes the tables";

@@ -18,6 +18,7 @@ use formats::text::fault::{Fault, Faults};
 use formats::text::inputs::{Input, Inputs};
 use formats::text::place::Place;
 use formats::units::Units;
+use outputs::files::json as json_text;
 use study::table_quality::TableReadingMethod;
 
 /// Reads a grid or tables and writes tables, to a file in the format of its extension or to standard output as an
@@ -69,7 +70,7 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     if let Some(path) = args.output.as_ref().filter(|_| global.json) {
         summary.insert("output".into(), json!(path.display().to_string()));
         summary.insert("tables".into(), json!(set.tables.len()));
-        output::print(&output::json(&Value::Object(summary)))?;
+        output::print(&json_text(&Value::Object(summary)))?;
     }
     Ok(Exit::Done)
 }

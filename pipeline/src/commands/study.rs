@@ -7,13 +7,14 @@ use serde_json::json;
 
 use crate::cli::{Global, StudyArgs as Arguments};
 use crate::exit::{Exit, Failure};
-use crate::folder::{OutputFolder, PlannedFiles};
-use crate::manifest::Manifest;
 use crate::output;
 use crate::progress::Progress;
 use formats::scene::{Case, Document};
 use formats::text::diagnostic::Diagnostic;
 use foundations::{SolvedStructure, distinct_specs};
+use outputs::files::json as json_text;
+use outputs::folder::{OutputFolder, PlannedFiles};
+use outputs::manifest::Manifest;
 use study::stability::{self, MapSubject, MapVerdict};
 use study::{self, SettingFamily, Study, StudyBudget, StudyPoint};
 
@@ -30,6 +31,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let chosen = Document {
         cases: document.cases.iter().filter(|case| case.label == label).cloned().collect(),
         inputs: document.inputs.clone(),
+        changes: None,
     };
     document.cases = vec![case(&document, args)?];
     results::before::check(&chosen)?;
@@ -49,9 +51,9 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     let study = study::study(&scene, &known, &budget, &progress)?;
 
     let result = study::json(&study, &scene, &budget);
-    folder.add("study.json", output::json(&result));
+    folder.add("study.json", json_text(&result));
     folder.add("study.csv", study::csv(&study).map_err(Failure::untrusted)?);
-    folder.add_varying("timing.json", output::json(&study::timing_json(&study)));
+    folder.add_varying("timing.json", json_text(&study::timing_json(&study)));
     folder.add_varying("timing.csv", study::timing_csv(&study).map_err(Failure::untrusted)?);
     for figure in study::figures(&study, &name).map_err(Failure::untrusted)? {
         let file = format!("plots/{}.svg", figure.name);
@@ -82,7 +84,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
         let all = json!({ "output": written.display().to_string(), "study": result });
-        output::print(&output::json(&all))?;
+        output::print(&json_text(&all))?;
     }
     judge(&study, &budget)
 }
@@ -110,7 +112,7 @@ fn stability(
     let subject = MapSubject::of(document.scene(), known).map_err(Failure::Differs)?;
     let (maps, absent) = stability::maps(&subject, args.quick, &progress);
     let result = stability::json(&maps, &absent);
-    folder.add("stability.json", output::json(&result));
+    folder.add("stability.json", json_text(&result));
     folder.add("stability.csv", stability::csv(&maps).map_err(Failure::untrusted)?);
     for map in &maps {
         let figures = stability::figures(map).map_err(Failure::untrusted)?;
@@ -132,7 +134,7 @@ fn stability(
     progress.say(&format!("wrote {}", written.display()));
     if global.json {
         let all = json!({ "output": written.display().to_string(), "stability": result });
-        output::print(&output::json(&all))?;
+        output::print(&json_text(&all))?;
     }
     match maps.iter().find(|map| map.silent_count() > 0) {
         None => Ok(Exit::Done),

@@ -14,7 +14,7 @@ mod values;
 
 pub(crate) use raw::{RawColumns, RawNode, RawPick, RawScene};
 
-pub use document::{Case, Document};
+pub use document::{Case, Document, SceneSource};
 pub use values::actuator::{Event, Load, Rope, Spin, Stop, StopPoint};
 pub use values::body::{Body, BodyMotion, DOFS, Drive};
 pub use values::output::{ColumnSelection, Fatigue, Output};

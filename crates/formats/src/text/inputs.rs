@@ -74,6 +74,37 @@ impl Inputs {
         Ok(Inputs { folder, read: vec![first] })
     }
 
+    /// A first file that exists in memory alone, and whose references are relative to `folder`. Messages call it `name`.
+    ///
+    /// ```
+    /// use formats::text::inputs::Inputs;
+    ///
+    /// let (inputs, source) = Inputs::of_text("spec", "{}".to_owned(), "models".as_ref());
+    /// assert_eq!((inputs.all()[0].name.as_str(), source.name.as_str()), ("spec", "spec"));
+    /// assert_eq!(inputs.all()[0].bytes, b"{}");
+    /// ```
+    #[must_use]
+    pub fn of_text(name: &str, text: String, folder: &Path) -> (Inputs, Source) {
+        let mut inputs = Inputs { folder: folder.to_path_buf(), read: Vec::new() };
+        inputs.add(name, text.clone().into_bytes());
+        (inputs, Source { name: name.to_owned(), text })
+    }
+
+    /// Adds a file that exists in memory alone, and to which others refer by `name`.
+    pub fn add(&mut self, name: &str, bytes: Vec<u8>) {
+        let sha256 = sha256(&bytes);
+        self.read.push(Input { name: name.to_owned(), display_name: name.to_owned(), sha256, bytes });
+    }
+
+    /// Adds files that were read for another job of the same folder, so that they are not read again.
+    pub fn keep<'i>(&mut self, files: impl IntoIterator<Item = &'i Input>) {
+        for file in files {
+            if self.find(&file.name).is_none() {
+                self.read.push(file.clone());
+            }
+        }
+    }
+
     /// Reads a file to which another one refers, or returns the stored contents if it has been read before.
     ///
     /// # Errors

@@ -180,11 +180,7 @@ impl<'s> Tree<'s> {
         }
         let mut wrong: Vec<Diagnostic> = types.iter().map(|located| self.located(located)).collect();
         wrong.extend(self.diagnose(&faults));
-        wrong.extend(
-            self.error
-                .iter()
-                .map(|SyntaxError { message, offset, path }| self.not_json(message, *offset, path)),
-        );
+        wrong.extend(self.syntax_error());
         if wrong.is_empty() {
             // a check that has no result reports why
             wrong.push(Diagnostic::of_file(&self.source.name, "cannot be read"));
@@ -193,7 +189,7 @@ impl<'s> Tree<'s> {
     }
 
     /// The diagnostic for a file whose `format` is a different one.
-    fn other_format(&self, format: &str) -> Option<Diagnostic> {
+    pub(crate) fn other_format(&self, format: &str) -> Option<Diagnostic> {
         let found = self.root.member("format")?.value.as_text()?;
         let mut faults = Faults::default();
         faults.one_of(found, &Place::root().key("format"), &[(format, ())]);
@@ -238,6 +234,35 @@ impl<'s> Tree<'s> {
         sorted(faults.0.iter().map(place).collect())
     }
 
+    /// Locates a fault of the document that results from merging the object `changes` into this one, and the object at
+    /// `compare[index]` of this one into the result: in the last of the three that contains its path, or else in the
+    /// last one.
+    #[must_use]
+    pub fn diagnose_changed(
+        &self,
+        changes: &Tree<'_>,
+        index: Option<usize>,
+        faults: &Faults,
+    ) -> Vec<Diagnostic> {
+        let place = |fault: &Fault| {
+            if let Some(index) = index {
+                let entry = [Step::Key("compare".to_owned()), Step::Index(index)];
+                let inside = Path(entry.iter().chain(&fault.path.0).cloned().collect());
+                if self.root.find(&inside).is_whole {
+                    return self.place(fault, &inside);
+                }
+            }
+            let is_changed = changes.root.find(&fault.path).is_whole;
+            let is_base = self.root.find(&fault.path).is_whole;
+            if is_changed || !is_base {
+                changes.place(fault, &fault.path)
+            } else {
+                self.place(fault, &fault.path)
+            }
+        };
+        sorted(faults.0.iter().map(place).collect())
+    }
+
     /// Locates a fault at the byte of `path`, or of the last part of the path that exists in the text.
     fn place(&self, fault: &Fault, path: &Path) -> Diagnostic {
         // in a text that is not JSON, such as a table, no place can be determined
@@ -262,6 +287,21 @@ impl<'s> Tree<'s> {
             hint: fault.hint.clone(),
             excerpt: offset.map(|offset| Excerpt::new(&self.source.text, offset)),
         }
+    }
+
+    /// The syntax error, if the text is not JSON.
+    #[must_use]
+    pub fn syntax_error(&self) -> Option<Diagnostic> {
+        let SyntaxError { message, offset, path } = self.error.as_ref()?;
+        Some(self.not_json(message, *offset, path))
+    }
+
+    /// Duplicate keys anywhere.
+    #[must_use]
+    pub fn duplicates(&self) -> Faults {
+        let mut faults = Faults::default();
+        find_duplicates(&self.root, Path::default(), &mut faults);
+        faults
     }
 
     /// Duplicate keys in the value at `key` and anywhere within it.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::exit::Failure;
+use crate::Error;
 use crate::folder::{PlannedFiles, is_too_long};
 use adams::SplineValues;
 use formats::scene::{Case, Document};
@@ -19,7 +19,7 @@ const FAMILIES: [&str; 8] =
 
 /// Files that `command`, `run` or `sim`, writes for a scene. Without them: pictures of single columns, and the grids
 /// that `sim` reads and checks itself.
-pub(super) fn planned_files(command: &str, document: &Document) -> PlannedFiles {
+pub fn planned_files(command: &str, document: &Document) -> PlannedFiles {
     let mut names: Vec<String> =
         ["summary.json", "report.html", "timing.json"].into_iter().map(str::to_owned).collect();
     for (name, _, spec) in distinct_specs(document) {
@@ -52,7 +52,7 @@ fn of_case(table: &str, case: &Case) -> String {
 ///
 /// # Errors
 /// Such names, with their places.
-pub(super) fn check_names(document: &Document, folder: &Path) -> Result<(), Failure> {
+pub fn check_names(document: &Document, folder: &Path) -> Result<(), Error> {
     let root = Place::root();
     let (structures, comparisons) = (root.key("structures"), root.key("compare"));
     let mut faults = Faults::default();
@@ -78,6 +78,5 @@ pub(super) fn check_names(document: &Document, folder: &Path) -> Result<(), Fail
     if faults.0.is_empty() {
         return Ok(());
     }
-    let source = document.inputs.all()[0].source()?;
-    Err(Failure::Input(source.diagnose(&faults)))
+    Err(Error::Files(document.diagnose(None, &faults)))
 }

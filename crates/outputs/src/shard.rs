@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::{Value, json};
 use sweep::{RunRecord, SweepInfo, read_records};
 
-use crate::exit::Failure;
+use crate::Error;
 use crate::manifest::{InputEntry, MANIFEST, listed_files};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::sha256;
@@ -72,7 +72,7 @@ struct ShardFile {
 /// # Errors
 /// A folder without a whole shard, shards of different sweeps, a shard that is there twice, shards or runs that are
 /// missing; all faults of a kind at once.
-pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Failure> {
+pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
     let mut wrong = Vec::new();
     let mut read: Vec<(&Path, ShardFile, Vec<RunRecord>)> = Vec::new();
     for folder in folders {
@@ -81,7 +81,7 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Failure> 
             Err(diagnostic) => wrong.push(diagnostic),
         }
     }
-    let Some((first, known, _)) = read.first() else { return Err(Failure::Input(wrong)) };
+    let Some((first, known, _)) = read.first() else { return Err(Error::Files(wrong)) };
     let (of, runs) = (known.of, known.info.runs);
     let mut seen: BTreeMap<usize, &Path> = BTreeMap::new();
     for (folder, shard, records) in &read {
@@ -106,7 +106,7 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Failure> 
         wrong.push(Diagnostic::of_file("command line", expected).hint("name the folder of each shard"));
     }
     if !wrong.is_empty() {
-        return Err(Failure::Input(wrong));
+        return Err(Error::Files(wrong));
     }
     let mut records = Vec::with_capacity(runs);
     let mut description = None;

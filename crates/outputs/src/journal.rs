@@ -3,16 +3,46 @@
 use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Read, Write};
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use serde_json::json;
 
-use crate::interrupt;
 use crate::manifest::OutputEntry;
 
 /// Name of the journal in an output folder.
 pub const JOURNAL: &str = ".girderway-journal";
 
 const FORMAT: &str = "girderway-journal/1";
+
+/// The output folder in which the program is at work, if any.
+static FOLDER: Mutex<Option<PathBuf>> = Mutex::new(None);
+
+/// Whether that folder keeps the runs of a sweep.
+static KEEPS_RUNS: AtomicBool = AtomicBool::new(false);
+
+/// From now on a stop of the program leaves the journal of a run in `folder`; `None`: it leaves nothing.
+fn enter(folder: Option<&Path>) {
+    KEEPS_RUNS.store(false, Ordering::Relaxed);
+    *FOLDER.lock().unwrap_or_else(PoisonError::into_inner) = folder.map(Path::to_owned);
+}
+
+/// The output folder in which the program is at work, which a stop would leave with its journal.
+#[must_use]
+pub fn folder_at_work() -> Option<PathBuf> {
+    FOLDER.lock().unwrap_or_else(PoisonError::into_inner).clone()
+}
+
+/// From now on a stop of the program leaves the runs of a sweep in the folder.
+pub(crate) fn keeps_runs() {
+    KEEPS_RUNS.store(true, Ordering::Relaxed);
+}
+
+/// Whether a stop leaves the runs of a sweep in the folder, from which the same command resumes.
+#[must_use]
+pub fn would_resume() -> bool {
+    KEEPS_RUNS.load(Ordering::Relaxed)
+}
 
 /// The journal of the run that writes into a folder. The run holds the lock on it until it ends or dies.
 ///
@@ -70,7 +100,7 @@ impl Journal {
     /// The journal cannot be written.
     pub fn begin(&mut self, command: &str) -> io::Result<()> {
         let line = json!({ "format": FORMAT, "command": command });
-        interrupt::leaves(self.path.parent());
+        enter(self.path.parent());
         self.append(&format!("\n{line}\n"))
     }
 
@@ -96,7 +126,7 @@ impl Journal {
     /// The journal cannot be removed.
     pub fn remove(&self) -> io::Result<()> {
         fs::remove_file(&self.path)?;
-        interrupt::leaves(None);
+        enter(None);
         Ok(())
     }
 }

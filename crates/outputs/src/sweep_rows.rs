@@ -8,9 +8,9 @@ use std::path::{Path, PathBuf};
 use serde_json::{Value, json};
 use sweep::{RecordLines, RunRecord, read_records};
 
-use crate::exit::Failure;
-use crate::interrupt;
-use crate::output::cannot_write;
+use crate::Error;
+use crate::files::cannot_write;
+use crate::journal::keeps_runs;
 use formats::text::diagnostic::Diagnostic;
 
 /// Name of the file in an output folder.
@@ -31,7 +31,7 @@ impl SweepRows {
     ///
     /// # Errors
     /// The file belongs to a sweep with another key, unless it may be discarded; an operation of the file system fails.
-    pub fn open(folder: &Path, key: &str, may_discard: bool) -> Result<(SweepRows, Vec<RunRecord>), Failure> {
+    pub fn open(folder: &Path, key: &str, may_discard: bool) -> Result<(SweepRows, Vec<RunRecord>), Error> {
         let path = folder.join(ROWS);
         let fail = |error: io::Error| cannot_write(&path, &error);
         let text = match fs::read(&path) {
@@ -51,7 +51,7 @@ impl SweepRows {
         let kept: String = records.iter().map(|record| lines.lines(record)).collect();
         fs::write(&path, format!("{head}{kept}")).map_err(fail)?;
         let file = OpenOptions::new().append(true).open(&path).map_err(fail)?;
-        interrupt::leaves_runs(folder);
+        keeps_runs();
         Ok((SweepRows { path, file, lines }, records))
     }
 
@@ -59,7 +59,7 @@ impl SweepRows {
     ///
     /// # Errors
     /// The file cannot be written.
-    pub fn add(&mut self, record: &RunRecord) -> Result<(), Failure> {
+    pub fn add(&mut self, record: &RunRecord) -> Result<(), Error> {
         let text = self.lines.lines(record);
         self.file.write_all(text.as_bytes()).map_err(|error| cannot_write(&self.path, &error))
     }
@@ -72,7 +72,7 @@ impl SweepRows {
 }
 
 /// The error of a folder with the runs of another sweep.
-fn other_sweep(folder: &Path, first: &str) -> Failure {
+fn other_sweep(folder: &Path, first: &str) -> Error {
     let is_ours = serde_json::from_str::<Value>(first).is_ok_and(|head| head["format"] == FORMAT);
     let file = folder.join(ROWS).display().to_string();
     let expected = if is_ours {

@@ -7,10 +7,10 @@ use std::path::{Component, Path, PathBuf};
 
 use tempfile::TempDir;
 
-use crate::exit::Failure;
+use crate::Error;
+use crate::files::{TEMPORARY, cannot_write, clear_dead_files, folder_of, sync, temporaries};
 use crate::journal::Journal;
 use crate::manifest::{MANIFEST, Manifest, OutputEntry, listed_files};
-use crate::output::{TEMPORARY, cannot_write, clear_dead_files, folder_of, sync, temporaries};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::sha256;
 
@@ -55,7 +55,7 @@ impl OutputFolder {
         command: &str,
         force: bool,
         planned: &PlannedFiles,
-    ) -> Result<OutputFolder, Failure> {
+    ) -> Result<OutputFolder, Error> {
         check_path(path)?;
         let fail = |error: io::Error| cannot_write(path, &error);
         let mut created: Vec<PathBuf> =
@@ -117,7 +117,7 @@ impl OutputFolder {
     }
 
     /// Checks that the program may replace the files of these names.
-    fn check_owner<'n>(&self, names: impl Iterator<Item = &'n str>) -> Result<(), Failure> {
+    fn check_owner<'n>(&self, names: impl Iterator<Item = &'n str>) -> Result<(), Error> {
         let mut foreign: Vec<Diagnostic> = Vec::new();
         for name in names {
             let path = self.path.join(name);
@@ -185,7 +185,7 @@ impl OutputFolder {
     /// # Errors
     /// A file that would be replaced belongs to somebody else, or an operation of the file system fails; the error
     /// contains the name of the file.
-    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Failure> {
+    pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Error> {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
         for (name, bytes, fixed) in &self.files {
             let sha256 = fixed.then(|| sha256(bytes));
@@ -295,7 +295,7 @@ impl Drop for OutputFolder {
 ///
 /// # Errors
 /// Part of the path is a file.
-pub fn check_path(path: &Path) -> Result<(), Failure> {
+pub fn check_path(path: &Path) -> Result<(), Error> {
     let there = path.ancestors().find(|part| !part.as_os_str().is_empty() && part.exists());
     if let Some(part) = there.filter(|part| !part.is_dir()) {
         let expected = format!("cannot be an output folder: {} is a file", part.display());

@@ -3,7 +3,7 @@ use crate::journal::JOURNAL;
 use formats::text::inputs::Inputs;
 use serde_json::{Value, json};
 
-fn open(path: &Path, force: bool, names: &[&str]) -> Result<OutputFolder, Failure> {
+fn open(path: &Path, force: bool, names: &[&str]) -> Result<OutputFolder, Error> {
     let names = names.iter().map(|name| (*name).to_owned()).collect();
     OutputFolder::open(path, "run", force, &PlannedFiles { names, plots: vec!["path-".to_owned()] })
 }
@@ -43,7 +43,7 @@ fn read(path: &Path) -> String {
     fs::read_to_string(path).expect("a readable file")
 }
 
-fn message(failure: &Failure) -> String {
+fn message(failure: &Error) -> String {
     failure.report(false)
 }
 

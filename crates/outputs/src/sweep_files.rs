@@ -1,0 +1,177 @@
+//! The files of a sweep: all its runs, those of a shard, and shards joined.
+
+use std::collections::BTreeSet;
+use std::ops::ControlFlow;
+use std::path::{Path, PathBuf};
+
+use serde_json::{Value, json};
+use sweep::{RecordLines, ResultTable, RunFailure, RunPlan, RunRecord, Runner, SweepInfo};
+
+use crate::Error;
+use crate::files::json as json_text;
+use crate::folder::{OutputFolder, PlannedFiles};
+use crate::manifest::{InputEntry, Manifest};
+use crate::shard::{ROWS, SHARD, Shard, read_shards};
+use crate::sweep_rows::SweepRows;
+use formats::sweep::Sweep;
+use formats::text::fault::{Fault, Faults};
+use formats::text::inputs::{Inputs, sha256};
+use formats::text::place::Place;
+use report::text::sweep_report::sweep_report;
+use results::threads::parallel_stream;
+
+/// Files that a sweep writes.
+const FILES: [&str; 5] = ["results.csv", "results.parquet", "failures.csv", "summary.json", "report.html"];
+
+/// How far a sweep is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SweepProgress {
+    /// Runs that an interrupted sweep has left, and the number of all runs.
+    Resumed(usize, usize),
+    /// Runs that are made, and the number of those that were to be made.
+    Made(usize, usize),
+}
+
+/// What was written for a sweep.
+#[derive(Clone, Debug)]
+pub struct WrittenSweep {
+    /// The folder.
+    pub folder: PathBuf,
+    /// The contents of `summary.json`.
+    pub summary: Value,
+    /// Number of runs with results.
+    pub rows: usize,
+    /// Number and reason of each run without results.
+    pub failures: Vec<(usize, String)>,
+}
+
+/// Makes all runs of a sweep that was read with [`Sweep::open`], or those of shard K of N, on at most `threads` threads
+/// (`None`: as many as the machine has), and writes the results into a folder. Each run is appended to a file in the
+/// folder as it is made, from which the same sweep resumes there after an interruption. `progress` can break off.
+///
+/// # Errors
+/// The input cannot be run as it is written, the folder has the runs of another sweep (unless `force`), a file cannot be
+/// written, or `progress` has broken off.
+pub fn make_sweep(
+    (sweep, own): (&Sweep, &Inputs),
+    shard: Option<(usize, usize)>,
+    (path, force): (&Path, bool),
+    threads: Option<u16>,
+    progress: &mut dyn FnMut(SweepProgress) -> ControlFlow<()>,
+) -> Result<WrittenSweep, Error> {
+    let (k, n) = shard.unwrap_or((1, 1));
+    let located = |fault: Fault| match own.all()[0].source() {
+        Ok(source) => Error::Files(source.diagnose(&Faults(vec![fault]))),
+        Err(wrong) => Error::from(*wrong),
+    };
+    if n > sweep.count {
+        let expected = format!("has {} runs, too few for {n} shards", sweep.count);
+        return Err(located(Fault::new(&Place::root(), expected)));
+    }
+    let plan = RunPlan::new(sweep);
+    let wanted: Vec<usize> = (k..=sweep.count).step_by(n).collect();
+    let mut inputs = InputEntry::all(own);
+    inputs.extend(InputEntry::all(sweep.target.inputs()));
+    let key = sha256(json!([env!("CARGO_PKG_VERSION"), inputs]).to_string().as_bytes());
+    let folder = OutputFolder::open(path, "sweep", force, &planned(shard.is_some()))?;
+
+    let runner = Runner::new(sweep);
+    let file = &own.all()[0].name;
+    let info = match runner.run_as_written() {
+        Ok((units, row)) => SweepInfo::new(sweep, file, units, &row),
+        Err(RunFailure::Missing(result, why)) => {
+            let root = Place::root();
+            let results = root.key("results");
+            return Err(located(Fault::new(&results.index(result), why)));
+        }
+        Err(RunFailure::Failed(why)) => {
+            let input = sweep.input.file();
+            return Err(Error::NoResults(format!("{input} cannot be run as it is written: {why}")));
+        }
+    };
+    let of_rows = shard.map_or_else(|| key.clone(), |(k, n)| format!("{key} {k}/{n}"));
+    let (mut rows, mut records) = SweepRows::open(path, &of_rows, force)?;
+    let stopped =
+        || Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned());
+    if !records.is_empty() && progress(SweepProgress::Resumed(records.len(), wanted.len())).is_break() {
+        return Err(stopped());
+    }
+    let made: BTreeSet<usize> = records.iter().map(|record| record.run).collect();
+    let left: Vec<usize> = wanted.iter().copied().filter(|run| !made.contains(run)).collect();
+    let work = |run: &usize| {
+        let axes = plan.values(*run);
+        let outcome = runner.run(&axes);
+        RunRecord { run: *run, axes, outcome }
+    };
+    let mut done = 0;
+    let mut failed = None;
+    parallel_stream(&left, threads, work, |_, record| {
+        if let Err(error) = rows.add(&record) {
+            failed = Some(error);
+            return false;
+        }
+        records.push(record);
+        done += 1;
+        if progress(SweepProgress::Made(done, left.len())).is_break() {
+            failed = Some(stopped());
+            return false;
+        }
+        true
+    });
+    if let Some(error) = failed {
+        return Err(error);
+    }
+    records.sort_by_key(|record| record.run);
+    let shard = shard.map(|(shard, of)| Shard { key, shard, of, info: info.clone() });
+    let written = write(folder, (&info, sweep.pointers()), inputs, records, (shard.as_ref(), threads))?;
+    rows.remove();
+    Ok(written)
+}
+
+/// Joins the folders of all shards of a sweep in a folder, which then has the files of the sweep made in one piece.
+///
+/// # Errors
+/// Shards are missing, there twice, changed, or of different sweeps; a file cannot be written.
+pub fn join_shards(
+    shards: &[PathBuf],
+    path: &Path,
+    force: bool,
+    threads: Option<u16>,
+) -> Result<WrittenSweep, Error> {
+    let joined = read_shards(shards)?;
+    let folder = OutputFolder::open(path, "sweep", force, &planned(false))?;
+    let axes = joined.info.axes.iter().map(|[pointer, _]| pointer.clone()).collect();
+    write(folder, (&joined.info, axes), joined.inputs, joined.records, (None, threads))
+}
+
+/// Writes the results of runs, in the order of their numbers, into a folder.
+fn write(
+    mut folder: OutputFolder,
+    (info, axes): (&SweepInfo, Vec<String>),
+    inputs: Vec<InputEntry>,
+    records: Vec<RunRecord>,
+    (shard, threads): (Option<&Shard>, Option<u16>),
+) -> Result<WrittenSweep, Error> {
+    if let Some(shard) = shard {
+        let mut lines = RecordLines::default();
+        folder.add(ROWS, records.iter().map(|record| lines.lines(record)).collect::<String>());
+        folder.add(SHARD, json_text(&shard.json(&inputs)));
+    }
+    let table = ResultTable::new(axes, records);
+    folder.add("results.csv", table.csv().map_err(Error::not_shown)?);
+    #[cfg(feature = "parquet")]
+    folder.add("results.parquet", sweep::parquet(&table).map_err(Error::not_shown)?);
+    folder.add("failures.csv", table.failures_csv().map_err(Error::not_shown)?);
+    let summary = sweep::summary(info, &table);
+    folder.add("summary.json", json_text(&summary));
+    folder.add("report.html", sweep_report(info, &table).html(threads).map_err(Error::not_shown)?);
+    let folder = folder.commit(Manifest::of_entries("sweep", inputs, json!({})))?;
+    let failures = table.failures.into_iter().map(|(run, _, why)| (run, why)).collect();
+    Ok(WrittenSweep { folder, summary, rows: table.rows.len(), failures })
+}
+
+fn planned(is_shard: bool) -> PlannedFiles {
+    let shard: &[&str] = if is_shard { &[ROWS, SHARD] } else { &[] };
+    let names = FILES.iter().chain(shard).map(|name| (*name).to_owned()).collect();
+    PlannedFiles { names, plots: Vec::new() }
+}
