@@ -33,7 +33,7 @@ pub(crate) fn of_scene(
                 }
             }
             ResultKind::Fatigue => fatigue(outcome, &mut row),
-            ResultKind::Ratios => code_ratios(outcome, &mut row),
+            ResultKind::Ratios => ratios(scene, outcome, &mut row),
         }
         if row.names.len() == before {
             return Err(RunFailure::Missing(index, missing(kind, outcome)));
@@ -119,8 +119,16 @@ fn fatigue(outcome: &CaseResult, row: &mut RunRow) {
     }
 }
 
-/// Measured values of the run beside those of codes, and static deflections over their limits.
-fn code_ratios(outcome: &CaseResult, row: &mut RunRow) {
+/// The largest force of each rail over that of the equilibrium at the start; measured values of the run beside those of
+/// codes, and static deflections over their limits, where the scene asks for codes.
+fn ratios(scene: &Scene, outcome: &CaseResult, row: &mut RunRow) {
+    for rail in &scene.rails {
+        let forces = outcome.columns.part(&rail.name, "reaction");
+        let most = forces.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        if let Some(&first) = forces.first().filter(|first| **first > 0.0) {
+            row.add(format!("{}.dynamic factor", rail.name), most / first, Dimension::NUMBER);
+        }
+    }
     let Some(codes) = &outcome.codes else { return };
     for comparison in &codes.rows {
         row.add(comparison.name.to_owned(), comparison.measured.value, comparison.dimension);
@@ -190,7 +198,7 @@ fn missing(kind: &ResultKind, outcome: &CaseResult) -> String {
         ResultKind::Fatigue => {
             "no stress point of the scene has a `detail` category, so there is no \"fatigue\"".to_owned()
         }
-        ResultKind::Ratios => "the scene has no `practice`, so there are no \"ratios\"".to_owned(),
+        ResultKind::Ratios => "no rail carries a force at the start, and the scene has no `practice`, so there are no \"ratios\"".to_owned(),
         ResultKind::Column(name) => {
             let known: Vec<&str> =
                 outcome.columns.columns.iter().skip(1).map(|column| column.name.as_str()).collect();

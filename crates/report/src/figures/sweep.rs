@@ -32,7 +32,12 @@ pub(crate) struct SweptResult<'t> {
     pub sensitivities: Vec<Sensitivity>,
     /// Values by codes beside a measured value that do not vary: name and value.
     pub codes: Vec<(String, f64)>,
+    /// Largest magnitude of all results of the same unit.
+    size: f64,
 }
+
+/// Differences below this fraction of the largest result of the same unit are rounding.
+const ROUNDING: f64 = 1e-12;
 
 impl<'t> SweptResult<'t> {
     /// The results of a table that have values; results of codes beside a measured value are not results of their own.
@@ -44,33 +49,44 @@ impl<'t> SweptResult<'t> {
                 .find(|one| name.strip_prefix(one.as_str()).is_some_and(|end| end.starts_with('.')))
         };
         let own = table.columns.iter().enumerate().filter(|(_, name)| parent(name).is_none());
-        own.filter_map(|(column, name)| {
-            let values = table.column(column);
-            let statistics = ColumnStatistics::new(&values)?;
-            let written = info.as_written.iter().find(|(known, ..)| known == name);
-            let beside = table.columns.iter().enumerate().filter(|(_, one)| parent(one) == Some(name));
-            let codes = beside.filter_map(|(index, one)| {
-                let found = ColumnStatistics::new(&table.column(index))?;
-                let is_constant = found.least.0 == found.most.0;
-                is_constant.then(|| (one[name.len() + 1..].to_owned(), found.mean))
-            });
-            Some(SweptResult {
-                name,
-                unit: written.map(|(_, unit, _)| unit.clone()).unwrap_or_default(),
-                column,
-                statistics,
-                as_written: written.map(|(.., value)| *value),
-                sensitivities: sweep::sensitivities(table, column),
-                codes: codes.collect(),
-                values,
+        let mut all: Vec<SweptResult<'t>> = own
+            .filter_map(|(column, name)| {
+                let values = table.column(column);
+                let statistics = ColumnStatistics::new(&values)?;
+                let written = info.as_written.iter().find(|(known, ..)| known == name);
+                let beside = table.columns.iter().enumerate().filter(|(_, one)| parent(one) == Some(name));
+                let codes = beside.filter_map(|(index, one)| {
+                    let found = ColumnStatistics::new(&table.column(index))?;
+                    let is_constant = found.least.0 == found.most.0;
+                    is_constant.then(|| (one[name.len() + 1..].to_owned(), found.mean))
+                });
+                Some(SweptResult {
+                    name,
+                    unit: written.map(|(_, unit, _)| unit.clone()).unwrap_or_default(),
+                    column,
+                    statistics,
+                    as_written: written.map(|(.., value)| *value),
+                    sensitivities: sweep::sensitivities(table, column),
+                    codes: codes.collect(),
+                    values,
+                    size: 0.0,
+                })
             })
-        })
-        .collect()
+            .collect();
+        let sizes: Vec<f64> = all.iter().map(|result: &SweptResult<'_>| result.size_of_unit(&all)).collect();
+        all.iter_mut().zip(sizes).for_each(|(result, size)| result.size = size);
+        all
     }
 
-    /// Whether the runs differ in this result.
+    /// Largest magnitude of the results that have the unit of this one.
+    fn size_of_unit(&self, all: &[SweptResult<'_>]) -> f64 {
+        let own = all.iter().filter(|other| other.unit == self.unit);
+        own.map(|other| other.statistics.most.0.abs().max(other.statistics.least.0.abs())).fold(0.0, f64::max)
+    }
+
+    /// Whether the runs differ in this result by more than rounding.
     pub fn varies(&self) -> bool {
-        self.statistics.most.0 > self.statistics.least.0
+        self.statistics.most.0 - self.statistics.least.0 > ROUNDING * self.size
     }
 
     /// The axis on which the result depends most, by the rank correlation or the first-order index; its index.

@@ -94,7 +94,6 @@ fn distributions(info: &SweepInfo, table: &ResultTable, results: &[SweptResult<'
         "mean",
         "standard deviation",
         "smallest",
-        "5 %",
         "median",
         "95 %",
         "99 %",
@@ -102,10 +101,10 @@ fn distributions(info: &SweepInfo, table: &ResultTable, results: &[SweptResult<'
     ];
     let row = |result: &&SweptResult<'_>| {
         let found = &result.statistics;
-        let [q5, q50, q95, q99] = found.quantiles;
+        let [_, q50, q95, q99] = found.quantiles;
         let mut row = vec![TableCell::from(result.name), TableCell::from(result.unit.clone())];
         row.push(result.as_written.map_or(TableCell::Empty, |value| digits(value, DIGITS).into()));
-        let numbers = [found.mean, found.deviation, found.least.0, q5, q50, q95, q99, found.most.0];
+        let numbers = [found.mean, found.deviation, found.least.0, q50, q95, q99, found.most.0];
         row.extend(numbers.map(|value| TableCell::from(digits(value, DIGITS))));
         row
     };
@@ -148,7 +147,8 @@ fn governing(info: &SweepInfo, results: &[SweptResult<'_>]) -> ReportSection {
 
 /// How much each axis has to do with each result; `None` with too few runs.
 fn dependence(table: &ResultTable, results: &[SweptResult<'_>]) -> Option<ReportSection> {
-    let known: Vec<_> = results.iter().filter(|result| !result.sensitivities.is_empty()).collect();
+    let known: Vec<_> =
+        results.iter().filter(|result| result.varies() && !result.sensitivities.is_empty()).collect();
     if known.is_empty() {
         return None;
     }
