@@ -15,7 +15,7 @@ use crates::Crate;
 use wings::Wings;
 
 /// Normal dependencies that each crate may have on others of ours, lowest crate first.
-const DEPENDENCIES: [(&str, &[&str]); 16] = [
+const DEPENDENCIES: [(&str, &[&str]); 18] = [
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
@@ -32,9 +32,11 @@ const DEPENDENCIES: [(&str, &[&str]); 16] = [
         &["foundations", "design", "trains", "practice", "formats", "fea", "sim", "splines", "adams"],
     ),
     ("deck", &["results", "adams", "foundations", "practice", "formats", "fea", "sim", "splines"]),
+    ("sweep", &["results", "design", "foundations", "formats"]),
     (
         "report",
         &[
+            "sweep",
             "design",
             "trains",
             "results",
@@ -48,9 +50,12 @@ const DEPENDENCIES: [(&str, &[&str]); 16] = [
         ],
     ),
     ("study", &["results", "report", "foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
+    ("outputs", &["report", "sweep", "results", "design", "foundations", "formats", "adams"]),
     (
         "girderway",
         &[
+            "outputs",
+            "sweep",
             "study",
             "report",
             "deck",
@@ -69,8 +74,8 @@ const DEPENDENCIES: [(&str, &[&str]); 16] = [
     ),
 ];
 
-/// The crate that reads and writes files, prints, and starts threads as it likes: the command line.
-const FREE: [&str; 1] = ["girderway"];
+/// The crates that read and write files: the one of output folders, and the command line, which also prints.
+const FREE: [&str; 2] = ["girderway", "outputs"];
 
 /// Files of a crate from which on it must say the order of its wings.
 const MANY_FILES: usize = 13;

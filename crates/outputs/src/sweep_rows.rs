@@ -86,7 +86,7 @@ fn other_sweep(folder: &Path, first: &str) -> Error {
 
 #[cfg(test)]
 mod tests {
-    use formats::sweep::Scalar;
+    use formats::sweep::AxisValue;
 
     use super::*;
 
@@ -94,7 +94,7 @@ mod tests {
     fn runs_of_a_dead_process_are_kept_and_a_torn_line_is_removed() {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let record =
-            |run: usize| RunRecord { run, axes: vec![Scalar::Number(0.5)], outcome: Err("no".to_owned()) };
+            |run: usize| RunRecord { run, axes: vec![AxisValue::Number(0.5)], outcome: Err("no".to_owned()) };
         let (mut rows, known) = SweepRows::open(folder.path(), "key", false).expect("writable");
         assert!(known.is_empty());
         rows.add(&record(1)).expect("writable");

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use formats::sweep::Scalar;
+use formats::sweep::AxisValue;
 use parquet::basic::{LogicalType, Repetition, Type as Physical};
 use parquet::column::writer::ColumnWriter;
 use parquet::data_type::{BoolType, ByteArray, ByteArrayType, DoubleType, Int64Type};
@@ -47,13 +47,13 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
             let values = rows.iter().map(|row| &row.axes[axis]);
             match kind {
                 Physical::DOUBLE => {
-                    let numbers: Vec<f64> = values.filter_map(Scalar::number).collect();
+                    let numbers: Vec<f64> = values.filter_map(AxisValue::number).collect();
                     next(&mut |column| {
                         column.typed::<DoubleType>().write_batch(&numbers, None, None).map(drop)
                     })?;
                 }
                 Physical::BOOLEAN => {
-                    let flags: Vec<bool> = values.map(|value| *value == Scalar::Flag(true)).collect();
+                    let flags: Vec<bool> = values.map(|value| *value == AxisValue::Flag(true)).collect();
                     next(&mut |column| column.typed::<BoolType>().write_batch(&flags, None, None).map(drop))?;
                 }
                 _ => {
@@ -83,9 +83,9 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
 /// The type of an axis: that of its values in the first run.
 fn kind(table: &ResultTable, axis: usize) -> Physical {
     match table.rows.first().map(|row| &row.axes[axis]) {
-        Some(Scalar::Text(_)) => Physical::BYTE_ARRAY,
-        Some(Scalar::Flag(_)) => Physical::BOOLEAN,
-        Some(Scalar::Number(_)) | None => Physical::DOUBLE,
+        Some(AxisValue::Text(_)) => Physical::BYTE_ARRAY,
+        Some(AxisValue::Flag(_)) => Physical::BOOLEAN,
+        Some(AxisValue::Number(_)) | None => Physical::DOUBLE,
     }
 }
 
@@ -108,9 +108,9 @@ mod tests {
         let row = |run: usize, word: &str, value: Option<f64>| TableRow {
             run,
             axes: vec![
-                Scalar::Number(0.1 * run as f64),
-                Scalar::Text(word.to_owned()),
-                Scalar::Flag(run == 1),
+                AxisValue::Number(0.1 * run as f64),
+                AxisValue::Text(word.to_owned()),
+                AxisValue::Flag(run == 1),
             ],
             values: vec![value, Some(-1.5)],
         };

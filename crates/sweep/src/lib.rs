@@ -2,7 +2,7 @@
 //!
 //! A [`formats::sweep::Sweep`] names the axes. A [`RunPlan`] has the values of every run, which depend on the sweep
 //! alone. A [`Runner`] puts them into the files, runs the scene or design, and returns the results by name. The rows of
-//! all runs make a [`ResultTable`], of which the statistics follow: distributions ([`ColumnStatistics`]), governing
+//! all runs make a [`ResultTable`], of which the statistics follow: distributions ([`ResultDistribution`]), governing
 //! runs, and the sensitivity of each result to each axis ([`sensitivities`]).
 //!
 //! ```
@@ -54,9 +54,9 @@ pub use columns_file::parquet;
 pub use info::SweepInfo;
 pub use outcome::{RunFailure, RunOutcome, RunRow};
 pub use plan::RunPlan;
-pub use records::{RecordLines, RunRecord, read_records, scalar_json};
+pub use records::{RecordLines, RunRecord, read_records};
 pub use runner::Runner;
 pub use sensitivity::{Sensitivity, sensitivities};
-pub use statistics::{ColumnStatistics, Interval, QUANTILES};
+pub use statistics::{Interval, QUANTILES, ResultDistribution};
 pub use summary::summary;
 pub use table::{ResultTable, TableRow};

@@ -1,6 +1,6 @@
 //! The values of the axes in each run.
 
-use formats::sweep::{AxisValues, Sampling, Scalar, Sweep};
+use formats::sweep::{AxisValue, AxisValues, Sampling, Sweep};
 use statrs::function::erf::erfc_inv;
 
 use crate::points::UnitPoints;
@@ -35,11 +35,11 @@ impl RunPlan {
 
     /// The values of the axes in a run, counted from 1. In a grid the last axis changes first.
     #[must_use]
-    pub fn values(&self, run: usize) -> Vec<Scalar> {
+    pub fn values(&self, run: usize) -> Vec<AxisValue> {
         let index = run - 1;
         let Some(points) = &self.points else {
             let mut left = index;
-            let mut values: Vec<Scalar> = Vec::with_capacity(self.axes.len());
+            let mut values: Vec<AxisValue> = Vec::with_capacity(self.axes.len());
             for axis in self.axes.iter().rev() {
                 let levels = axis.levels().unwrap_or(1);
                 values.push(level(axis, left % levels));
@@ -54,13 +54,13 @@ impl RunPlan {
 }
 
 /// A value of a list or a range, counted from 0.
-fn level(axis: &AxisValues, index: usize) -> Scalar {
+fn level(axis: &AxisValues, index: usize) -> AxisValue {
     match axis {
         AxisValues::List(values) => values[index].clone(),
-        AxisValues::Range(from, _, 1) => Scalar::Number(*from),
-        AxisValues::Range(_, to, count) if index + 1 == *count => Scalar::Number(*to),
+        AxisValues::Range(from, _, 1) => AxisValue::Number(*from),
+        AxisValues::Range(_, to, count) if index + 1 == *count => AxisValue::Number(*to),
         AxisValues::Range(from, to, count) => {
-            Scalar::Number(from + (to - from) * (index as f64 / (count - 1) as f64))
+            AxisValue::Number(from + (to - from) * (index as f64 / (count - 1) as f64))
         }
         _ => quantile(axis, 0.5),
     }
@@ -71,9 +71,9 @@ fn level(axis: &AxisValues, index: usize) -> Scalar {
 ///
 /// Normal: mu + sigma z with z = -sqrt(2) erfc^-1(2u). Lognormal of mean m and standard deviation s: exp(a + b z) with
 /// b^2 = ln(1 + s^2/m^2) and a = ln m - b^2/2.
-fn quantile(axis: &AxisValues, u: f64) -> Scalar {
+fn quantile(axis: &AxisValues, u: f64) -> AxisValue {
     let standard_normal = || -std::f64::consts::SQRT_2 * erfc_inv(2.0 * u);
-    Scalar::Number(match axis {
+    AxisValue::Number(match axis {
         AxisValues::List(_) | AxisValues::Range(..) => {
             let levels = axis.levels().unwrap_or(1);
             return level(axis, ((u * levels as f64) as usize).min(levels - 1));
@@ -97,10 +97,10 @@ mod tests {
 
     #[test]
     fn a_grid_has_every_combination_once_and_its_last_axis_changes_first() {
-        let list = AxisValues::List([5.0, 50.0, 100.0].map(Scalar::Number).to_vec());
+        let list = AxisValues::List([5.0, 50.0, 100.0].map(AxisValue::Number).to_vec());
         let plan = plan(vec![list, AxisValues::Range(0.0, 1.0, 3)], 9, None);
         let rows: Vec<Vec<f64>> =
-            (1..=9).map(|run| plan.values(run).iter().filter_map(Scalar::number).collect()).collect();
+            (1..=9).map(|run| plan.values(run).iter().filter_map(AxisValue::number).collect()).collect();
         assert_eq!(rows[..4], [vec![5.0, 0.0], vec![5.0, 0.5], vec![5.0, 1.0], vec![50.0, 0.0]]);
         assert_eq!(rows[8], [100.0, 1.0]);
     }
@@ -132,10 +132,10 @@ mod tests {
 
     #[test]
     fn lists_have_equal_shares_in_a_latin_hypercube() {
-        let words = AxisValues::List(["a", "b", "c"].map(|word| Scalar::Text(word.to_owned())).to_vec());
+        let words = AxisValues::List(["a", "b", "c"].map(|word| AxisValue::Text(word.to_owned())).to_vec());
         let plan = plan(vec![words], 300, Some(UnitPoints::latin(1, 300, 5)));
         let count = |word: &str| {
-            (1..=300).filter(|run| plan.values(*run)[0] == Scalar::Text(word.to_owned())).count()
+            (1..=300).filter(|run| plan.values(*run)[0] == AxisValue::Text(word.to_owned())).count()
         };
         assert_eq!([count("a"), count("b"), count("c")], [100, 100, 100]);
     }

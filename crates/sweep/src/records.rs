@@ -4,7 +4,7 @@
 //! that follow; a line `{"run": 7, "axes": [...], "values": [...]}` is a run, and `{"run": 7, "axes": [...], "failure":
 //! "..."}` one without results. Numbers have as many digits as their doubles need.
 
-use formats::sweep::Scalar;
+use formats::sweep::AxisValue;
 use serde_json::{Value, json};
 
 use crate::outcome::{RunOutcome, RunRow};
@@ -15,7 +15,7 @@ pub struct RunRecord {
     /// Number of the run, from 1.
     pub run: usize,
     /// Values of the axes.
-    pub axes: Vec<Scalar>,
+    pub axes: Vec<AxisValue>,
     /// Its results.
     pub outcome: RunOutcome,
 }
@@ -30,7 +30,7 @@ impl RecordLines {
     /// Lines of a run, each with its newline: the names of its results, unless they are those of the run before, and
     /// the run.
     pub fn lines(&mut self, record: &RunRecord) -> String {
-        let axes: Vec<Value> = record.axes.iter().map(scalar_json).collect();
+        let axes: Vec<Value> = record.axes.iter().map(axis_value_json).collect();
         match &record.outcome {
             Err(why) => format!("{}\n", json!({ "run": record.run, "axes": axes, "failure": why })),
             Ok(row) => {
@@ -83,19 +83,19 @@ fn record(value: &Value, names: &[String]) -> Option<RunRecord> {
 
 /// A value of an axis as JSON.
 #[must_use]
-pub fn scalar_json(value: &Scalar) -> Value {
+fn axis_value_json(value: &AxisValue) -> Value {
     match value {
-        Scalar::Number(number) => json!(number),
-        Scalar::Text(text) => json!(text),
-        Scalar::Flag(flag) => json!(flag),
+        AxisValue::Number(number) => json!(number),
+        AxisValue::Text(text) => json!(text),
+        AxisValue::Flag(flag) => json!(flag),
     }
 }
 
-fn scalar(value: &Value) -> Option<Scalar> {
+fn scalar(value: &Value) -> Option<AxisValue> {
     match value {
-        Value::Number(number) => number.as_f64().map(Scalar::Number),
-        Value::String(text) => Some(Scalar::Text(text.clone())),
-        Value::Bool(flag) => Some(Scalar::Flag(*flag)),
+        Value::Number(number) => number.as_f64().map(AxisValue::Number),
+        Value::String(text) => Some(AxisValue::Text(text.clone())),
+        Value::Bool(flag) => Some(AxisValue::Flag(*flag)),
         _ => None,
     }
 }
@@ -111,7 +111,8 @@ mod tests {
 
     #[test]
     fn lines_are_read_back_to_the_last_bit_and_up_to_the_first_torn_one() {
-        let axes = vec![Scalar::Number(0.1 + 0.2), Scalar::Text("rigid".to_owned()), Scalar::Flag(true)];
+        let axes =
+            vec![AxisValue::Number(0.1 + 0.2), AxisValue::Text("rigid".to_owned()), AxisValue::Flag(true)];
         let records = [
             RunRecord { run: 2, axes: axes.clone(), outcome: row(&["a", "b"], &[1.0 / 3.0, -1e-300]) },
             RunRecord { run: 1, axes: axes.clone(), outcome: Err("it falls \"down\"".to_owned()) },

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use design::DesignError;
 use formats::design::Design;
 use formats::scene::{Document, SceneSource};
-use formats::sweep::{Scalar, Sweep, SweepInput};
+use formats::sweep::{AxisValue, Sweep, SweepInput};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use formats::units::Units;
@@ -31,7 +31,7 @@ impl<'s> Runner<'s> {
 
     /// The files of a run: those of the scene or design with the values of the axes in them.
     #[must_use]
-    pub fn inputs(&self, values: &[Scalar]) -> Inputs {
+    pub fn inputs(&self, values: &[AxisValue]) -> Inputs {
         let changes: Vec<_> = self.sweep.axes.iter().map(|axis| &axis.place).zip(values).collect();
         self.sweep.target.with(&changes)
     }
@@ -54,7 +54,7 @@ impl<'s> Runner<'s> {
     /// # Errors
     /// Why the run has no results: faults of the files with these values, a structure that does not stand, a scene that
     /// cannot start, a run that is incomplete, results that it does not have. The text has one line.
-    pub fn run(&self, values: &[Scalar]) -> RunOutcome {
+    pub fn run(&self, values: &[AxisValue]) -> RunOutcome {
         self.run_files(self.inputs(values)).map_err(RunFailure::why)
     }
 

@@ -1,6 +1,6 @@
 //! How much each axis has to do with a result.
 
-use formats::sweep::Scalar;
+use formats::sweep::AxisValue;
 
 use crate::statistics::chance_of_correlation;
 use crate::table::ResultTable;
@@ -47,7 +47,7 @@ pub fn sensitivities(table: &ResultTable, column: usize) -> Vec<Sensitivity> {
     }
     let ranks_of_results = ranks(&results);
     let axis = |k: usize| {
-        let values: Vec<&Scalar> = rows.iter().map(|(row, _)| &row.axes[k]).collect();
+        let values: Vec<&AxisValue> = rows.iter().map(|(row, _)| &row.axes[k]).collect();
         let numbers: Option<Vec<f64>> = values.iter().map(|value| value.number()).collect();
         let rank_correlation =
             numbers.as_deref().and_then(|numbers| correlation(&ranks(numbers), &ranks_of_results));
@@ -88,8 +88,8 @@ fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 }
 
 /// The class of each run by the value of an axis, from 0.
-fn classes(values: &[&Scalar], numbers: Option<&[f64]>) -> Vec<usize> {
-    let mut distinct: Vec<&Scalar> = Vec::new();
+fn classes(values: &[&AxisValue], numbers: Option<&[f64]>) -> Vec<usize> {
+    let mut distinct: Vec<&AxisValue> = Vec::new();
     let mut own: Vec<usize> = Vec::with_capacity(values.len());
     for &value in values {
         let found = distinct.iter().position(|known| *known == value);
@@ -147,7 +147,7 @@ mod tests {
     fn table(points: &UnitPoints, runs: usize, f: impl Fn([f64; 3]) -> f64) -> ResultTable {
         let row = |run: usize| {
             let x = [0, 1, 2].map(|axis| PI * (2.0 * points.coordinate(axis, run - 1) - 1.0));
-            TableRow { run, axes: x.map(Scalar::Number).to_vec(), values: vec![Some(f(x))] }
+            TableRow { run, axes: x.map(AxisValue::Number).to_vec(), values: vec![Some(f(x))] }
         };
         ResultTable {
             axes: ["/a", "/b", "/c"].map(str::to_owned).to_vec(),

@@ -13,7 +13,7 @@ pub struct Interval {
 
 /// The distribution of a result over the runs that have it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ColumnStatistics {
+pub struct ResultDistribution {
     /// Number of runs.
     pub count: usize,
     /// Mean.
@@ -33,17 +33,17 @@ pub struct ColumnStatistics {
     pub upper_interval: Interval,
 }
 
-/// Probabilities of [`ColumnStatistics::quantiles`].
+/// Probabilities of [`ResultDistribution::quantiles`].
 pub const QUANTILES: [f64; 4] = [0.05, 0.5, 0.95, 0.99];
 
 /// Standard normal quantile of 97.5 %.
 const TWO_SIDED: f64 = 1.959_963_984_540_054;
 
-impl ColumnStatistics {
+impl ResultDistribution {
     /// The statistics of values with the numbers of their runs; `None` without values. Of equal extremes the first run
     /// counts.
     #[must_use]
-    pub fn new(values: &[(usize, f64)]) -> Option<ColumnStatistics> {
+    pub fn new(values: &[(usize, f64)]) -> Option<ResultDistribution> {
         let &(run, first) = values.first()?;
         let count = values.len();
         let n = count as f64;
@@ -62,7 +62,7 @@ impl ColumnStatistics {
         let mut sorted: Vec<f64> = values.iter().map(|(_, value)| *value).collect();
         sorted.sort_by(f64::total_cmp);
         let half = TWO_SIDED * deviation / n.sqrt();
-        Some(ColumnStatistics {
+        Some(ResultDistribution {
             count,
             mean,
             deviation,
@@ -110,7 +110,7 @@ mod tests {
     #[test]
     fn statistics_of_one_to_hundred_are_those_of_a_hand_calculation() {
         let values: Vec<(usize, f64)> = (1..=101).map(|run| (run, (run - 1) as f64)).collect();
-        let found = ColumnStatistics::new(&values).expect("values");
+        let found = ResultDistribution::new(&values).expect("values");
         // analytic: sum of squares of deviations n(n^2 - 1)/12
         let deviation = (101.0 * (101.0_f64.powi(2) - 1.0) / 12.0 / 100.0).sqrt();
         assert!((found.mean - 50.0).abs() < 1e-12);
@@ -118,7 +118,7 @@ mod tests {
         assert_eq!(found.quantiles, [5.0, 50.0, 95.0, 99.0]);
         assert_eq!((found.least, found.most), ((0.0, 1), (100.0, 101)));
         assert!(found.upper_interval.low < 95.0 && found.upper_interval.high > 95.0);
-        assert_eq!(ColumnStatistics::new(&[]), None);
+        assert_eq!(ResultDistribution::new(&[]), None);
     }
 
     #[test]

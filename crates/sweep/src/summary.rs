@@ -4,7 +4,7 @@ use serde_json::{Map, Value, json};
 
 use crate::info::SweepInfo;
 use crate::sensitivity::sensitivities;
-use crate::statistics::ColumnStatistics;
+use crate::statistics::ResultDistribution;
 use crate::table::ResultTable;
 
 /// Name and version of the format.
@@ -16,7 +16,7 @@ const FORMAT: &str = "girderway-sweep-summary/1";
 pub fn summary(info: &SweepInfo, table: &ResultTable) -> Value {
     let mut results = Map::new();
     for (index, name) in table.columns.iter().enumerate() {
-        let Some(found) = ColumnStatistics::new(&table.column(index)) else { continue };
+        let Some(found) = ResultDistribution::new(&table.column(index)) else { continue };
         let [q5, q50, q95, q99] = found.quantiles;
         let mut entry = json!({
             "count": found.count,

@@ -1,6 +1,6 @@
 //! The results of all runs as one table.
 
-use formats::sweep::Scalar;
+use formats::sweep::AxisValue;
 
 use crate::records::RunRecord;
 
@@ -17,7 +17,7 @@ pub struct ResultTable {
     /// One for each run that has results.
     pub rows: Vec<TableRow>,
     /// Number, values of the axes and reason of each run without results.
-    pub failures: Vec<(usize, Vec<Scalar>, String)>,
+    pub failures: Vec<(usize, Vec<AxisValue>, String)>,
 }
 
 /// The results of one run.
@@ -26,7 +26,7 @@ pub struct TableRow {
     /// Number of the run, from 1.
     pub run: usize,
     /// Values of the axes.
-    pub axes: Vec<Scalar>,
+    pub axes: Vec<AxisValue>,
     /// Results, in the order of the columns; `None` where this run does not have one.
     pub values: Vec<Option<f64>>,
 }

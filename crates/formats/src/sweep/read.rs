@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use super::axis_value::AxisValue;
 use super::raw::{RawAxis, RawLaw, RawScalar, RawSweep};
 use super::target::SweepTarget;
-use super::values::{AxisValues, ResultKind, Sampling, Scalar, Sweep, SweepAxis, SweepInput};
+use super::values::{AxisValues, ResultKind, Sampling, Sweep, SweepAxis, SweepInput};
 use crate::design::Design;
 use crate::limits::{SWEEP_AXES, SWEEP_RUNS};
 use crate::scene::Document;
@@ -170,11 +171,11 @@ fn axes(
 }
 
 /// Checks that the values of an axis are of the kind of the value that they replace.
-fn check_kind(values: &AxisValues, old: &Scalar, at: &Place<'_>, faults: &mut Faults) {
-    let word = |value: &Scalar| match value {
-        Scalar::Number(_) => "a number",
-        Scalar::Text(_) => "a string",
-        Scalar::Flag(_) => "true or false",
+fn check_kind(values: &AxisValues, old: &AxisValue, at: &Place<'_>, faults: &mut Faults) {
+    let word = |value: &AxisValue| match value {
+        AxisValue::Number(_) => "a number",
+        AxisValue::Text(_) => "a string",
+        AxisValue::Flag(_) => "true or false",
     };
     let wanted = word(old);
     match values {
@@ -205,9 +206,9 @@ fn axis_values(
         }
         RawAxis::List(list) => {
             let value = |raw: &RawScalar| match raw {
-                RawScalar::Number(value) => Scalar::Number(*value),
-                RawScalar::Text(text) => Scalar::Text(text.clone()),
-                RawScalar::Flag(flag) => Scalar::Flag(*flag),
+                RawScalar::Number(value) => AxisValue::Number(*value),
+                RawScalar::Text(text) => AxisValue::Text(text.clone()),
+                RawScalar::Flag(flag) => AxisValue::Flag(*flag),
             };
             Some(AxisValues::List(list.iter().map(value).collect()))
         }

@@ -4,7 +4,7 @@ use crate::text::inputs::Inputs;
 use crate::text::source::Source;
 use crate::text::tree::{TreeNode, Value};
 
-use super::values::Scalar;
+use super::axis_value::AxisValue;
 
 /// The place of a value in the files of a scene or design: its bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -48,7 +48,7 @@ impl SweepTarget {
     /// The files with values in place of others; the places are those of different values. What is replaced is the
     /// text of each value alone, so that everything else stays as it is written.
     #[must_use]
-    pub fn with(&self, changes: &[(&AxisPlace, &Scalar)]) -> Inputs {
+    pub fn with(&self, changes: &[(&AxisPlace, &AxisValue)]) -> Inputs {
         let mut inputs = self.inputs.clone();
         for file in 0..self.inputs.all().len() {
             let mut own: Vec<_> = changes.iter().filter(|(place, _)| place.file == file).collect();
@@ -72,7 +72,7 @@ impl SweepTarget {
 
     /// The place of the value to which a pointer leads, such as `/bodies/crane/weight` or `spec.json#/girder/E`, and
     /// the value.
-    pub(super) fn find(&self, pointer: &str) -> Result<(AxisPlace, Scalar), PointerError> {
+    pub(super) fn find(&self, pointer: &str) -> Result<(AxisPlace, AxisValue), PointerError> {
         let (file, within) =
             pointer.split_once('#').map_or((None, pointer), |(file, rest)| (Some(file), rest));
         let all = self.inputs.all();
@@ -104,7 +104,7 @@ impl SweepTarget {
         source: &Source,
         pointer: &str,
         file: usize,
-    ) -> Result<(AxisPlace, Scalar), PointerError> {
+    ) -> Result<(AxisPlace, AxisValue), PointerError> {
         if !pointer.starts_with('/') {
             return Err(PointerError {
                 expected: "must be a JSON pointer".to_owned(),
@@ -131,11 +131,11 @@ impl SweepTarget {
             walked.push_str(step);
         }
         let value = match &node.value {
-            Value::Unsigned(value) => Scalar::Number(*value as f64),
-            Value::Signed(value) => Scalar::Number(*value as f64),
-            Value::Float(value) => Scalar::Number(*value),
-            Value::Text(text) => Scalar::Text(text.clone().into_owned()),
-            Value::Bool(flag) => Scalar::Flag(*flag),
+            Value::Unsigned(value) => AxisValue::Number(*value as f64),
+            Value::Signed(value) => AxisValue::Number(*value as f64),
+            Value::Float(value) => AxisValue::Number(*value),
+            Value::Text(text) => AxisValue::Text(text.clone().into_owned()),
+            Value::Bool(flag) => AxisValue::Flag(*flag),
             Value::Null | Value::List(_) | Value::Object(_) => {
                 return Err(PointerError {
                     expected: format!("must lead to a number, a string, true or false in {}", source.name),
@@ -204,10 +204,10 @@ mod tests {
         let folder = tempfile::tempdir().expect("a temporary folder");
         let target = target(folder.path());
         let (c, old) = target.find("/a~1b/1/c").expect("a number");
-        assert_eq!(old, Scalar::Number(-2500.0));
+        assert_eq!(old, AxisValue::Number(-2500.0));
         let (first, _) = target.find("/a~1b/0").expect("a number");
         let (modulus, _) = target.find("spec.json#/girder/E").expect("a number");
-        let values = [Scalar::Number(0.1), Scalar::Number(7.0), Scalar::Number(2.1e8)];
+        let values = [AxisValue::Number(0.1), AxisValue::Number(7.0), AxisValue::Number(2.1e8)];
         let inputs = target.with(&[(&c, &values[0]), (&modulus, &values[2]), (&first, &values[1])]);
         let text = |index: usize| String::from_utf8(inputs.all()[index].bytes.clone()).expect("text");
         assert_eq!(text(0), "{\"a/b\": [7.0, {\"c\": 0.1}], \"spec\": \"spec.json\"}");

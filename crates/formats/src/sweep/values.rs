@@ -1,7 +1,6 @@
 //! A checked sweep, as plain values.
 
-use std::fmt;
-
+use super::axis_value::AxisValue;
 use super::target::{AxisPlace, SweepTarget};
 
 /// A sweep: the runs of a scene or design with other values of its axes.
@@ -67,7 +66,7 @@ pub struct SweepAxis {
 #[derive(Clone, Debug, PartialEq)]
 pub enum AxisValues {
     /// Values in a list.
-    List(Vec<Scalar>),
+    List(Vec<AxisValue>),
     /// Equally spaced values: the first, the last, and their number.
     Range(f64, f64, usize),
     /// A uniform distribution between two values.
@@ -86,47 +85,6 @@ impl AxisValues {
             AxisValues::List(values) => Some(values.len()),
             AxisValues::Range(.., count) => Some(*count),
             AxisValues::Uniform(..) | AxisValues::Normal(..) | AxisValues::Lognormal(..) => None,
-        }
-    }
-}
-
-/// A value of an axis in one run.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Scalar {
-    /// A number.
-    Number(f64),
-    /// A string.
-    Text(String),
-    /// `true` or `false`.
-    Flag(bool),
-}
-
-impl Scalar {
-    /// The number; `None` for a string and for true and false.
-    #[must_use]
-    pub fn number(&self) -> Option<f64> {
-        match self {
-            Scalar::Number(value) => Some(*value),
-            Scalar::Text(_) | Scalar::Flag(_) => None,
-        }
-    }
-
-    /// The value as JSON text, a number with the fewest digits that mean the same double.
-    #[must_use]
-    pub fn json(&self) -> String {
-        match self {
-            Scalar::Number(value) => serde_json::json!(value).to_string(),
-            Scalar::Text(text) => serde_json::json!(text).to_string(),
-            Scalar::Flag(flag) => flag.to_string(),
-        }
-    }
-}
-
-impl fmt::Display for Scalar {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Scalar::Text(text) => f.write_str(text),
-            other => f.write_str(&other.json()),
         }
     }
 }

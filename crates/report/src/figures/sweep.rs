@@ -1,6 +1,6 @@
 //! Figures of a sweep: the distribution of a result over the runs, and the result over its strongest axis.
 
-use sweep::{ColumnStatistics, ResultTable, Sensitivity, SweepInfo};
+use sweep::{ResultDistribution, ResultTable, Sensitivity, SweepInfo};
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
 use crate::figures::design::digits;
@@ -25,7 +25,7 @@ pub(crate) struct SweptResult<'t> {
     /// Runs and values.
     pub values: Vec<(usize, f64)>,
     /// Its distribution.
-    pub statistics: ColumnStatistics,
+    pub statistics: ResultDistribution,
     /// Its value for the input as it is written, where that has it.
     pub as_written: Option<f64>,
     /// Its dependence on each axis; may be empty.
@@ -52,11 +52,11 @@ impl<'t> SweptResult<'t> {
         let mut all: Vec<SweptResult<'t>> = own
             .filter_map(|(column, name)| {
                 let values = table.column(column);
-                let statistics = ColumnStatistics::new(&values)?;
+                let statistics = ResultDistribution::new(&values)?;
                 let written = info.as_written.iter().find(|(known, ..)| known == name);
                 let beside = table.columns.iter().enumerate().filter(|(_, one)| parent(one) == Some(name));
                 let codes = beside.filter_map(|(index, one)| {
-                    let found = ColumnStatistics::new(&table.column(index))?;
+                    let found = ResultDistribution::new(&table.column(index))?;
                     let is_constant = found.least.0 == found.most.0;
                     is_constant.then(|| (one[name.len() + 1..].to_owned(), found.mean))
                 });
