@@ -24,12 +24,13 @@
 //! assert!((influence.value[(0, 0)] - expected).abs() < 1e-12 * expected);
 //! ```
 //!
-//! Wings, lowest first: error, solved, tables, mount, built, modal, parts, build, check, select
+//! Wings, lowest first: error, solved, influence, tables, mount, built, modal, parts, build, check, select
 
 mod build;
 mod built;
 mod check;
 mod error;
+mod influence;
 mod modal;
 mod mount;
 mod parts;

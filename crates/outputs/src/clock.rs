@@ -5,6 +5,7 @@ use std::time::Instant;
 use serde_json::{Map, Value, json};
 
 /// Clock that records the duration of each stage of a command, in order.
+#[derive(Clone, Debug)]
 pub struct StageClock {
     started: Instant,
     last: Instant,

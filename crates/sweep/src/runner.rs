@@ -2,7 +2,7 @@
 
 use std::ops::ControlFlow;
 
-use design::DesignError;
+use ::design::DesignError;
 use formats::design::Design;
 use formats::scene::{Document, SceneSource};
 use formats::sweep::{AxisValue, Sweep, SweepInput};
@@ -36,6 +36,22 @@ impl<'s> Runner<'s> {
         self.sweep.target.with(&changes)
     }
 
+    /// The scene of a run, without comparisons.
+    ///
+    /// # Errors
+    /// All faults of the files with these values.
+    pub fn scene(&self, values: &[AxisValue]) -> Result<Document, Vec<Diagnostic>> {
+        scene(self.inputs(values))
+    }
+
+    /// The design of a run, and its files.
+    ///
+    /// # Errors
+    /// All faults of the files with these values.
+    pub fn design(&self, values: &[AxisValue]) -> Result<(Design, Inputs), Vec<Diagnostic>> {
+        design(self.inputs(values))
+    }
+
     /// Runs the scene or design as its files are, without values of axes; returns its units and results.
     ///
     /// # Errors
@@ -43,10 +59,10 @@ impl<'s> Runner<'s> {
     pub fn run_as_written(&self) -> Result<(Units, RunRow), RunFailure> {
         let inputs = self.sweep.target.inputs().clone();
         let units = match &self.sweep.input {
-            SweepInput::Scene(_) => scene(inputs.clone())?.scene().units,
-            SweepInput::Design(_) => Design::read(inputs.clone()).map_err(|wrong| first(&wrong))?.0.units,
+            SweepInput::Scene(_) => scene(inputs.clone()).map(|document| document.scene().units),
+            SweepInput::Design(_) => design(inputs.clone()).map(|(design, _)| design.units),
         };
-        Ok((units, self.run_files(inputs)?))
+        Ok((units.map_err(|wrong| first(&wrong))?, self.run_files(inputs)?))
     }
 
     /// Runs the scene or design with values of the axes, in their order.
@@ -66,7 +82,7 @@ impl<'s> Runner<'s> {
     }
 
     fn run_scene(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
-        let document = scene(inputs)?;
+        let document = scene(inputs).map_err(|wrong| first(&wrong))?;
         let run = SceneRun::of(document, &self.solved, Some(1), &|_| ControlFlow::Continue(()));
         let run = run.map_err(|error| match error {
             results::Error::Input(wrong) => first(&wrong),
@@ -79,19 +95,25 @@ impl<'s> Runner<'s> {
     }
 
     fn run_design(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
-        let (read, inputs) = Design::read(inputs).map_err(|wrong| first(&wrong))?;
-        let read = design::with_combinations(&read);
-        let result = design::solve(&read, &inputs).map_err(|error| match error {
+        let (read, inputs) = design(inputs).map_err(|wrong| first(&wrong))?;
+        let read = ::design::with_combinations(&read);
+        let result = ::design::solve(&read, &inputs).map_err(|error| match error {
             DesignError::Input(wrong) => first(&wrong),
             DesignError::NoSolution(why) => line(&why),
         })?;
-        values::of_design(&self.sweep.results, &design::summary(&read, &result))
+        values::of_design(&self.sweep.results, &::design::summary(&read, &result))
     }
 }
 
 /// The scene of files, without its comparisons.
-fn scene(inputs: Inputs) -> Result<Document, String> {
-    SceneSource::of(inputs).and_then(|source| source.document(None, false)).map_err(|wrong| first(&wrong))
+fn scene(inputs: Inputs) -> Result<Document, Vec<Diagnostic>> {
+    SceneSource::of(inputs)?.document(None, false)
+}
+
+/// The design of files.
+fn design(inputs: Inputs) -> Result<(Design, Inputs), Vec<Diagnostic>> {
+    let source = inputs.all()[0].source().map_err(|error| vec![*error])?;
+    Design::read(inputs, &source)
 }
 
 /// The first of several faults, and how many more there are.

@@ -11,8 +11,6 @@ use crate::commands;
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use formats::design::Design;
-use formats::scene::SceneSource;
 use formats::sweep::{Sweep, SweepInput};
 use formats::text::diagnostic::Diagnostic;
 use outputs::files::json as json_text;
@@ -80,16 +78,13 @@ fn repeat(number: usize, sweep: &Sweep, args: &SweepArgs, global: Global) -> Res
     for (axis, value) in sweep.axes.iter().zip(&values) {
         progress.say(&format!("{} = {value}", axis.pointer));
     }
-    let inputs = Runner::new(sweep).inputs(&values);
+    let runner = Runner::new(sweep);
     let folder = PathBuf::from("girderway-out").join(format!("{}-run-{number}", sweep.name));
     let path = args.output.clone().unwrap_or(folder);
     match &sweep.input {
-        SweepInput::Scene(_) => {
-            let document = SceneSource::of(inputs)?.document(None, false)?;
-            commands::run::of_document(document, &path, args.force, global)
-        }
+        SweepInput::Scene(_) => commands::run::of_document(runner.scene(&values)?, &path, args.force, global),
         SweepInput::Design(_) => {
-            let (design, inputs) = Design::read(inputs)?;
+            let (design, inputs) = runner.design(&values)?;
             commands::design::of_design(&design, inputs, &path, args.force, global).map(|_| Exit::Done)
         }
     }

@@ -18,6 +18,7 @@ use crate::text::fault::{Fault, Faults, number};
 use crate::text::inputs::Inputs;
 use crate::text::names::{check_name, names, resolve};
 use crate::text::place::Place;
+use crate::text::source::Source;
 use crate::units::{Dimension, Scale, Units};
 use crate::vector::length;
 
@@ -37,17 +38,15 @@ impl Design {
     /// # Errors
     /// All faults of both files, each with its place.
     pub fn open(path: &Path) -> Result<(Design, Inputs), Vec<Diagnostic>> {
-        let inputs = Inputs::open_bytes(path).map_err(|error| vec![*error])?;
-        Design::read(inputs)
+        let (inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
+        Design::read(inputs, &source)
     }
 
-    /// Reads the design that is the first of the files, and the spec that it names, which is not read again where it
-    /// is among the files already.
+    /// Reads a design from its text, the first of `inputs`, and the spec that it names.
     ///
     /// # Errors
     /// As [`Design::open`].
-    pub fn read(mut inputs: Inputs) -> Result<(Design, Inputs), Vec<Diagnostic>> {
-        let source = inputs.all()[0].source().map_err(|error| vec![*error])?;
+    pub fn read(mut inputs: Inputs, source: &Source) -> Result<(Design, Inputs), Vec<Diagnostic>> {
         let mut wrong = Vec::new();
         let read = source.read(FORMAT, |raw: &RawDesign, faults| {
             Some(read(raw, &source.name, &mut inputs, faults, &mut wrong))

@@ -1,0 +1,1 @@
+"""The part of the package girderway that is written in Rust."""
