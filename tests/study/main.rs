@@ -68,7 +68,7 @@ fn conduct(scene: &Value, spec: &Value, depth: &StudyBudget) -> Study {
     let document = Document::open(&folder.path().join("scene.json")).expect("a scene without faults");
     let solved = |spec: &std::sync::Arc<formats::spec::Spec>| SolvedStructure {
         spec: std::sync::Arc::clone(spec),
-        solution: solve(spec).expect("a girder that stands"),
+        solution: solve(spec).expect("a girder that stands").into(),
     };
     let known: Vec<SolvedStructure> =
         distinct_specs(&document).iter().map(|(_, _, spec)| solved(spec)).collect();
