@@ -211,6 +211,7 @@ fn commands_of_readme_and_contributing_are_those_that_are_checked() {
                 "girderway" => {
                     girderway(folder.path(), &words[1..]);
                 }
+                "pip" => assert!(super::root().join(words[words.len() - 1]).exists(), "{name}: {words:?}"),
                 script => assert!(super::root().join(script).exists(), "{name}: {script} does not exist"),
             }
             count += 1;

@@ -39,7 +39,7 @@ fn nothing_is_silently_wrong_on_the_papers_girder_and_published_numbers_are_foun
         .iter()
         .map(|(_, _, spec)| SolvedStructure {
             spec: Arc::clone(spec),
-            solution: solve(spec).expect("it stands").into(),
+            solution: Arc::new(solve(spec).expect("it stands")),
         })
         .collect::<Vec<_>>();
     let subject = MapSubject::of(document.scene(), &known).expect("a truck on a girder");

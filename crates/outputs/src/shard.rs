@@ -78,7 +78,7 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
     for folder in folders {
         match read_shard(folder) {
             Ok((shard, records)) => read.push((folder, shard, records)),
-            Err(diagnostic) => wrong.push(diagnostic),
+            Err(diagnostic) => wrong.push(*diagnostic),
         }
     }
     let Some((first, known, _)) = read.first() else { return Err(Error::Files(wrong)) };
@@ -120,17 +120,19 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
 }
 
 /// Reads one shard, whose files must be as its manifest lists them.
-fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<RunRecord>), Diagnostic> {
-    let fault = |expected: &str| Diagnostic::of_file(folder.display().to_string(), expected);
+fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<RunRecord>), Box<Diagnostic>> {
+    let fault = |expected: &str, hint: &str| {
+        Box::new(Diagnostic::of_file(folder.display().to_string(), expected).hint(hint))
+    };
     let none =
-        || fault("is not the folder of a finished shard").hint("girderway sweep SWEEP --shard K/N makes one");
+        || fault("is not the folder of a finished shard", "girderway sweep SWEEP --shard K/N makes one");
     let manifest = fs::read(folder.join(MANIFEST)).map_err(|_| none())?;
     let listed = listed_files(&manifest).ok_or_else(none)?;
     let file = |name: &str| {
         let bytes = fs::read(folder.join(name)).map_err(|_| none())?;
         let entry = listed.iter().find(|entry| entry.name == name).ok_or_else(none)?;
         if entry.sha256.as_deref() != Some(&sha256(&bytes)) {
-            return Err(fault(&format!("has a {name} that was changed")).hint("run the shard again"));
+            return Err(fault(&format!("has a {name} that was changed"), "run the shard again"));
         }
         String::from_utf8(bytes).map_err(|_| none())
     };
