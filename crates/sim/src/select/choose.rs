@@ -42,7 +42,7 @@ const SAFE: f64 = 0.8;
 /// Estimate for influence functions, relative to the tolerance, above which they are not expected to suffice.
 const HOPELESS: f64 = 10.0;
 /// Estimate for which the number of modes is chosen in a run that only checks influence functions, relative to their own.
-const CHECKED: f64 = 0.04;
+const CHECKED: f64 = 0.015;
 /// Frequency below which modes interact with bodies that bounce on their wheels, relative to that of the fastest bounce.
 const ABOVE_CONTACT: f64 = 3.0;
 /// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
