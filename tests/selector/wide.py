@@ -4,12 +4,12 @@
 
 Each scene is run twice with "auto", by extremes and by values at equal times, and compared in every recorded column with
 two references that differ in their discretization: a mesh, and natural modes. Where these differ by more than half of
-the tolerance, two more, in natural modes, are run with finer steps, because the accelerations of high modes, which enter
-reactions and internal forces, keep the errors of the steps longest; the two references that are nearest to each other
-count. A scene in which these still differ by more than half of the tolerance is counted, not judged. In runs of more
-than 100 bounces of the wheels extremes are those of the whole run and of all wheels of a body, as the measure is defined.
-CPU times are those of whole processes: of "auto", and of the same scene on the foundation that was chosen, with the
-accuracy that "auto" runs it with. One line for each run, and a summary at the end.
+the tolerance and did not take long, two more, in natural modes, are run with finer steps, because the accelerations of
+high modes, which enter reactions and internal forces, keep the errors of the steps longest; the two references that are
+nearest to each other count. A scene in which these still differ by more than half of the tolerance is counted, not
+judged. In runs of more than 100 bounces of the wheels extremes are those of the whole run and of all wheels of a body,
+as the measure is defined. CPU times are those of whole processes: of "auto", and of the same scene on the foundation
+that was chosen, with the accuracy that "auto" runs it with. One line for each run, and a summary at the end.
 """
 
 import argparse
@@ -216,6 +216,8 @@ def output_step(law, share, end):
 # Accuracy of the runs of "auto", relative to the tolerance.
 RUN_ACCURACY = {"extremes": 2e-3, "history": 1e-3}
 KINDS = {"x": "position", "speed": "speed", "pitch": "rotation", "penetration": "penetration"}
+# CPU seconds of the first two references from which no finer ones are run.
+LONG = 20
 # Number of bounces above which their phases are not known, so that the wheels of a body are one in the extremes.
 MANY = 100
 MOMENTS = {"Mx", "My", "Mz", "rx", "ry", "rz", "twist"}
@@ -342,8 +344,9 @@ def examined(program, seed, index):
     bounces = remembered(scene)
     with tempfile.TemporaryDirectory() as path:
         folder = Folder(program, Path(path), spec, scene)
-        references = [folder.run("mesh", 1e-3 * tolerance, foundation="full", elements=24)[1],
-                      folder.run("modes", 3e-3 * tolerance, foundation="modal", modes=64)[1]]
+        runs = [folder.run("mesh", 1e-3 * tolerance, foundation="full", elements=24),
+                folder.run("modes", 3e-3 * tolerance, foundation="modal", modes=64)]
+        references, cost = [run[1] for run in runs], sum(run[0] for run in runs)
 
         def nearest(measure):
             """The two references that are nearest to each other, after their difference."""
@@ -359,7 +362,7 @@ def examined(program, seed, index):
                 yield out | {"state": "refused", "why": summary}
                 continue
             apart, pair = nearest(measure)
-            if apart > tolerance / 2 and len(references) == 2:
+            if apart > tolerance / 2 and len(references) == 2 and cost < LONG:
                 references += [folder.run("finer", 1e-4 * tolerance, foundation="modal", modes=64)[1],
                                folder.run("finest", 3e-5 * tolerance, foundation="modal", modes=96)[1]]
                 apart, pair = nearest(measure)
