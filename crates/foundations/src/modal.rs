@@ -226,7 +226,9 @@ impl Dampers<'_> {
 /// Cache of the modes of one structure: each mesh is solved once for all foundations that are built from it.
 #[derive(Default)]
 pub struct ModeCache {
-    lowest: Option<MeshModes>,
+    /// In the order in which they were computed, with increasing numbers of modes. The same number of modes is always
+    /// taken from the same mesh: signs of modes, and so the coordinates in a run, differ between meshes.
+    lowest: Vec<MeshModes>,
     /// Modes that serve only to estimate errors.
     coarse: Option<MeshModes>,
     /// Number of elements for each member, and all modes of that mesh.
@@ -245,8 +247,14 @@ impl ModeCache {
         dampers: Dampers<'_>,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let modes = cached(&mut self.lowest, name, solved, (count, accuracy), excitation)?;
-        modes.foundation(name, count, ratio, dampers, excitation)
+        let index = match self.lowest.iter().position(|modes| modes.has(count)) {
+            Some(index) => index,
+            None => {
+                self.lowest.push(MeshModes::lowest(name, solved, count, accuracy, excitation)?);
+                self.lowest.len() - 1
+            }
+        };
+        self.lowest[index].foundation(name, count, ratio, dampers, excitation)
     }
 
     /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with
@@ -259,8 +267,11 @@ impl ModeCache {
         ratio: f64,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let modes = cached(&mut self.coarse, name, solved, (count, COARSE), excitation)?;
-        modes.foundation(name, count, ratio, Dampers::NONE, excitation)
+        let modes = match self.coarse.take().filter(|modes| modes.has(count)) {
+            Some(modes) => modes,
+            None => MeshModes::lowest(name, solved, count, COARSE, excitation)?,
+        };
+        self.coarse.insert(modes).foundation(name, count, ratio, Dampers::NONE, excitation)
     }
 
     /// The foundation of every mode that `excitation` excites of a mesh of `elements` elements for each member, as far
@@ -285,21 +296,6 @@ impl ModeCache {
         };
         self.whole[index].1.foundation(name, usize::MAX, ratio, dampers, excitation)
     }
-}
-
-/// The modes of a `slot` of the cache, computed again if it has fewer than `count`.
-fn cached<'m>(
-    slot: &'m mut Option<MeshModes>,
-    name: &str,
-    solved: &SolvedModel,
-    (count, accuracy): (usize, f64),
-    excitation: Excitation,
-) -> Result<&'m MeshModes, Error> {
-    let modes = match slot.take().filter(|modes| modes.has(count)) {
-        Some(modes) => modes,
-        None => MeshModes::lowest(name, solved, count, accuracy, excitation)?,
-    };
-    Ok(slot.insert(modes))
 }
 
 /// The modes that `excitation` excites, lowest first.

@@ -23,6 +23,9 @@ struct Beam {
     asked: Vec<usize>,
     /// Fidelity and accuracy of each run.
     runs: Vec<(Fidelity, f64)>,
+    /// Duration of a run, and the fidelities of those that ended before.
+    end: f64,
+    starts: Vec<Fidelity>,
     fidelity: Option<Fidelity>,
     /// Factor on the forces that are observed in runs with influence functions.
     exaggerated: Option<f64>,
@@ -65,7 +68,11 @@ impl FoundationProvider for Beam {
         foundations: &[Foundation],
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Run, Error> {
-        self.runs.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
+        if scene.end < self.end {
+            self.starts.extend(self.fidelity);
+        } else {
+            self.runs.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
+        }
         sim::run(scene, foundations, watch)
     }
 
@@ -82,10 +89,11 @@ impl FoundationProvider for Beam {
 fn chosen(alpha: f64, tolerance: Tolerance, provider: &mut Beam) -> Choice {
     let mut scene = oscillator(0.5, 0.5, alpha);
     (scene.output_dt, scene.accuracy) = (scene.end / 200.0, 1e-3);
+    provider.end = scene.end;
     let watch = &mut |_| ControlFlow::Continue(());
     let Selection { mut choices, runs, .. } =
         choose(&scene, &[Some(tolerance)], provider, watch).expect("a valid scene");
-    assert_eq!(runs, provider.runs.len());
+    assert_eq!(runs, provider.runs.len() + provider.starts.len());
     choices.remove(0)
 }
 

@@ -8,10 +8,13 @@
 //!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
 //!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
 //!    beyond m modes times that factor is the error of the new run.
-//! 4. The first run is chosen if the difference and the error of the new run together are within the tolerance, and
+//! 4. The start of the motion, an eighth of the run, is repeated with more modes, before the new run is chosen. There the
+//!    wheels meet a structure at rest, and modes that are left out would begin to move at once. The start of the finer run
+//!    in place of that of the new run changes the quantities by its error there, whatever the wheels amplify.
+//! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance, and
 //!    otherwise the new run if its error is within 0.8 of the tolerance (within the tolerance where no further run would
-//!    help). If neither is, the number of modes is raised by
-//!    the new estimates, and step 3 is repeated, up to three times. After that the error is reported as exceeding the
+//!    help), and so is that of its start. If neither is, the number of modes is raised by
+//!    the new estimates, and steps 3 and 4 are repeated, up to three times. After that the error is reported as exceeding the
 //!    tolerance.
 //!
 //! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
@@ -48,6 +51,11 @@ const NEGLIGIBLE: f64 = 0.1;
 const NO_BETTER: f64 = 1.5;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
 const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
+/// Part of the run that is repeated with more modes, and the least number of its output steps.
+const START: (f64, usize) = (0.125, 2);
+/// Estimate for the number of modes of this repetition, relative to that of the run itself, and the largest ratio with
+/// which the error of the repetition is extrapolated.
+const START_RATIO: [f64; 2] = [0.3, 0.5];
 /// The factor where there are no two runs to compare.
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
@@ -149,6 +157,19 @@ impl Open {
         let best = self.tails.last().map(|tail| tail.error).filter(|error| *error > self.tolerance);
         let enough = || self.sufficient_count(NO_BETTER * best?, least);
         self.sufficient_count(limit, least).or_else(enough).unwrap_or(self.basis.structure.dynamics.dofs())
+    }
+
+    /// Number of modes with which the start of a run with `count` modes is repeated, and the ratio of the estimates for the
+    /// two numbers; `None` where no more modes are known.
+    fn beyond(&self, count: usize) -> Option<(usize, f64)> {
+        let known = self.basis.structure.dynamics.dofs();
+        let own = self.tail(count).error;
+        if count == 0 || known <= count || own == 0.0 {
+            return None;
+        }
+        let found = self.tails.iter().find(|tail| tail.kept > count && tail.error <= START_RATIO[0] * own);
+        let (more, error) = found.map_or((known, self.tail(known).error), |tail| (tail.kept, tail.error));
+        Some((more, (error / own).min(START_RATIO[1])))
     }
 
     /// Number of known modes with frequencies below `omega`.
@@ -317,19 +338,31 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             let apart = difference(&lower.record, &higher.record, strictest.measure, bounces);
             let factor = apart.largest / lacking.max(f64::MIN_POSITIVE);
-            let factor = factor.clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
+            let mut factor = factor.clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
             lacking = largest(&open, &counts);
             let error = apart.largest + factor * lacking;
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
+            // the more modes a run has, the less the wheels' own compliance softens what it lacks
+            factor = factor.max(1.0);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= strictest.value {
                 let error = TailError { kept: 0, error, quantity: apart.quantity };
                 return self.choose_lower(&open, lower, higher, &error);
             }
-            let is_within = |own: &Open, count: usize| factor * own.tail(count).error <= SAFE * own.tolerance;
+            let is_within = |own: &Open, count: usize, factor: f64| {
+                factor * own.tail(count).error <= SAFE * own.tolerance
+            };
+            let mut start = None;
+            if open.iter().zip(&counts).all(|(own, count)| is_within(own, *count, factor)) {
+                start = self.start_error(&open, &counts, &higher, strictest.measure, bounces);
+                let found = start.as_ref().map_or(0.0, |start| start.error);
+                if found > strictest.value {
+                    factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
+                }
+            }
             let mut raised = counts.clone();
             for (own, count) in open.iter_mut().zip(&mut raised) {
-                if !is_within(own, *count) {
+                if !is_within(own, *count, factor) {
                     let limit = AIM * own.tolerance / factor;
                     self.estimate(own, &higher, &compliances, *count + 1, limit);
                     let Some(sufficient) = own.sufficient_count(limit, *count + 1) else { continue };
@@ -337,12 +370,65 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 }
             }
             if raised == counts || round == MODAL_RUNS {
-                self.settle_higher(&open, &counts, factor, &higher, round == MODAL_RUNS);
+                self.settle_higher(&open, &counts, factor, start, &higher, round == MODAL_RUNS);
                 return self.repeated(higher);
             }
             (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
         Ok(lower)
+    }
+
+    /// Error at the start of the run `higher` with `counts` modes: the change of its quantities where its start is replaced
+    /// by that of a run with more modes, D, as D / (1 - r) with the ratio r of the estimates for the two numbers of modes.
+    /// `None` where no more modes are known or the run with them fails.
+    fn start_error(
+        &mut self,
+        open: &[Open],
+        counts: &[usize],
+        higher: &Trial,
+        measure: Measure,
+        bounces: Bounces,
+    ) -> Option<TailError> {
+        let (mut fidelities, mut ratio) = (higher.fidelities.clone(), 0.0_f64);
+        for (own, count) in open.iter().zip(counts) {
+            if let Some((more, own_ratio)) = own.beyond(*count) {
+                fidelities[own.structure] = Fidelity::Modal(more);
+                ratio = ratio.max(own_ratio);
+            }
+        }
+        let steps = (START.0 * higher.record.time.len() as f64).ceil().max(START.1 as f64);
+        let (end, start) = (self.scene.end, steps * self.scene.output_dt);
+        if fidelities == higher.fidelities || start >= end {
+            return None;
+        }
+        self.scene.end = start;
+        let finer = self.trial(&fidelities, higher.accuracy, true);
+        self.scene.end = end;
+        let finer = finer.ok()?;
+        if finer.run.status != Status::Done || finer.record.quantities.len() != higher.record.quantities.len()
+        {
+            return None;
+        }
+        let mut replaced = higher.record.clone();
+        for (own, finer) in replaced.quantities.iter_mut().zip(&finer.record.quantities) {
+            let count = finer.values.len().min(own.values.len());
+            own.values[..count].copy_from_slice(&finer.values[..count]);
+        }
+        let apart = difference(&replaced, &higher.record, measure, bounces);
+        let error = TailError { kept: 0, error: apart.largest / (1.0 - ratio), quantity: apart.quantity };
+        for own in open {
+            let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
+            if fidelity != against {
+                self.choices[own.choice].tried.push(FidelityTrial {
+                    fidelity,
+                    estimate: error.error,
+                    quantity: error.quantity.clone(),
+                    against: TrialCheck::Start(against),
+                    stages: finer.run.counts.stages as u64,
+                });
+            }
+        }
+        Some(error)
     }
 
     /// Chooses the lower one of two runs, whose error is within the tolerance, unless the higher one costs so much more
@@ -364,13 +450,22 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         self.repeated(chosen)
     }
 
-    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`; `is_last` where no
-    /// further run is allowed.
-    fn settle_higher(&mut self, open: &[Open], counts: &[usize], factor: f64, higher: &Trial, is_last: bool) {
+    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`, or the error at its
+    /// `start` where that is larger; `is_last` where no further run is allowed.
+    fn settle_higher(
+        &mut self,
+        open: &[Open],
+        counts: &[usize],
+        factor: f64,
+        start: Option<TailError>,
+        higher: &Trial,
+        is_last: bool,
+    ) {
         let insufficient = if is_last { Reason::Limit } else { Reason::NoBetter };
         for (own, &count) in open.iter().zip(counts) {
             let tail = own.tail(count);
-            let error = TailError { error: factor * tail.error, ..tail };
+            let tail = TailError { error: factor * tail.error, ..tail };
+            let error = start.clone().filter(|start| start.error > tail.error).unwrap_or(tail);
             // the margin decides whether another run is worth its cost, which is over here
             let reason = if error.error <= own.tolerance { Reason::Sufficient } else { insufficient };
             self.settle(own, higher.fidelities[own.structure], reason, &error);

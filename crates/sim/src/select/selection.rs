@@ -102,6 +102,8 @@ pub enum TrialCheck {
     Replay(usize),
     /// The run was compared with one at another fidelity.
     Run(Fidelity),
+    /// The start of the run was compared with one at another fidelity.
+    Start(Fidelity),
 }
 
 /// A fidelity that was run, with its estimated error.

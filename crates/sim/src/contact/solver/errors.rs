@@ -157,18 +157,19 @@ impl Solver<'_> {
             .collect();
         for (k, out) in out.iter_mut().enumerate() {
             let Some(omega) = mechanics.omegas[k] else { continue };
-            let (mut squared, mut loss) = (omega * omega, 2.0 * mechanics.damping_ratios[k] * omega);
+            let (mut stiffened, mut loss) = (omega * omega, 2.0 * mechanics.damping_ratios[k] * omega);
             for (row, stiffness, damping) in &wheels {
-                squared += stiffness * row[k] * row[k];
+                stiffened += stiffness * row[k] * row[k];
                 loss += damping * row[k] * row[k];
             }
-            let together = squared.sqrt();
+            let together = stiffened.sqrt();
             let decay = 1.0 + 2.0 * together / (TAU * loss);
             let periods = (end * together / TAU).min(decay);
-            let amplitude = |state: &State| (state.a[k] / (omega * omega)).hypot(state.v[k] / omega);
+            let squared =
+                |state: &State| (state.a[k] / (omega * omega)).powi(2) + (state.v[k] / omega).powi(2);
             *out = Ringing {
                 periods: if periods > most { (most * periods).sqrt() } else { periods },
-                amplitude: if omega > 0.0 { amplitude(ends[0]).max(amplitude(at)) } else { f64::INFINITY },
+                amplitude: if omega > 0.0 { squared(ends[0]).max(squared(at)).sqrt() } else { f64::INFINITY },
             };
         }
     }
