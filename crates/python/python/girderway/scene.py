@@ -66,7 +66,7 @@ class Case(Mapping[str, Floats]):
     @property
     def summary(self) -> dict[str, Any]:
         """The part of `summary.json` about this run."""
-        return self._whole["compare"][self.label] if self._index else self._whole  # type: ignore[no-any-return]
+        return self._whole["compare"][self.label] if self._index else self._whole
 
     @cached_property
     def _whole(self) -> dict[str, Any]:
