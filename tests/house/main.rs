@@ -49,17 +49,15 @@ const DEPENDENCIES: [(&str, &[&str]); 18] = [
             "adams",
         ],
     ),
-    ("outputs", &["report", "results", "foundations", "design", "formats", "adams"]),
+    ("outputs", &["report", "sweep", "results", "design", "foundations", "formats", "adams"]),
     (
         "python",
         &["outputs", "results", "foundations", "import", "design", "formats", "fea", "sim", "splines"],
     ),
     ("study", &["results", "report", "foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
-    ("outputs", &["report", "sweep", "results", "design", "foundations", "formats", "adams"]),
     (
         "girderway",
         &[
-            "outputs",
             "sweep",
             "study",
             "outputs",
@@ -80,8 +78,8 @@ const DEPENDENCIES: [(&str, &[&str]); 18] = [
     ),
 ];
 
-/// The crates that read and write files: the one of output folders, and the command line, which also prints.
-const FREE: [&str; 2] = ["girderway", "outputs"];
+/// The crate that reads and writes files, prints, and starts threads as it likes: the command line.
+const FREE: [&str; 1] = ["girderway"];
 
 /// The libraries that read files, and those that write them.
 const FILES: [&str; 2] = ["formats", "outputs"];
