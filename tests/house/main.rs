@@ -15,7 +15,7 @@ use crates::Crate;
 use wings::Wings;
 
 /// Normal dependencies that each crate may have on others of ours, lowest crate first.
-const DEPENDENCIES: [(&str, &[&str]); 18] = [
+const DEPENDENCIES: [(&str, &[&str]); 19] = [
     ("splines", &[]),
     ("adams", &[]),
     ("practice", &[]),
