@@ -28,7 +28,10 @@ fn columns_of_a_building_with_mass_carry_wheel_forces_less_its_inertia() {
         Document::open(&folder.path().join("scene.json")).unwrap_or_else(|wrong| panic!("{wrong:?}"));
     let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
-        .map(|(_, _, spec)| SolvedStructure { spec: spec.clone(), solution: solve(spec).expect("it stands").into() })
+        .map(|(_, _, spec)| SolvedStructure {
+            spec: spec.clone(),
+            solution: solve(spec).expect("it stands").into(),
+        })
         .collect();
     let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
     let structure = &document.cases[0].scene.structures[0];

@@ -50,17 +50,7 @@ const DEPENDENCIES: [(&str, &[&str]); 18] = [
     ("outputs", &["report", "results", "foundations", "design", "formats", "adams"]),
     (
         "python",
-        &[
-            "outputs",
-            "results",
-            "foundations",
-            "import",
-            "design",
-            "formats",
-            "fea",
-            "sim",
-            "splines",
-        ],
+        &["outputs", "results", "foundations", "import", "design", "formats", "fea", "sim", "splines"],
     ),
     ("study", &["results", "report", "foundations", "practice", "formats", "fea", "sim", "splines", "adams"]),
     (

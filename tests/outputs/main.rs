@@ -63,7 +63,10 @@ fn run(scene: &Value, spec: &Value) -> Ran {
 fn ran(document: Document) -> Ran {
     let known: Vec<SolvedStructure> = distinct_specs(&document)
         .into_iter()
-        .map(|(_, _, spec)| SolvedStructure { spec: spec.clone(), solution: solve(spec).expect("it stands").into() })
+        .map(|(_, _, spec)| SolvedStructure {
+            spec: spec.clone(),
+            solution: solve(spec).expect("it stands").into(),
+        })
         .collect();
     let outcomes = simulate(&document, &known, Some(1), &|_| ()).expect("it runs");
     Ran { document, known, outcomes }
