@@ -90,7 +90,7 @@ else:
         container = exu.SystemContainer()
         system = container.AddSystem()
         point = system.AddNode(eu.Point(referenceCoordinates=[0, 0, 0], initialCoordinates=[0.01, 0, 0]))
-        system.AddObject(eu.MassPoint(physicsMass=1.0, nodeNumber=point))
+        system.AddObject(eu.MassPoint(mass=1.0, nodeNumber=point))
         ground = system.AddNode(eu.NodePointGround(referenceCoordinates=[0, 0, 0]))
         a = system.AddMarker(eu.MarkerNodeCoordinate(nodeNumber=ground, coordinate=0))
         b = system.AddMarker(eu.MarkerNodeCoordinate(nodeNumber=point, coordinate=0))
@@ -99,7 +99,7 @@ else:
         settings = exu.SimulationSettings()
         settings.timeIntegration.numberOfSteps, settings.timeIntegration.endTime = 10_000, 10.0
         settings.timeIntegration.verboseMode = 0
-        settings.solutionSettings.writeSolutionToFile = False
+        settings.solution.file.write = False
         system.SolveDynamic(settings)
         return system.GetNodeOutput(point, exu.OutputVariableType.Displacement)[0]
 

@@ -44,7 +44,7 @@ fn read(path: &Path) -> String {
 }
 
 fn message(failure: &Error) -> String {
-    failure.report(false)
+    failure.to_string()
 }
 
 #[test]
