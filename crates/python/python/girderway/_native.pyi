@@ -100,3 +100,15 @@ def import_model(
     skip_unused: bool,
     mass: str | None,
 ) -> tuple[str, list[str]]: ...
+
+def sweep(
+    sweep: str,
+    output: str,
+    shard: tuple[int, int] | None,
+    threads: int | None,
+    force: bool,
+    progress: Callable[[float], object] | None,
+) -> tuple[Path, dict[str, Any], list[tuple[int, str]]]: ...
+def join_shards(
+    shards: Sequence[str], output: str, force: bool
+) -> tuple[Path, dict[str, Any], list[tuple[int, str]]]: ...

@@ -6,12 +6,12 @@ import os
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Union
 
 from . import _native
 
 #: A path of a file or folder.
-StrPath = str | os.PathLike[str]
+StrPath = Union[str, "os.PathLike[str]"]
 
 
 @dataclass(frozen=True)
@@ -63,6 +63,6 @@ def join_shards(shards: Iterable[StrPath], output: StrPath, *, force: bool = Fal
     return _written(_native.join_shards([os.fspath(shard) for shard in shards], os.fspath(output), force))
 
 
-def _written(written: tuple[str | os.PathLike[str], dict[str, Any], list[tuple[int, str]]]) -> Sweep:
+def _written(written: tuple[Path, dict[str, Any], list[tuple[int, str]]]) -> Sweep:
     folder, summary, failures = written
-    return Sweep(Path(folder), summary, dict(failures))
+    return Sweep(folder, summary, dict(failures))
