@@ -10,7 +10,7 @@ import numpy.typing as npt
 _Floats = npt.NDArray[np.float64]
 _Input = str | tuple[str, str]
 
-__all__ = ["Design", "Modes", "Run", "Structure", "__version__", "design", "import_model", "run", "run_many"]
+__all__ = ["Design", "Modes", "Run", "Structure", "__version__", "design", "import_model", "join_shards", "run", "run_many", "sweep"]
 
 __version__: str
 
