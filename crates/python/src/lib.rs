@@ -4,7 +4,7 @@
 //! notebooks. Columns of a run are moved into numpy once and handed out as views that cannot be written. The lock of
 //! the interpreter is released while structures are solved, scenes run and files written.
 //!
-//! Wings, lowest first: convert, source, errors, watch, structure, solved_design, run, many, models
+//! Wings, lowest first: convert, source, errors, watch, solved_design, structure, run, many, models
 
 mod convert;
 mod errors;
