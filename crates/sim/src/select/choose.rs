@@ -330,7 +330,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
         let mut lacking = largest(&open, &vec![0; open.len()]);
         for round in 1..=MODAL_RUNS {
-            let Some(higher) = self.modal_trial(&open, &counts, accuracy) else {
+            let Some(mut higher) = self.modal_trial(&open, &counts, accuracy) else {
                 return self.repeated(lower);
             };
             for (own, count) in open.iter_mut().zip(&counts) {
@@ -342,8 +342,6 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             lacking = largest(&open, &counts);
             let error = apart.largest + factor * lacking;
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
-            // the more modes a run has, the less the wheels' own compliance softens what it lacks
-            factor = factor.max(1.0);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= strictest.value {
                 let error = TailError { kept: 0, error, quantity: apart.quantity };
@@ -354,6 +352,10 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             };
             let mut start = None;
             if open.iter().zip(&counts).all(|(own, count)| is_within(own, *count, factor)) {
+                // the errors of the steps of a run that only checks exceed what is to be found
+                if higher.accuracy > self.accuracy {
+                    higher = self.trial(&higher.fidelities, self.accuracy, true)?;
+                }
                 start = self.start_error(&open, &counts, &higher, strictest.measure, bounces);
                 let found = start.as_ref().map_or(0.0, |start| start.error);
                 if found > strictest.value {
