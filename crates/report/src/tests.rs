@@ -118,7 +118,7 @@ fn page_is_well_formed_and_holds_every_section() {
         }
     }
     for expected in
-        ["Table 1.", "Figure 1.", "Figure 2.", "done <b>", "0.5457515", "4.116096 \u{d7} 10\u{b9}\u{2070}"]
+        ["Table 1.", "Figure 1.", "Figure 2.", "done <b>", "0.5458", "4.116 \u{d7} 10\u{b9}\u{2070}"]
     {
         assert!(text.contains(expected), "{expected} is shown");
     }

@@ -12,8 +12,10 @@ use serde_json::json;
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 const ANIMATION_SCRIPT: &str = include_str!("animation.js");
-/// Significant digits of shown numbers.
-const DIGITS: usize = 7;
+/// Significant digits of shown numbers with a fraction.
+const DIGITS: usize = 4;
+/// The same of whole numbers, such as counts and loads of a file.
+const WHOLE_DIGITS: usize = 7;
 /// Largest number of rows of a table that is never divided between pages.
 const SHORT: usize = 24;
 /// Numbers of columns above which letters are smaller and much smaller in print, and the number up to which a table stays a table on a
@@ -171,7 +173,7 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
                 tbody {
                     @for row in &rows {
                         tr {
-                            @for (i, (number, text)) in row.iter().enumerate() {
+                            @for (number, text) in row {
                                 td class=[number.then_some("number")] { (text) }
                             }
                         }
@@ -215,7 +217,8 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
 /// for each column instead of in every cell.
 fn column_names(columns: &[TableColumn]) -> String {
     let mut style = String::new();
-    for (i, TableColumn { name, unit }) in columns.iter().enumerate().filter(|(_, one)| !one.name.is_empty()) {
+    for (i, TableColumn { name, unit }) in columns.iter().enumerate().filter(|(_, one)| !one.name.is_empty())
+    {
         let text = if unit.is_empty() { name.clone() } else { format!("{name} ({unit})") };
         style.push_str(&format!("--c{}:\"{}\";", i + 1, css_text(&text)));
     }
@@ -248,6 +251,7 @@ fn shown(cell: &TableCell) -> Option<String> {
     match cell {
         TableCell::Empty => Some(String::new()),
         TableCell::Text(text) => Some(text.clone()),
+        TableCell::Number(value) if value.fract() == 0.0 => number(*value, WHOLE_DIGITS),
         TableCell::Number(value) => number(*value, DIGITS),
     }
 }
