@@ -44,6 +44,9 @@ impl Progress {
     #[must_use]
     pub fn stage(&self, message: &str) -> Bar {
         let bar = self.hidden_or(ProgressBar::new_spinner());
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} gone") {
+            bar.set_style(style);
+        }
         bar.set_message(message.to_owned());
         if self.draws {
             bar.enable_steady_tick(Duration::from_millis(100));
@@ -55,10 +58,16 @@ impl Progress {
     #[must_use]
     pub fn bar(&self, message: &str, length: u64) -> Bar {
         let bar = self.hidden_or(ProgressBar::new(length));
-        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}% {eta}") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone, {eta} left")
+        {
             bar.set_style(style.progress_chars("=> "));
         }
         bar.set_message(message.to_owned());
+        if self.draws {
+            // the times go on between two steps
+            bar.enable_steady_tick(Duration::from_millis(500));
+        }
         Bar(bar)
     }
 

@@ -20,6 +20,7 @@ mod specs;
 mod stops;
 mod stresses;
 mod tables;
+mod typos;
 mod warnings;
 
 use std::fs;

@@ -217,3 +217,26 @@ fn without_python_the_status_is_2_and_the_hint_says_what_is_needed() {
     assert!(message.contains("python3") && message.contains("hint"), "{message}");
     assert_eq!(std::fs::read_dir(empty.path()).expect("the folder").count(), 0, "nothing is left behind");
 }
+
+/// With a local address at which nothing listens in place of the index, and no folder of packages.
+#[test]
+fn without_a_package_index_the_message_comes_without_retries() {
+    let empty = tempfile::tempdir().expect("a temporary folder");
+    let output = Command::new(env!("CARGO_BIN_EXE_girderway"))
+        .arg("crosscheck")
+        .arg(root().join("examples/bogie/spec.json"))
+        .env("XDG_CACHE_HOME", empty.path())
+        .env("PIP_INDEX_URL", "http://127.0.0.1:9/simple")
+        .env("PIP_NO_CACHE_DIR", "1")
+        .env_remove("PIP_FIND_LINKS")
+        .env_remove("PIP_EXTRA_INDEX_URL")
+        .output()
+        .expect("the program starts");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&output.stderr).into_owned();
+    // a machine without Python stops earlier, as above
+    assert!(message.contains("package index") || message.contains("python3"), "{message}");
+    assert!(!message.contains("Retrying"), "{message}");
+    let left: Vec<_> = std::fs::read_dir(empty.path().join("girderway")).expect("the cache").collect();
+    assert!(left.is_empty(), "{left:?}");
+}

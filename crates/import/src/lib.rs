@@ -116,6 +116,9 @@ pub fn import(
             }
         }
         _ => {
+            if path.is_dir() {
+                return Err(vec![Diagnostic::of_file(name, "cannot be read: it is a folder")]);
+            }
             let wrong = Diagnostic::of_file(name, "the extension of the file is not that of a known format");
             let hint = "use .bdf, .dat or .nas (NASTRAN bulk data), .msh (gmsh) or .inp (Abaqus)";
             return Err(vec![wrong.hint(hint)]);

@@ -45,20 +45,21 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
     let folder = args.output.as_deref().map(open).transpose()?;
     let mut check = Check::new(&source, spec)?;
     let mut result = PeerComparison { rails: check.rails(), ..PeerComparison::default() };
-    for peer in Peer::ALL {
+    let bar = progress.bar("comparing", Peer::ALL.len() as u64);
+    for (done, peer) in Peer::ALL.into_iter().enumerate() {
+        bar.set(done as u64);
         if peer.straight() && !matches!(check.spec.form, Form::Girder(_)) {
             let why = "it accepts only straight girders, the short form of a spec".to_owned();
             result.absent.push((peer, why));
             continue;
         }
-        let stage = progress.stage(&format!("comparing with {}", peer.name()));
-        let outcome = check.compare(peer, &progress);
-        drop(stage);
-        match outcome? {
+        bar.name(&format!("comparing with {}", peer.name()));
+        match check.compare(peer, &progress)? {
             Ok(outcome) => result.outcomes.push(outcome),
             Err(why) => result.absent.push((peer, why)),
         }
     }
+    drop(bar);
     let text = if global.json { output::json(&result.json()) } else { result.table() };
     output::print(&text)?;
     if let Some(mut folder) = folder {

@@ -12,6 +12,30 @@ pub const REQUIREMENTS: &str = include_str!("../../../fea/requirements.txt");
 const OLDEST: [u32; 2] = [3, 11];
 /// Name of the file that marks an environment as complete.
 const MARK: &str = "complete";
+/// Name of the file that marks an environment in which packages are missing; it contains the identifier of the process
+/// that made it. This process uses it, and later ones try again.
+const PARTIAL: &str = "partial";
+/// A small package of the requirements, by which an index that cannot be reached is noticed at once.
+const SMALLEST: &str = "wcwidth";
+/// What the models of each code need besides numpy and scipy, by the beginnings of the lines of the requirements.
+const PACKAGES: [(&str, &[&str]); 4] =
+    [("scikit-fem", &["scikit-fem"]), ("OpenSees", &["openseespy"]), ("PyNite", PYNITE), ("gmsh", &["gmsh"])];
+const PYNITE: &[&str] = &[
+    "PyNiteFEA",
+    "prettytable",
+    "wcwidth",
+    "matplotlib",
+    "contourpy",
+    "cycler",
+    "fonttools",
+    "kiwisolver",
+    "packaging",
+    "pillow",
+    "pyparsing",
+    "python-dateutil",
+];
+/// What every model needs.
+const SHARED: &[&str] = &["numpy", "scipy"];
 
 /// Python interpreter and cache directory for the environment of the other codes.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -46,11 +70,14 @@ impl Environment {
     /// The environment is created in a temporary directory and renamed when it is complete, so that interrupted or
     /// concurrent processes do not leave an incomplete one.
     ///
+    /// If the packages cannot be installed together, those of each code are installed separately, and the codes that
+    /// remain are used.
+    ///
     /// # Errors
-    /// Python is missing or too old, or the packages cannot be installed.
+    /// Python is missing or too old, the index of packages cannot be reached, or no code can be installed.
     pub fn prepare(&self, say: &mut dyn FnMut(&str)) -> Result<PathBuf, Error> {
         let folder = self.folder();
-        if complete(&folder) {
+        if complete(&folder) || made_by_this_process(&folder) {
             return Ok(program(&folder));
         }
         self.check_version()?;
@@ -71,22 +98,32 @@ impl Environment {
 
         let make = start(Command::new(&self.python).args(["-m", "venv"]).arg(&new))?;
         succeeded(&make, "make a Python environment (python3 -m venv)")?;
-        let mut install = Command::new(program(&new));
-        install.args(["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--quiet"]);
-        // The list includes all dependencies, so that no unpinned package is installed.
-        install.args(["--no-deps", "--only-binary", ":all:", "--requirement"]).arg(&requirements);
-        succeeded(&start(&mut install)?, "install the packages with pip")?;
-        let mark = new.join(MARK);
-        fs::write(&mark, REQUIREMENTS).map_err(file(&mark))?;
+        let python = program(&new);
+        // without retries, a machine without network has its message at once
+        let one = install(&python, &requirements_of(&[SMALLEST]), &["--retries", "0", "--timeout", "20"])?;
+        if !one.status.success() {
+            return Err(Error::Offline { output: tail(&one) });
+        }
+        let all =
+            install(&python, &["--requirement".to_owned(), requirements.display().to_string()], RETRIES)?;
+        let mark = match all.status.success() {
+            true => (MARK, REQUIREMENTS.to_owned()),
+            false => {
+                install_separately(&python, &all, say)?;
+                (PARTIAL, std::process::id().to_string())
+            }
+        };
+        let path = new.join(mark.0);
+        fs::write(&path, mark.1).map_err(file(&path))?;
 
         if folder.exists() && !complete(&folder) {
-            // Its interpreter no longer exists, for example after an upgrade of the system.
+            // Packages are missing, or its interpreter no longer exists, for example after an upgrade of the system.
             fs::remove_dir_all(&folder).map_err(file(&folder))?;
         }
         match fs::rename(&new, &folder) {
             Ok(()) => Ok(program(&folder)),
             // Another process has created the environment in the meantime.
-            Err(_) if complete(&folder) => Ok(program(&folder)),
+            Err(_) if complete(&folder) || folder.join(PARTIAL).is_file() => Ok(program(&folder)),
             Err(source) => Err(Error::File { path: folder, source }),
         }
     }
@@ -102,6 +139,52 @@ impl Environment {
         }
         Ok(())
     }
+}
+
+/// Options of installations: an index that answers slowly is asked a second and a third time.
+const RETRIES: &[&str] = &["--retries", "2"];
+
+/// Lines of the requirements that begin with one of `names`.
+fn requirements_of(names: &[&str]) -> Vec<String> {
+    let is_one = |line: &&str| names.iter().any(|name| line.starts_with(name));
+    REQUIREMENTS.lines().filter(is_one).map(str::to_owned).collect()
+}
+
+/// Runs pip in the environment of `python`. The requirements include all dependencies, so that no unpinned package is
+/// installed.
+fn install(python: &Path, packages: &[String], options: &[&str]) -> Result<Output, Error> {
+    let mut pip = Command::new(python);
+    pip.args(["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--quiet"]);
+    pip.args(["--no-deps", "--only-binary", ":all:"]).args(options).args(packages);
+    start(&mut pip)
+}
+
+/// Installs what each code needs on its own and says which codes are missing; `together` is the output of the
+/// installation of all.
+fn install_separately(python: &Path, together: &Output, say: &mut dyn FnMut(&str)) -> Result<(), Error> {
+    let step = "install the packages with pip";
+    succeeded(&install(python, &requirements_of(SHARED), RETRIES)?, step)?;
+    let mut missing = Vec::new();
+    for (code, names) in PACKAGES {
+        if !install(python, &requirements_of(names), RETRIES)?.status.success() {
+            missing.push(code);
+        }
+    }
+    if missing.len() == PACKAGES.len() {
+        return succeeded(together, step);
+    }
+    if !missing.is_empty() {
+        say(&format!(
+            "the packages of {} cannot be installed now; the comparison goes on without, and the next one tries again",
+            missing.join(", ")
+        ));
+    }
+    Ok(())
+}
+
+/// Whether this process has made the environment, without some packages.
+fn made_by_this_process(folder: &Path) -> bool {
+    fs::read_to_string(folder.join(PARTIAL)).is_ok_and(|made| made == std::process::id().to_string())
 }
 
 /// Whether the environment was completed and its interpreter still exists.

@@ -63,6 +63,15 @@ pub enum Error {
         /// Last lines of what it wrote.
         output: String,
     },
+    /// pip cannot reach its index of packages.
+    #[error(
+        "pip cannot reach its package index (PyPI), from which the other codes come: connect this machine once, or set \
+         PIP_INDEX_URL or PIP_FIND_LINKS to a copy of the packages\n{output}"
+    )]
+    Offline {
+        /// Last lines of what pip wrote.
+        output: String,
+    },
     /// The script failed.
     #[error("the model in {code} failed\n{output}")]
     Script {

@@ -6,13 +6,20 @@
 
 use serde_json::{Value, json};
 
-use Restriction::{ListOf, ListOfNotNegative, ListOfPositive, NotNegative, Positive, Words};
+use Restriction::{
+    Alternatives, Blocks, Fraction, ListOf, ListOfNotNegative, ListOfPositive, NotNegative, Positive, Words,
+};
 
 /// What a property, or each item of its list, may be.
 #[derive(Clone, Copy)]
 enum Restriction {
     Words(&'static [&'static str]),
     ListOf(&'static [&'static str]),
+    /// A list of words of one of the groups.
+    Alternatives(&'static [&'static [&'static str]]),
+    /// A word for each cell, block by block.
+    Blocks(&'static [&'static str]),
+    Fraction,
     Positive,
     NotNegative,
     ListOfPositive,
@@ -54,6 +61,14 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Girder", "density", Positive),
     ("Girder", "fy", Positive),
     ("Block", "type", Words(&["line"])),
+    ("CellData", "kind", Blocks(&["beam", "truss", "rod"])),
+    ("Section", "A", Positive),
+    ("Section", "Iy", Positive),
+    ("Section", "Iz", Positive),
+    ("Section", "J", NotNegative),
+    ("Section", "Asy", Positive),
+    ("Section", "Asz", Positive),
+    ("Cut", "at", Fraction),
     ("Material", "E", Positive),
     ("Material", "G", Positive),
     ("Material", "density", NotNegative),
@@ -102,7 +117,7 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Body", "mass", Positive),
     ("Body", "weight", Positive),
     ("Body", "inertia", ListOfNotNegative),
-    ("Body", "dof", ListOf(&["x", "y", "z", "roll", "yaw", "pitch", "X", "Y", "Z"])),
+    ("Body", "dof", Alternatives(&[BODY_DOFS, &["X", "Y", "Z"]])),
     ("Wheel", "radius", Positive),
     ("Wheel", "spin_inertia", Positive),
     ("Vertical", "law", Words(&["linear", "impact"])),
@@ -144,6 +159,11 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Practice", "release", Words(&["slow", "rapid"])),
     ("Practice", "guide", Words(&["flanges", "rollers"])),
     ("Practice", "lateral_section", Words(LATERAL_SECTIONS)),
+    ("Practice", "rail_head", Positive),
+    ("Practice", "bridge_speed", Positive),
+    ("Practice", "trolley_speed", Positive),
+    ("Practice", "hoist_speed", Positive),
+    ("Practice", "bumper_stroke", Positive),
     // designs
     ("Design", "gravity", NotNegative),
     ("Train", "ends", ListOfNotNegative),
@@ -154,6 +174,10 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("NamedCase", "gap", NotNegative),
     ("NamedCase", "order", Words(&["any", "given"])),
     ("SectionCut", "component", Words(COMPONENTS)),
+    ("DesignPractice", "rail_head", Positive),
+    ("DesignPractice", "bridge_speed", Positive),
+    ("DesignPractice", "trolley_speed", Positive),
+    ("DesignPractice", "hoist_speed", Positive),
     ("DesignPractice", "s_class", Words(FATIGUE_CLASSES)),
     ("DesignPractice", "building_class", Words(&["A", "B", "C", "D"])),
     ("DesignPractice", "operation", Words(&["cab", "monorail", "pendant", "hand-geared"])),
@@ -190,6 +214,23 @@ fn restrict(property: &mut Value, restriction: Restriction) {
             property["enum"] = words.iter().map(|word| json!(word)).chain(null).collect();
         }
         ListOf(words) => property["items"]["enum"] = json!(words),
+        Alternatives(groups) => {
+            let lists = groups.iter().map(|words| json!({ "items": { "enum": words } }));
+            property["anyOf"] = lists.collect();
+        }
+        Blocks(words) => {
+            for block in property["items"]["anyOf"].as_array_mut().into_iter().flatten() {
+                match block["type"].as_str() {
+                    Some("string") => block["enum"] = json!(words),
+                    Some("array") => block["items"]["enum"] = json!(words),
+                    _ => {}
+                }
+            }
+        }
+        Fraction => {
+            property["minimum"] = json!(0);
+            property["maximum"] = json!(1);
+        }
         Positive => property["exclusiveMinimum"] = json!(0),
         NotNegative => property["minimum"] = json!(0),
         ListOfPositive => property["items"]["exclusiveMinimum"] = json!(0),

@@ -105,7 +105,7 @@ fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
 /// Checks that the member `format` is present and equal to `expected`.
 pub fn format(found: &Option<String>, expected: &str, root: &Place<'_>, faults: &mut Faults) {
     if let Some(word) = faults.require(found, root, "format") {
-        faults.one_of(word, &root.key("format"), &[(expected, ())]);
+        faults.check_format(word, &root.key("format"), expected);
     }
 }
 

@@ -153,6 +153,19 @@ impl Faults {
         None
     }
 
+    /// Adds a fault if `found` is not the format `expected`; for another format of the program with the command for it.
+    pub fn check_format(&mut self, found: &str, place: &Place<'_>, expected: &str) {
+        match OTHER_FORMATS.iter().find(|(format, _)| found == *format && found != expected) {
+            Some((_, hint)) => {
+                let fault = Fault::new(place, format!("must be \"{expected}\"")).got(format!("\"{found}\""));
+                self.add(fault.of_value().hint(*hint));
+            }
+            None => {
+                self.one_of(found, place, &[(expected, ())]);
+            }
+        }
+    }
+
     /// Adds a fault for a key of the format that this version does not support.
     pub fn unavailable(&mut self, place: &Place<'_>, what: &str) {
         self.add(Fault::new(place, format!("{what} is not available in this version")).at_key());
@@ -228,6 +241,19 @@ fn distance(a: &str, b: &str) -> usize {
     }
     row[b.len()]
 }
+
+/// Formats of the program, with what to do with a file of each that is given in place of another.
+const OTHER_FORMATS: [(&str, &str); 6] = [
+    (
+        "girderway-beam/1",
+        "this is a beam spec, which `fea` and `crosscheck` read; scenes and designs name theirs",
+    ),
+    ("girderway-scene/1", "this is a scene, which `run`, `sim`, `study` and `deck` read"),
+    ("girderway-design/1", "this is a design, which `design` reads"),
+    ("girderway-grid/1", "this is a grid, which `splines` reads"),
+    ("girderway-summary/1", "this is the summary of a run, which no command reads"),
+    ("girderway-design-summary/1", "this is the summary of a design, which no command reads"),
+];
 
 #[cfg(test)]
 mod tests {

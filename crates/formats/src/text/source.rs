@@ -196,7 +196,7 @@ impl<'s> Tree<'s> {
     fn other_format(&self, format: &str) -> Option<Diagnostic> {
         let found = self.root.member("format")?.value.as_text()?;
         let mut faults = Faults::default();
-        faults.one_of(found, &Place::root().key("format"), &[(format, ())]);
+        faults.check_format(found, &Place::root().key("format"), format);
         self.diagnose(&faults).pop()
     }
 

@@ -7,6 +7,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::axis::ChartAxis;
 use super::backend::SvgBackend;
 use super::coordinate::Coordinate;
+use super::elements::OnePath;
 use super::error::Error;
 use super::palette::{FAINT, GREY, INK};
 use super::scale::AxisScale;
@@ -145,8 +146,12 @@ pub(super) fn plot<'s>(
 
 /// Draws grid lines at the ticks, the zero line of y darker.
 pub(super) fn grid(plot: &mut Plot<'_>) -> Result<(), Error> {
-    plot.configure_mesh().disable_axes().bold_line_style(stroke(FAINT, 0.8)).draw()?;
-    let (x, zero) = (plot.x_range(), 0.0);
+    let (x, y, zero) = (plot.x_range(), plot.y_range(), 0.0);
+    let both = plot.as_coord_spec();
+    let upright = both.x_spec().ticks.values.iter().map(|at| vec![(*at, y.start), (*at, y.end)]);
+    let level = both.y_spec().ticks.values.iter().map(|at| vec![(x.start, *at), (x.end, *at)]);
+    let lines = OnePath { pieces: upright.chain(level).collect(), style: stroke(FAINT, 0.8) };
+    plot.plotting_area().draw(&lines)?;
     if plot.as_coord_spec().y_spec().ticks.values.contains(&zero) {
         let line = PathElement::new([(x.start, zero), (x.end, zero)], stroke(GREY, 0.8));
         plot.plotting_area().draw(&line)?;

@@ -16,7 +16,7 @@ use super::sheet::{
 };
 use super::svg::{FINE, Svg};
 use super::text::{text_width, wrap};
-use super::thinning::thin;
+use super::thinning::{simplified, thin};
 use super::ticks::Ticks;
 
 /// Height of the frame of an ordinary chart, in pixels.
@@ -25,6 +25,8 @@ const HEIGHT: f64 = 370.0;
 const EQUAL: [f64; 2] = [150.0, 620.0];
 /// Width of a column within which curves are thinned, in pixels.
 const COLUMN: f64 = 0.5;
+/// Distance of the points that a drawn line leaves out from it, in pixels: half a unit of the drawing.
+const INVISIBLE: f64 = 0.05;
 /// Largest number of points of a series that is not thinned.
 const LONG: usize = 2000;
 /// Distance of symbols along a curve, in pixels.
@@ -249,7 +251,14 @@ impl Chart {
         let corners = series.corners();
         let placed: Vec<_> = corners.iter().map(|p| frame.place(*p)).collect();
         let drawn: Vec<[f64; 2]> = thin(&placed, COLUMN, LONG).into_iter().map(|i| corners[i]).collect();
-        let path: Vec<(f64, f64)> = drawn.iter().map(|[x, y]| (*x, *y)).collect();
+        // symbols at points stand at all of them
+        let path: Vec<(f64, f64)> = match series.has_symbols() {
+            true => drawn.iter().map(|[x, y]| (*x, *y)).collect(),
+            false => {
+                let placed: Vec<_> = drawn.iter().map(|p| frame.place(*p)).collect();
+                simplified(&placed, INVISIBLE).into_iter().map(|i| (drawn[i][0], drawn[i][1])).collect()
+            }
+        };
         let is_single = path.len() == 1;
         let margin = if self.x_axis.range.or(self.y_axis.range).is_some() { 1.5 } else { 8.0 };
         let class = format!("class=\"series\" data-series=\"{index}\"");

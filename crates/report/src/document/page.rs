@@ -12,8 +12,10 @@ use serde_json::json;
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 const ANIMATION_SCRIPT: &str = include_str!("animation.js");
-/// Significant digits of shown numbers.
-const DIGITS: usize = 7;
+/// Significant digits of shown numbers with a fraction.
+const DIGITS: usize = 4;
+/// The same of whole numbers, such as counts and loads of a file.
+const WHOLE_DIGITS: usize = 7;
 /// Largest number of rows of a table that is never divided between pages.
 const SHORT: usize = 24;
 /// Numbers of columns above which letters are smaller and much smaller in print, and the number up to which a table stays a table on a
@@ -121,7 +123,7 @@ fn section(
                         @for (fact, value) in &facts {
                             tr {
                                 th scope="row" { (fact.name) }
-                                td.number[matches!(fact.value, TableCell::Number(_))] { (value) }
+                                td class=[matches!(fact.value, TableCell::Number(_)).then_some("number")] { (value) }
                                 td.unit { (fact.unit) }
                             }
                         }
@@ -152,20 +154,16 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
     }
     // headers of numeric columns are aligned with their numbers
     let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
-    let label = |i: usize| {
-        let TableColumn { name, unit } = &table.columns[i];
-        let text = if unit.is_empty() { name.clone() } else { format!("{name} ({unit})") };
-        (table.columns.len() > NARROW).then_some(text)
-    };
+    let is_stacked = table.columns.len() > NARROW;
     let is_short = table.rows.len() <= SHORT;
     Ok(html! {
         div.scroll .short[is_short] .wide[table.columns.len() > WIDE] .wider[table.columns.len() > WIDER] {
-            table .stacked[table.columns.len() > NARROW] {
+            table .stacked[is_stacked] .lead[is_stacked && table.columns[0].name.is_empty()] style=[is_stacked.then(|| column_names(&table.columns))] {
                 caption { b { "Table " (running) ". " } (table.caption) }
                 thead {
                     tr {
                         @for (i, column) in table.columns.iter().enumerate() {
-                            th scope="col" .number[numeric(i)] {
+                            th scope="col" class=[numeric(i).then_some("number")] {
                                 (column.name)
                                 @if !column.unit.is_empty() { " " span.unit { "(" (column.unit) ")" } }
                             }
@@ -175,8 +173,8 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
                 tbody {
                     @for row in &rows {
                         tr {
-                            @for (i, (number, text)) in row.iter().enumerate() {
-                                td.number[*number] data-label=[label(i)] { (text) }
+                            @for (number, text) in row {
+                                td class=[number.then_some("number")] { (text) }
                             }
                         }
                     }
@@ -215,16 +213,33 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
     })
 }
 
-/// Style of the lower margin of printed pages: the title of the report and its file, and the number of the page.
-fn page_footer(title: &str) -> String {
-    let mut text = String::new();
-    for c in title.chars() {
-        // every character that could end the string or the element is written by its code
+/// Names of the columns as properties of the table, which the style sheet puts before the cells of a narrow screen: once
+/// for each column instead of in every cell.
+fn column_names(columns: &[TableColumn]) -> String {
+    let mut style = String::new();
+    for (i, TableColumn { name, unit }) in columns.iter().enumerate().filter(|(_, one)| !one.name.is_empty())
+    {
+        let text = if unit.is_empty() { name.clone() } else { format!("{name} ({unit})") };
+        style.push_str(&format!("--c{}:\"{}\";", i + 1, css_text(&text)));
+    }
+    style
+}
+
+/// Text of a string of a style sheet: every character that could end the string or the element is written by its code.
+fn css_text(text: &str) -> String {
+    let mut all = String::new();
+    for c in text.chars() {
         match c {
-            c if c.is_ascii_alphanumeric() || c == ' ' || !c.is_ascii() => text.push(c),
-            c => text.push_str(&format!("\\{:x} ", u32::from(c))),
+            c if c.is_ascii_alphanumeric() || " ().,/%-".contains(c) || !c.is_ascii() => all.push(c),
+            c => all.push_str(&format!("\\{:x} ", u32::from(c))),
         }
     }
+    all
+}
+
+/// Style of the lower margin of printed pages: the title of the report and its file, and the number of the page.
+fn page_footer(title: &str) -> String {
+    let text = css_text(title);
     format!(
         "@page {{ @bottom-left {{ content: \"{text} \\2013  report.html\"; }} \
          @bottom-right {{ content: \"Page \" counter(page) \" of \" counter(pages); }} }}\n"
@@ -236,6 +251,7 @@ fn shown(cell: &TableCell) -> Option<String> {
     match cell {
         TableCell::Empty => Some(String::new()),
         TableCell::Text(text) => Some(text.clone()),
+        TableCell::Number(value) if value.fract() == 0.0 => number(*value, WHOLE_DIGITS),
         TableCell::Number(value) => number(*value, DIGITS),
     }
 }

@@ -78,7 +78,7 @@ pub enum TableCell {
     Empty,
     /// Text, shown as it is.
     Text(String),
-    /// A number, shown with seven significant digits.
+    /// A number, shown with four significant digits, or with seven where it is a whole number.
     Number(f64),
 }
 

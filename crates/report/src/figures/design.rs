@@ -6,6 +6,9 @@ use formats::design::Design;
 use formats::units::{Dimension, Force, Length, Scale, Units};
 use trains::{GirderResponse, Governing, SectionSide};
 
+/// Largest length in mm or in that a table shows in these: longer ones are positions.
+const SHORT: f64 = 1000.0;
+
 /// Unit in which engineers read deflections, and its factor from `units`.
 pub(crate) fn deflection_unit(units: Units) -> (&'static str, f64) {
     match units.length {
@@ -27,6 +30,17 @@ pub(crate) fn reading_unit(units: Units, dimension: Dimension) -> (String, f64) 
     };
     let unit = to.label(dimension).replace("^2", "\u{b2}").replace("^4", "\u{2074}");
     (unit, Scale { from: units, to }.factor(dimension))
+}
+
+/// Unit in which the values of a column of a run are read, and its factor from `units`; `largest` is the largest
+/// magnitude. Lengths of a metre and more, and speeds and others, stay in the units of the file.
+pub(crate) fn column_unit(units: Units, dimension: Dimension, largest: f64) -> (String, f64) {
+    let (short, factor) = deflection_unit(units);
+    match dimension {
+        Dimension::FORCE | Dimension::MOMENT | Dimension::STRESS => reading_unit(units, dimension),
+        Dimension::LENGTH if factor * largest < SHORT => (short.to_owned(), factor),
+        _ => (units.label(dimension), 1.0),
+    }
 }
 
 /// Unit of a quantity for reading, and the factor from `units`.

@@ -2,7 +2,7 @@
 //!
 //! `rail_sketch` draws a rail with supports and wheels, `design` the envelopes of a design, `influence_lines` the
 //! influence lines of its governing values with the wheels above them.
-//! `run_figure` is a figure with its name; `motion`, `rails`, `responses`, `structures` and `animation` make figures,
+//! `run_figure` is a figure with its name, `run_name` the name of a run; `motion`, `rails`, `responses`, `structures` and `animation` make figures,
 //! and `run` collects those of a run in the order of the report.
 
 pub mod animation;
@@ -15,4 +15,5 @@ pub(crate) mod rails;
 pub(crate) mod responses;
 pub mod run;
 pub mod run_figure;
+pub(crate) mod run_name;
 pub(crate) mod structures;

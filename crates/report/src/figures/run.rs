@@ -1,5 +1,6 @@
 //! The figures of a run, in the order of the report.
 
+use crate::figures::run_name::run_name;
 use formats::scene::Document;
 use foundations::{SolvedStructure, solution_of};
 use results::case_result::CaseResult;
@@ -78,7 +79,7 @@ pub fn figures(
         .iter()
         .zip(outcomes)
         .map(|(case, outcome)| LabelledRun {
-            label: outcome.label.clone(),
+            label: run_name(&outcome.label).to_owned(),
             scene: &case.scene,
             record: &outcome.columns,
         })

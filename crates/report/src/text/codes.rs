@@ -1,5 +1,6 @@
 //! Report content on the comparison with design codes.
 
+use crate::figures::design::{column_unit, deflection_unit};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;
 use formats::text::number::rounded;
@@ -8,7 +9,7 @@ use practice::clause::CodeClause;
 use results::codes::{CodeCheck, CodeComparison, StaticDeflection};
 
 /// Significant digits of values of codes; the codes themselves state no more.
-const DIGITS: usize = 5;
+const DIGITS: usize = 4;
 
 /// The section on values of codes, with those of all runs that have any; `None` where the scene does not ask for
 /// them.
@@ -24,7 +25,9 @@ pub fn section(scene: &Scene, runs: &[(&str, Option<&CodeCheck>)]) -> Option<Rep
          an explanation.",
     );
     for (name, value, dimension) in first.crane.list() {
-        section = section.fact(name.replace('_', " "), value, scene.units.label(dimension));
+        // spans and approaches are lengths of the plan, however short
+        let (unit, factor) = column_unit(scene.units, dimension, f64::INFINITY);
+        section = section.fact(name.replace('_', " "), factor * value, unit);
     }
     if first.crane.approach_is_from_run {
         section = section.paragraph(
@@ -84,16 +87,18 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
                 .find(|other| other.name == row.name)
                 .map(|other: &CodeComparison| other.measured.value)
         };
-        let mut head = vec![TableCell::from(row.what), TableCell::from(scene.units.label(row.dimension))];
+        let most = row.values.iter().fold(0.0_f64, |most, value| most.max(value.value.abs()));
+        let (unit, factor) = column_unit(scene.units, row.dimension, most);
+        let mut head = vec![TableCell::from(row.what), TableCell::from(unit)];
         head.extend(all.iter().map(|(_, codes)| {
-            found(codes).map_or(TableCell::Empty, |value| TableCell::from(rounded(value, DIGITS)))
+            found(codes).map_or(TableCell::Empty, |value| TableCell::from(rounded(factor * value, DIGITS)))
         }));
         for value in &row.values {
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
             line.extend(clause_cells(&value.clause));
             line.extend([
                 TableCell::from(value.formula.clone()),
-                TableCell::from(rounded(value.value, DIGITS)),
+                TableCell::from(rounded(factor * value.value, DIGITS)),
             ]);
             rows.push(line);
         }
@@ -108,10 +113,11 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
     columns.push(TableColumn::new("formula", ""));
     let factors = first.factors.iter().map(|given| {
         let value = &given.value;
+        let (unit, scale) = column_unit(scene.units, given.dimension, value.value.abs());
         let mut line = vec![
             TableCell::from(given.name.replace('_', " ")),
-            TableCell::from(rounded(value.value, DIGITS)),
-            TableCell::from(scene.units.label(given.dimension)),
+            TableCell::from(rounded(scale * value.value, DIGITS)),
+            TableCell::from(unit),
         ];
         line.extend(clause_cells(&value.clause));
         line.push(TableCell::from(value.formula.clone()));
@@ -124,15 +130,16 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
 /// Deflections under static wheel loads, one line for each limit.
 fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
+    let (short_unit, factor) = deflection_unit(scene.units);
     let mut columns = vec![
         TableColumn::new("deflection", ""),
         TableColumn::new("rail", ""),
         TableColumn::new("from", &unit),
         TableColumn::new("to", &unit),
-        TableColumn::new("static", &unit),
+        TableColumn::new("static", short_unit),
         TableColumn::new("span over deflection", ""),
         TableColumn::new("limit", ""),
-        TableColumn::new("allowable", &unit),
+        TableColumn::new("allowable", short_unit),
         TableColumn::new("within limit", ""),
     ];
     columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
@@ -143,13 +150,13 @@ fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
             TableCell::from(found.rail.clone()),
             TableCell::from(found.span[0]),
             TableCell::from(found.span[1]),
-            TableCell::from(rounded(found.value, DIGITS)),
-            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(rounded(ratio, DIGITS))),
+            TableCell::from(rounded(factor * found.value, DIGITS)),
+            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
         ];
         for limit in &found.limits {
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
             line.push(TableCell::from(limit.limit.formula()));
-            line.push(TableCell::from(rounded(limit.value, DIGITS)));
+            line.push(TableCell::from(rounded(factor * limit.value, DIGITS)));
             line.push(TableCell::from(if found.value <= limit.value { "yes" } else { "no" }));
             line.extend(clause_cells(&limit.limit.clause));
             rows.push(line);

@@ -1,6 +1,7 @@
 //! Report content on the direct stresses of girders in the runs.
 
 use crate::figures::design::{digits, side_phrase, with_unit};
+use crate::figures::run_name::run_name;
 use crate::text::design_stresses::{lateral_words, stress_unit};
 use crate::{ReportTable, TableCell, TableColumn};
 use formats::LateralSection;
@@ -41,7 +42,7 @@ pub(super) fn verdict_line(document: &Document, outcomes: &[CaseResult]) -> Opti
         if let Some((own, found)) = own.zip(outcome.girders.stresses.governing()) {
             out.push_str(&format!(
                 "; in the run \"{}\" {}, {}",
-                outcome.label,
+                run_name(&outcome.label),
                 text(found.value),
                 own.phrase()
             ));
@@ -85,7 +86,7 @@ pub(super) fn table(document: &Document, outcomes: &[CaseResult]) -> Option<(Rep
     let mut models: Vec<LateralSection> = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         for found in &outcome.girders.stresses.rows {
-            table.rows.push(row(&case.scene, &outcome.label, found, factor));
+            table.rows.push(row(&case.scene, run_name(&outcome.label), found, factor));
             models.extend(case.scene.lateral_section.filter(|own| !models.contains(own)));
         }
     }

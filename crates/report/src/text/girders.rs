@@ -1,6 +1,7 @@
 //! Report content on the extremes of girders in the runs.
 
-use crate::figures::design::{digits, side_phrase, unit_of, with_unit};
+use crate::figures::design::{digits, reading_unit, side_phrase, unit_of, with_unit};
+use crate::figures::run_name::run_name;
 use crate::text::girder_stresses;
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use ::design::{plane_word, quantity_word};
@@ -78,7 +79,7 @@ fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportTable {
     for (quantity, is_max, words) in GOVERNING {
         for (case, outcome) in document.cases.iter().zip(outcomes) {
             let Some(found) = largest(outcome, quantity, is_max) else { continue };
-            let mut row = vec![TableCell::from(words), TableCell::from(outcome.label.clone())];
+            let mut row = vec![TableCell::from(words), TableCell::from(run_name(&outcome.label))];
             row.extend(cells(&case.scene, found));
             table.rows.push(row);
         }
@@ -103,7 +104,7 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     let all = &outcome.girders.extremes;
     let shown = if all.len() > ROWS { ", the first of them; summary.json has all" } else { "" };
     let mut table = ReportTable {
-        caption: format!("Extremes of every span in the run \"{}\"{shown}", outcome.label),
+        caption: format!("Extremes of every span in the run \"{}\"{shown}", run_name(&outcome.label)),
         columns: vec![
             TableColumn::new("quantity", ""),
             TableColumn::new("", ""),
@@ -131,7 +132,8 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
 /// Largest and smallest reactions of one run.
 fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     let all = &outcome.girders.reactions;
-    let unit = scene.units.label(Dimension::FORCE);
+    let (unit, by_force) = reading_unit(scene.units, Dimension::FORCE);
+    let (moment_unit, by_moment) = reading_unit(scene.units, Dimension::MOMENT);
     let columns = vec![
         TableColumn::new("support", ""),
         TableColumn::new("direction", ""),
@@ -148,13 +150,17 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
             zero.push(format!("{} {}", largest.support, largest.direction));
             continue;
         }
+        let direction = largest.direction.to_string();
+        let factor = if direction.starts_with('r') { by_moment } else { by_force };
         let mut row = vec![
             TableCell::from(largest.support.clone()),
-            TableCell::from(largest.direction.to_string()),
-            TableCell::from(digits(largest.dead, DIGITS)),
+            TableCell::from(direction),
+            TableCell::from(digits(factor * largest.dead, DIGITS)),
         ];
         row.extend(
-            pair.iter().flat_map(|own| [own.value, own.time]).map(|n| TableCell::from(digits(n, DIGITS))),
+            pair.iter()
+                .flat_map(|own| [factor * own.value, own.time])
+                .map(|n| TableCell::from(digits(n, DIGITS))),
         );
         rows.push(row);
     }
@@ -168,8 +174,8 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     let caption = format!(
         "Reactions of supports in the run \"{}\": forces and moments on the structure, positive along the global axes; \
          moments (rx, ry, rz) in {}{more}{without}",
-        outcome.label,
-        scene.units.label(Dimension::MOMENT)
+        run_name(&outcome.label),
+        moment_unit
     );
     ReportTable { caption, columns, rows }
 }

@@ -1,5 +1,6 @@
 //! Report content on reactions, internal forces, deflections of rails and uplift of wheels.
 
+use crate::figures::design::{column_unit, deflection_unit};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::scene::Scene;
 use formats::scene::columns::Column;
@@ -85,14 +86,17 @@ pub fn comparison(
     let mut rows = Vec::new();
     for (name, figures) in all.into_iter().take(ROWS) {
         let column = record.columns.iter().find(|column| column.name == name);
-        let unit = column.map_or_else(String::new, |column| scene.units.label(column.dimension));
+        let most =
+            figures.iter().fold(0.0_f64, |most, found| most.max(size(found.peak.value, found.least.value)));
+        let (unit, factor) = column
+            .map_or_else(|| (String::new(), 1.0), |column| column_unit(scene.units, column.dimension, most));
         let mut head = vec![TableCell::from(name.to_owned()), TableCell::from(unit)];
         for (label, found) in labels.iter().zip(figures) {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
             row.push(TableCell::from(*label));
             let range = found.peak.value - found.least.value;
             let [settled, peak, least] = [found.settled, found.peak.value, found.least.value]
-                .map(|value| short(cleared(value, range)));
+                .map(|value| short(factor * cleared(value, range)));
             row.extend([settled, peak, short(found.peak.time), least, short(found.least.time)]);
             row.push(TableCell::from(found.excursions));
             row.push(found.hertz().map_or(TableCell::Empty, short));
@@ -135,13 +139,14 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let shown =
         response.envelopes.iter().zip(own).filter(|(envelope, _)| !zero.contains(&envelope.column.as_str()));
     for (envelope, (column, dead)) in shown.take(ROWS) {
-        let unit = TableCell::from(scene.units.label(column.dimension));
+        let most = size(envelope.max.value, envelope.min.value).max(dead.abs());
+        let (unit, factor) = column_unit(scene.units, column.dimension, most);
         let range = envelope.max.value - envelope.min.value;
-        let mut head = vec![TableCell::from(envelope.column.clone()), unit];
-        let mut weight = TableCell::from(*dead);
+        let mut head = vec![TableCell::from(envelope.column.clone()), TableCell::from(unit)];
+        let mut weight = TableCell::from(factor * *dead);
         for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
-            let value = TableCell::from(cleared(extreme.value, range));
+            let value = TableCell::from(factor * cleared(extreme.value, range));
             row.extend([TableCell::from(word), value, TableCell::from(extreme.time)]);
             row.extend(extreme.bodies.iter().map(|(_, at)| TableCell::from(place(at))));
             row.push(std::mem::take(&mut weight));
@@ -160,13 +165,13 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
 /// dimension.
 fn zero_columns(response: &Response) -> Vec<&str> {
     let all = || response.envelopes.iter().zip(response.columns.iter().zip(&response.dead_load));
-    let size = |max: f64, min: f64, dead: f64| max.abs().max(min.abs()).max(dead.abs());
+    let magnitude = |max: f64, min: f64, dead: f64| size(max, min).max(dead.abs());
     let largest = |dimension: Dimension| {
         let same = all().filter(|(_, (column, _))| column.dimension == dimension);
-        same.map(|(e, (_, dead))| size(e.max.value, e.min.value, *dead)).fold(0.0, f64::max)
+        same.map(|(e, (_, dead))| magnitude(e.max.value, e.min.value, *dead)).fold(0.0, f64::max)
     };
     let is_zero = |(e, (column, dead)): &(&ColumnEnvelope, (&Column, &f64))| {
-        size(e.max.value, e.min.value, **dead) <= ZERO * largest(column.dimension)
+        magnitude(e.max.value, e.min.value, **dead) <= ZERO * largest(column.dimension)
     };
     all().filter(is_zero).map(|(envelope, _)| envelope.column.as_str()).collect()
 }
@@ -176,9 +181,14 @@ fn cleared(value: f64, range: f64) -> f64 {
     if value.abs() < ROUNDING * range { 0.0 } else { value }
 }
 
-/// A number to five digits.
+/// The larger magnitude.
+fn size(one: f64, other: f64) -> f64 {
+    one.abs().max(other.abs())
+}
+
+/// A number to four digits.
 fn short(value: f64) -> TableCell {
-    TableCell::from(rounded(value, 5))
+    TableCell::from(rounded(value, 4))
 }
 
 /// Coordinates of a body.
@@ -189,6 +199,7 @@ fn place(at: &[f64]) -> String {
 /// Lateral displacements of rails at columns, with the limits of codes.
 fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
+    let (short_unit, factor) = deflection_unit(scene.units);
     let columns = [
         "rail",
         "column at",
@@ -203,7 +214,8 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         "within limit",
     ];
     let unit_of = |name: &str| match name {
-        "column at" | "height" | "displacement" | "limit" => unit.as_str(),
+        "column at" | "height" => unit.as_str(),
+        "displacement" | "limit" => short_unit,
         "at time" => "s",
         _ => "",
     };
@@ -213,15 +225,15 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableCell::from(found.rail.clone()),
             TableCell::from(found.x),
             TableCell::from(found.height),
-            TableCell::from(found.value),
+            TableCell::from(factor * found.value),
             TableCell::from(found.time),
-            found.ratio().map_or(TableCell::Empty, TableCell::from),
+            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
         ];
         for (clause, formula, most) in &found.limits {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 6]);
             row.push(TableCell::from(format!("{}, {}: {formula}", clause.standard, clause.clause)));
             row.extend([clause.edition, clause.evidence.words()].map(TableCell::from));
-            row.push(TableCell::from(*most));
+            row.push(TableCell::from(factor * *most));
             row.push(TableCell::from(if found.value <= *most { "yes" } else { "no" }));
             rows.push(row);
         }
@@ -236,6 +248,7 @@ fn drifts(scene: &Scene, label: &str, response: &Response) -> ReportTable {
 /// Deflections of the rails within each span.
 fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
     let unit = scene.units.label(Dimension::LENGTH);
+    let (short_unit, factor) = deflection_unit(scene.units);
     let mut table = ReportTable {
         caption: format!(
             "Largest deflections of the rails relative to the ends of each span in the run \"{label}\", and \
@@ -247,7 +260,7 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableColumn::new("direction", ""),
             TableColumn::new("from", &unit),
             TableColumn::new("to", &unit),
-            TableColumn::new("deflection", &unit),
+            TableColumn::new("deflection", short_unit),
             TableColumn::new("at", &unit),
             TableColumn::new("at time", "s"),
             TableColumn::new("span over deflection", ""),
@@ -266,10 +279,10 @@ fn deflections(scene: &Scene, label: &str, response: &Response) -> ReportTable {
             TableCell::from(found.direction.to_owned()),
             TableCell::from(found.span[0]),
             TableCell::from(found.span[1]),
-            TableCell::from(found.value),
+            TableCell::from(factor * found.value),
             TableCell::from(found.x),
             TableCell::from(found.time),
-            found.ratio().map_or(TableCell::Empty, TableCell::from),
+            found.ratio().map_or(TableCell::Empty, |ratio| TableCell::from(ratio.round())),
             TableCell::from(kept.to_owned()),
         ]);
     }

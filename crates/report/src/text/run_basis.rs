@@ -2,11 +2,13 @@
 
 use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit};
+use crate::figures::run_name::{foundation_words, run_name};
 use crate::text::codes::code_with_edition;
 use crate::text::structure_words::structure_facts;
-use formats::scene::{Analysis, Document, Origin, Scene};
+use formats::scene::{Analysis, Document, Origin, Scene, stepper_word};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
+use sim::Method;
 
 /// Largest number of structures, and of codes, that are listed.
 const MOST: [usize; 2] = [3, 8];
@@ -18,7 +20,7 @@ pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSecti
     let scene = document.scene();
     let mut section = ReportSection::new("Basis");
     for structure in scene.structures.iter().take(MOST[0]) {
-        let foundation = structure.foundation.word();
+        let foundation = foundation_words(structure.foundation.word());
         match &structure.origin {
             Origin::Spec { spec, file, .. } => {
                 let spans: Vec<Vec<f64>> = spec.model().map_or_else(
@@ -29,13 +31,12 @@ pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSecti
                     },
                 );
                 for (name, text) in structure_facts(spec, file, scene.units, &spans) {
-                    let text =
-                        if name == "structure" { format!("{text}; foundation {foundation}") } else { text };
+                    let text = if name == "structure" { format!("{text}; {foundation}") } else { text };
                     section = section.fact(format!("{}: {name}", structure.name), text, "");
                 }
             }
             Origin::Tables { file, .. } => {
-                let text = format!("tables of {file}; foundation {foundation}");
+                let text = format!("tables of {file}; {foundation}");
                 section = section.fact(format!("{}: structure", structure.name), text, "");
             }
         }
@@ -43,10 +44,10 @@ pub(super) fn basis(document: &Document, outcomes: &[CaseResult]) -> ReportSecti
     if scene.structures.len() > MOST[0] {
         section = section.fact("further structures", scene.structures.len() - MOST[0], "");
     }
-    let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
+    let labels: Vec<&str> = outcomes.iter().map(|outcome| run_name(&outcome.label)).collect();
     section
         .fact("moving loads", bodies(scene, outcomes[0].input.wheels.len()), "")
-        .fact("analysis", analysis(scene), "")
+        .fact("analysis", analysis(scene, outcomes[0].run.method), "")
         .fact("runs", labels.join(", "), "")
         .fact("codes", codes(&outcomes[0]), "")
         .ending_page()
@@ -65,10 +66,11 @@ fn bodies(scene: &Scene, wheels: usize) -> String {
     if weights.is_empty() { count } else { format!("{count}; weights {} {unit}", weights.join(", ")) }
 }
 
-fn analysis(scene: &Scene) -> String {
-    let kind = match scene.analysis {
-        Analysis::QuasiStatic => "quasi-static",
-        Analysis::Dynamic => "dynamic",
+fn analysis(scene: &Scene, method: Option<Method>) -> String {
+    let kind = match (scene.analysis, method) {
+        (Analysis::QuasiStatic, _) => "quasi-static".to_owned(),
+        (Analysis::Dynamic, None) => "dynamic".to_owned(),
+        (Analysis::Dynamic, Some(method)) => format!("dynamic, stepper {}", stepper_word(method)),
     };
     format!(
         "{kind}, {} s, output every {} s, accuracy {}",

@@ -2,6 +2,7 @@
 
 use crate::figures::design::{deflection_unit, digits, reading_unit, unit_of, with_unit};
 use crate::figures::responses::ground_reactions;
+use crate::figures::run_name::run_name;
 use crate::text::design_stresses::stress_unit;
 use crate::text::girders::{GOVERNING, largest};
 use crate::{ReportTable, TableCell, TableColumn};
@@ -102,7 +103,7 @@ pub(super) fn governing(document: &Document, outcomes: &[CaseResult]) -> ReportT
     let stress = if scene.lateral_section.is_some() { ", stresses" } else { "" };
     let caption = format!(
         "Governing values of the run \"{}\", moments, shear forces{stress} and reactions {dead} the dead load of the structure",
-        first.label
+        run_name(&first.label)
     );
     ReportTable { caption, columns, rows }
 }

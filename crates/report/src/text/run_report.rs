@@ -1,12 +1,15 @@
 //! The report of a run: input, results and warnings, figures, structures, energy audit.
 
+use crate::figures::design::{deflection_unit, reading_unit};
 use crate::figures::run_figure::RunFigure;
+use crate::figures::run_name::{foundation_words, run_name};
 use crate::text::run_basis::basis;
 use crate::text::run_verdict::verdict;
 use crate::text::{codes, fatigue, girders, responses};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 use formats::grid::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
+use formats::text::number::rounded;
 use formats::units::Dimension;
 use foundations::SolvedModel;
 use results::case_result::CaseResult;
@@ -41,14 +44,14 @@ pub fn report(
     sections.insert(1, motion);
     sections.push(influence);
     sections.push(forces(scene, outcomes));
-    sections.push(responses::section(scene, &outcomes[0].label, &outcomes[0].response));
-    let labels: Vec<&str> = outcomes.iter().map(|outcome| outcome.label.as_str()).collect();
+    sections.push(responses::section(scene, run_name(&outcomes[0].label), &outcomes[0].response));
+    let labels: Vec<&str> = outcomes.iter().map(|outcome| run_name(&outcome.label)).collect();
     sections.extend(responses::comparison(scene, &labels, &outcomes[0].columns, comparison));
     let checks: Vec<_> =
-        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.codes.as_ref())).collect();
+        outcomes.iter().map(|outcome| (run_name(&outcome.label), outcome.codes.as_ref())).collect();
     sections.extend(codes::section(scene, &checks));
     let damages: Vec<_> =
-        outcomes.iter().map(|outcome| (outcome.label.as_str(), outcome.fatigue.as_slice())).collect();
+        outcomes.iter().map(|outcome| (run_name(&outcome.label), outcome.fatigue.as_slice())).collect();
     sections.extend(fatigue::section(scene, &damages));
     sections.extend(warnings(document, outcomes));
     sections.push(audit(document, outcomes));
@@ -66,12 +69,13 @@ pub fn report(
 fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
     let scene = document.scene();
     let length = scene.units.label(Dimension::LENGTH);
+    let (unit, factor) = deflection_unit(scene.units);
     let mut table = ReportTable {
         caption: "Largest deflection of every body below the unloaded rail.".to_owned(),
         columns: vec![
             TableColumn::new("run", ""),
             TableColumn::new("body", ""),
-            TableColumn::new("deflection", &length),
+            TableColumn::new("deflection", unit),
             TableColumn::new("at x", &length),
             TableColumn::new("at time", "s"),
             TableColumn::new("relative to the first run", "%"),
@@ -89,12 +93,12 @@ fn results(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
             let change = if base == 0.0 { 0.0 } else { 100.0 * (deepest / base - 1.0) };
             let (status, _) = run_error::status(&outcome.run.status);
             table.rows.push(vec![
-                TableCell::from(outcome.label.clone()),
+                TableCell::from(run_name(&outcome.label)),
                 TableCell::from(body.name.clone()),
-                TableCell::from(deepest),
+                TableCell::from(factor * deepest),
                 TableCell::from(outcome.columns.part(&body.name, "x")[i]),
                 TableCell::from(outcome.columns.values("time")[i]),
-                TableCell::from(change),
+                TableCell::from(rounded(change, 3)),
                 TableCell::from(status.to_owned()),
             ]);
         }
@@ -117,7 +121,7 @@ fn analyses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     }
     let mut groups: Vec<(String, Vec<String>)> = Vec::new();
     for (outcome, how) in outcomes.iter().zip(all) {
-        let label = format!("\"{}\"", outcome.label);
+        let label = format!("\"{}\"", run_name(&outcome.label));
         match groups.iter_mut().find(|(known, _)| *known == how) {
             Some((_, labels)) => labels.push(label),
             None => groups.push((how, vec![label])),
@@ -156,7 +160,7 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
     for (s, (structure, solved)) in scene.structures.iter().zip(solved).enumerate() {
         let choice = choices.iter().find(|choice| choice.structure == s);
         let word = choice.map_or_else(
-            || structure.foundation.word().to_owned(),
+            || foundation_words(structure.foundation.word()).to_owned(),
             |c| foundations::fidelity_name(c.fidelity),
         );
         let name = &structure.name;
@@ -171,10 +175,14 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
         let Some(solved) = solved else { continue };
         if let Some(certificate) = &solved.grid.certificate {
             section = section
-                .fact(format!("{name}: condition number of the stiffness matrix"), certificate.condition, "")
+                .fact(
+                    format!("{name}: condition number of the stiffness matrix"),
+                    rounded(certificate.condition, 2),
+                    "",
+                )
                 .fact(
                     format!("{name}: bound of the relative error of the grid"),
-                    certificate.error_bound,
+                    rounded(certificate.error_bound, 2),
                     "",
                 );
         }
@@ -182,10 +190,11 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
             let span = girder.spans[0];
             let weight: f64 = scene.bodies.iter().map(|body| body.mass * scene.gravity).sum();
             let classical = weight * span.powi(3) / (48.0 * girder.e * girder.i_vertical);
+            let (unit, factor) = deflection_unit(scene.units);
             section = section.fact(
                 format!("{name}: all weight at midspan, W L^3/(48 E I)"),
-                classical,
-                scene.units.label(Dimension::LENGTH),
+                factor * classical,
+                unit,
             );
         }
         if let Some(line) = Coupling::of(&solved.grid).and_then(|coupling| coupling.summary()) {
@@ -200,9 +209,9 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
 
 /// Extreme forces of every wheel in the first run.
 fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
-    let unit = scene.units.label(Dimension::FORCE);
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     let mut table = ReportTable {
-        caption: format!("Wheel forces of the run \"{}\".", outcomes[0].label),
+        caption: format!("Wheel forces of the run \"{}\".", run_name(&outcomes[0].label)),
         columns: vec![
             TableColumn::new("wheel", ""),
             TableColumn::new("largest vertical", &unit),
@@ -219,10 +228,10 @@ fn forces(scene: &Scene, outcomes: &[CaseResult]) -> ReportSection {
         let least = values("vertical").iter().copied().fold(f64::INFINITY, f64::min);
         table.rows.push(vec![
             TableCell::from(name.clone()),
-            TableCell::from(largest("vertical")),
-            TableCell::from(least),
-            TableCell::from(largest("lateral")),
-            TableCell::from(largest("traction")),
+            TableCell::from(factor * largest("vertical")),
+            TableCell::from(factor * least),
+            TableCell::from(factor * largest("lateral")),
+            TableCell::from(factor * largest("traction")),
         ]);
     }
     ReportSection::new("Wheel forces").table(table)
@@ -233,8 +242,11 @@ fn warnings(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSectio
     let mut section = ReportSection::new("Warnings and notes");
     for message in warning::messages(outcomes, document) {
         let kind = if message.is_warning { "Warning" } else { "Note" };
-        let runs =
-            if message.runs.is_empty() { String::new() } else { format!(", {}", message.runs.join(", ")) };
+        let runs = if message.runs.is_empty() {
+            String::new()
+        } else {
+            format!(", {}", message.runs.iter().map(|label| run_name(label)).collect::<Vec<_>>().join(", "))
+        };
         section = section.paragraph(format!("{kind}{runs}: {}.", message.text));
     }
     (!section.paragraphs.is_empty()).then_some(section)
@@ -242,7 +254,7 @@ fn warnings(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSectio
 
 /// The energy audit of the dynamic runs.
 fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
-    let energy = document.scene().units.label(Dimension::MOMENT);
+    let (energy, factor) = reading_unit(document.scene().units, Dimension::MOMENT);
     let mut table = ReportTable {
         caption:
             "Energy audit: largest stored elastic energy, energy lost and supplied, and residual relative to \
@@ -263,11 +275,11 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
             let exchanged = &run.audit.exchanged;
             table.rows.push(vec![
-                TableCell::from(outcome.label.clone()),
-                TableCell::from(run.audit.peak_stored),
-                TableCell::from(exchanged.net_loss() + exchanged.supplied()),
-                TableCell::from(exchanged.supplied()),
-                TableCell::from(run.audit.residual()),
+                TableCell::from(run_name(&outcome.label)),
+                TableCell::from(factor * run.audit.peak_stored),
+                TableCell::from(factor * (exchanged.net_loss() + exchanged.supplied())),
+                TableCell::from(factor * exchanged.supplied()),
+                TableCell::from(rounded(run.audit.residual(), 2)),
                 TableCell::from(run.counts.steps as f64),
             ]);
         }

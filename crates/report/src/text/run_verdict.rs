@@ -4,6 +4,7 @@ use crate::ReportSection;
 use crate::figures::design::{digits, reading_unit, unit_of, with_unit};
 use crate::figures::rail_sketch::RailSketch;
 use crate::figures::responses::supports;
+use crate::figures::run_name::run_name;
 use crate::text::girder_stresses;
 use crate::text::girders::largest;
 use crate::text::run_governing::governing;
@@ -29,7 +30,7 @@ pub(super) fn verdict(document: &Document, outcomes: &[CaseResult]) -> ReportSec
     let mut all: Vec<String> = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         let own = warning::case_warnings(&case.scene, outcome).into_iter();
-        all.extend(own.map(|text| format!("Warning, {}: {text}.", outcome.label)));
+        all.extend(own.map(|text| format!("Warning, {}: {text}.", run_name(&outcome.label))));
     }
     let more = all.len().saturating_sub(WARNINGS);
     section.paragraphs.extend(all.into_iter().take(WARNINGS));
@@ -53,7 +54,7 @@ fn statuses(document: &Document, outcomes: &[CaseResult]) -> Vec<String> {
     let mut out = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
         if let Some(why) = run_error::reason_incomplete(&outcome.run.status, &case.scene) {
-            out.push(format!("The run \"{}\" is incomplete: {why}.", outcome.label));
+            out.push(format!("The run \"{}\" is incomplete: {why}.", run_name(&outcome.label)));
         }
     }
     if out.is_empty() {
@@ -148,7 +149,7 @@ fn sketch(scene: &Scene, outcome: &CaseResult, found: &GirderExtreme) -> Option<
         digits(found.time, DIGITS),
         with_unit(&digits(by * found.value, DIGITS), &unit),
         digits(found.x, DIGITS),
-        outcome.label,
+        run_name(&outcome.label),
     );
     Some((sketch.svg("Wheels at the largest sagging moment"), caption))
 }
