@@ -230,7 +230,7 @@ fn css_text(text: &str) -> String {
     let mut all = String::new();
     for c in text.chars() {
         match c {
-            c if c.is_ascii_alphanumeric() || " ().,/%-".contains(c) || !c.is_ascii() => all.push(c),
+            c if c.is_ascii_alphanumeric() || " ().,%-".contains(c) || !c.is_ascii() => all.push(c),
             c => all.push_str(&format!("\\{:x} ", u32::from(c))),
         }
     }
@@ -251,7 +251,7 @@ fn shown(cell: &TableCell) -> Option<String> {
     match cell {
         TableCell::Empty => Some(String::new()),
         TableCell::Text(text) => Some(text.clone()),
-        TableCell::Number(value) if value.fract() == 0.0 => number(*value, WHOLE_DIGITS),
+        TableCell::Number(value) if value.fract() == 0.0 && value.abs() < 1e7 => number(*value, WHOLE_DIGITS),
         TableCell::Number(value) => number(*value, DIGITS),
     }
 }

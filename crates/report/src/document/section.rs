@@ -78,7 +78,7 @@ pub enum TableCell {
     Empty,
     /// Text, shown as it is.
     Text(String),
-    /// A number, shown with four significant digits, or with seven where it is a whole number.
+    /// A number, shown with four significant digits, or in full where it is a whole number below ten million.
     Number(f64),
 }
 
