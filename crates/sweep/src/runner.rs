@@ -71,7 +71,14 @@ impl<'s> Runner<'s> {
     /// Why the run has no results: faults of the files with these values, a structure that does not stand, a scene that
     /// cannot start, a run that is incomplete, results that it does not have. The text has one line.
     pub fn run(&self, values: &[AxisValue]) -> RunOutcome {
-        self.run_files(self.inputs(values)).map_err(RunFailure::why)
+        self.run_files(self.inputs(values)).map_err(|failure| self.with_own_names(failure.why()))
+    }
+
+    /// A reason in which files are called as their inputs are, wherever the sweep was started, so that it is the same on
+    /// every machine.
+    fn with_own_names(&self, why: String) -> String {
+        let files = self.sweep.target.inputs().all().iter();
+        files.fold(why, |text, file| text.replace(&file.display_name, &file.name))
     }
 
     fn run_files(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
