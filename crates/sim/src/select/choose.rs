@@ -8,9 +8,12 @@
 //!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
 //!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
 //!    beyond m modes times that factor is the error of the new run.
-//! 4. The start of the motion, an eighth of the run, is repeated with more modes, before the new run is chosen. There the
-//!    wheels meet a structure at rest, and modes that are left out would begin to move at once. The start of the finer run
-//!    in place of that of the new run changes the quantities by its error there, whatever the wheels amplify.
+//! 4. The start of the motion, an eighth of the run, is repeated with more modes and with a tenth of the accuracy, before
+//!    the new run is chosen. There the wheels meet a structure at rest, modes that are left out would begin to move at
+//!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
+//!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
+//!    the new run changes the quantities by its error there, whatever the wheels amplify. Where this exceeds the tolerance
+//!    and the steps cause more than half of it, the new run is repeated with that finer accuracy.
 //! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance, and
 //!    otherwise the new run if its error is within 0.8 of the tolerance (within the tolerance where no further run would
 //!    help), and so is that of its start. If neither is, the number of modes is raised by
@@ -56,6 +59,13 @@ const START: (f64, usize) = (0.125, 2);
 /// Estimate for the number of modes of this repetition, relative to that of the run itself, and the largest ratio with
 /// which the error of the repetition is extrapolated.
 const START_RATIO: [f64; 2] = [0.3, 0.5];
+/// Accuracy of this repetition, relative to that of the run, and the error of its steps, relative to those of the run.
+const START_ACCURACY: (f64, f64) = (0.1, 0.2);
+/// Share of the error at the start by the steps from which the run is repeated with finer ones.
+const BY_STEPS: f64 = 0.5;
+/// Error by the modes above all known ones, relative to that by the upper third of the known ones. Reactions and shear
+/// forces converge like 1/n, for which the ratio is 2; in scenes with such errors it was up to 3.
+const UNKNOWN_MODES: f64 = 3.0;
 /// The factor where there are no two runs to compare.
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
@@ -177,11 +187,12 @@ impl Open {
         self.basis.structure.dynamics.frequencies().iter().filter(|own| **own < omega).count()
     }
 
-    /// The estimate for `kept` modes.
+    /// The estimate for `kept` modes; for all known ones it is extrapolated from the last known estimate.
     fn tail(&self, kept: usize) -> TailError {
         let found = self.tails.iter().find(|tail| tail.kept == kept).cloned();
         let last = self.tails.last().filter(|_| !self.basis.is_whole);
-        found.or_else(|| last.cloned()).unwrap_or(TailError { kept, error: 0.0, quantity: String::new() })
+        let beyond = || last.map(|last| TailError { error: UNKNOWN_MODES * last.error, ..last.clone() });
+        found.or_else(beyond).unwrap_or(TailError { kept, error: 0.0, quantity: String::new() })
     }
 }
 
@@ -351,12 +362,25 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 factor * own.tail(count).error <= SAFE * own.tolerance
             };
             let mut start = None;
-            if open.iter().zip(&counts).all(|(own, count)| is_within(own, *count, factor)) {
+            let is_last = |own: &Open, count: usize| count >= own.basis.structure.dynamics.dofs();
+            let may_be_chosen =
+                |own: &Open, count: usize| is_within(own, count, factor) || is_last(own, count);
+            if open.iter().zip(&counts).all(|(own, count)| may_be_chosen(own, *count)) {
                 // the errors of the steps of a run that only checks exceed what is to be found
                 if higher.accuracy > self.accuracy {
                     higher = self.trial(&higher.fidelities, self.accuracy, true)?;
                 }
                 start = self.start_error(&open, &counts, &higher, strictest.measure, bounces);
+                let found = start.as_ref().map_or(0.0, |start| start.error);
+                if found > strictest.value {
+                    let same = vec![0; open.len()];
+                    let by_steps = self.start_error(&open, &same, &higher, strictest.measure, bounces);
+                    if by_steps.is_some_and(|by_steps| by_steps.error > BY_STEPS * found) {
+                        self.accuracy *= START_ACCURACY.0;
+                        higher = self.trial(&higher.fidelities, self.accuracy, true)?;
+                        start = start.map(|own| TailError { error: START_ACCURACY.1 * own.error, ..own });
+                    }
+                }
                 let found = start.as_ref().map_or(0.0, |start| start.error);
                 if found > strictest.value {
                     factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
@@ -381,8 +405,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Error at the start of the run `higher` with `counts` modes: the change of its quantities where its start is replaced
-    /// by that of a run with more modes, D, as D / (1 - r) with the ratio r of the estimates for the two numbers of modes.
-    /// `None` where no more modes are known or the run with them fails.
+    /// by that of a run with more modes and finer steps, D, as D / (1 - r) with the larger one of the ratios r of the
+    /// estimates for the two numbers of modes and of the errors of the steps. The number of modes stays where none are left
+    /// out (a count of 0) or no more are known. `None` where the finer run fails.
     fn start_error(
         &mut self,
         open: &[Open],
@@ -391,7 +416,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         measure: Measure,
         bounces: Bounces,
     ) -> Option<TailError> {
-        let (mut fidelities, mut ratio) = (higher.fidelities.clone(), 0.0_f64);
+        let (mut fidelities, mut ratio) = (higher.fidelities.clone(), START_ACCURACY.1);
         for (own, count) in open.iter().zip(counts) {
             if let Some((more, own_ratio)) = own.beyond(*count) {
                 fidelities[own.structure] = Fidelity::Modal(more);
@@ -400,11 +425,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
         let steps = (START.0 * higher.record.time.len() as f64).ceil().max(START.1 as f64);
         let (end, start) = (self.scene.end, steps * self.scene.output_dt);
-        if fidelities == higher.fidelities || start >= end {
+        if start >= end {
             return None;
         }
         self.scene.end = start;
-        let finer = self.trial(&fidelities, higher.accuracy, true);
+        let finer = self.trial(&fidelities, START_ACCURACY.0 * higher.accuracy, true);
         self.scene.end = end;
         let finer = finer.ok()?;
         if finer.run.status != Status::Done || finer.record.quantities.len() != higher.record.quantities.len()
@@ -420,7 +445,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let error = TailError { kept: 0, error: apart.largest / (1.0 - ratio), quantity: apart.quantity };
         for own in open {
             let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
-            if fidelity != against {
+            if fidelity != Fidelity::Influence {
                 self.choices[own.choice].tried.push(FidelityTrial {
                     fidelity,
                     estimate: error.error,

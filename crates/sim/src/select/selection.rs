@@ -102,7 +102,7 @@ pub enum TrialCheck {
     Replay(usize),
     /// The run was compared with one at another fidelity.
     Run(Fidelity),
-    /// The start of the run was compared with one at another fidelity.
+    /// The start of the run was compared with one with finer steps, at the same or another fidelity.
     Start(Fidelity),
 }
 
