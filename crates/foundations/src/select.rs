@@ -229,7 +229,9 @@ pub fn check_name(check: TrialCheck) -> String {
     match check {
         TrialCheck::Replay(modes) => format!("{modes} natural modes under its wheel forces"),
         TrialCheck::Run(fidelity) => fidelity_name(fidelity),
-        TrialCheck::Start(fidelity) => format!("the first eighth of {}, finer steps", fidelity_name(fidelity)),
+        TrialCheck::Start(fidelity) => {
+            format!("the first eighth of {}, finer steps", fidelity_name(fidelity))
+        }
     }
 }
 

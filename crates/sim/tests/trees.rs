@@ -169,7 +169,7 @@ fn errors(run: &Run, h: f64) -> [f64; 2] {
     [worst[0] / peak[0], worst[1] / peak[1]]
 }
 
-/// The audit keeps what Radau itself loses, (h omega)^6/3600 a step; no quadrature takes that out.
+/// The audit keeps what the method itself loses; no quadrature takes that out.
 #[test]
 fn eight_wheels_under_massive_equalisers_follow_lagrange_multipliers() {
     for (accuracy, bound) in [(1e-3, 1e-3), (1e-7, 1e-8)] {

@@ -142,7 +142,9 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
     let method = match method.unwrap_or(scene.stepping.method) {
         Method::Auto => "a method chosen by the program",
         Method::Sdirk4 => "SDIRK, a method of order 4,",
-        Method::Radau => "Radau IIA collocation, a method of order 5,",
+        Method::Radau => {
+            "Radau IIA collocation, a method of order 9 (5 with dampers between wheels and rails),"
+        }
         Method::Gauss2 => "Gauss collocation, a method of order 4,",
         Method::Gauss3 => "Gauss collocation, a method of order 6,",
         Method::Series => "power series in time, whose order increases with the accuracy,",

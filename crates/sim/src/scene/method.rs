@@ -8,7 +8,8 @@ pub enum Method {
     Auto,
     /// SDIRK method of order 4, L-stable. It is applicable to every scene.
     Sdirk4,
-    /// Radau IIA collocation of order 5 with exact integration of the modes.
+    /// Radau IIA collocation with exact integration of the modes: five nodes and the order 9, or three and the order 5
+    /// where dampers act between wheels and rails.
     Radau,
     /// Gauss collocation of order 4 with exact integration of the modes. It conserves the energy of undamped linear
     /// contacts.

@@ -81,6 +81,10 @@ struct Responses {
 /// Number of step lengths whose responses are stored if there are modes.
 const STORED: usize = 12;
 
+/// Number of nodes up to which the polynomials through displacement, speed and acceleration at both ends of a step are of
+/// a higher order than those of the collocation.
+const FEW: usize = 3;
+
 /// Error of a penetration rate at the end of a step, per unit of the difference from its extrapolation.
 const RATE_SHARE: f64 = 0.05;
 
@@ -439,14 +443,25 @@ impl Collocation {
 
     /// Sets the modes of `at` to their values at the fraction `share` of the step just taken from `from`. They are
     /// exact for the load polynomials of the step, because no interpolating polynomial can follow a mode with many
-    /// periods in a step.
+    /// periods in a step. With more than [`FEW`] nodes the bodies follow the collocation polynomials as well, which are
+    /// then of a higher order than the polynomials through both ends of the step.
     pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
         let h = self.responses[0].h;
-        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
+        let follows = |mode: &[f64; 2]| mode[0] > 0.0 || self.count() > FEW;
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| follows(mode)) {
+            let (q0, v0) = (from.q[r], from.v[r]);
+            if omega == 0.0 {
+                let mut sum = [q0 + share * h * v0, v0, 0.0];
+                for (b, load) in self.loads.whole.iter().enumerate() {
+                    let by = self.nodes.motion(b, share, h);
+                    sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += load[r] * by);
+                }
+                [at.q[r], at.v[r], at.a[r]] = sum;
+                continue;
+            }
             let mode = Propagator::new(omega, zeta, h);
             let [qq, qv, vq, vv] = mode.free(share);
             let powers = mode.forced(share);
-            let (q0, v0) = (from.q[r], from.v[r]);
             let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
             for (b, load) in self.loads.whole.iter().enumerate() {
                 q += load[r] * self.nodes.load(b, &powers, 0);

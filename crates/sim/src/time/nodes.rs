@@ -1,5 +1,6 @@
 //! Nodes of collocation on [0, 1]: the abscissae and the integrals of the Lagrange polynomials.
 
+use super::propagator::POWERS;
 use crate::Method;
 
 /// Coefficients of a collocation method with s nodes.
@@ -21,17 +22,28 @@ pub(crate) struct Nodes {
 
 impl Nodes {
     /// Abscissae of Radau IIA with three nodes, (4 -+ sqrt(6))/10 and 1.
-    pub const RADAU: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+    pub const RADAU_3: [f64; 3] = [0.155_051_025_721_682_2, 0.644_948_974_278_317_8, 1.0];
+    /// Abscissae of Radau IIA with five nodes, the roots of the fourth derivative of x^4 (x - 1)^5.
+    pub const RADAU_5: [f64; 5] = [
+        0.057_104_196_114_517_68,
+        0.276_843_013_638_123_8,
+        0.583_590_432_368_916_8,
+        0.860_240_135_656_219_4,
+        1.0,
+    ];
 
-    /// The nodes of `method`; `None` if it is not a collocation method.
+    /// The nodes of `method`; `None` if it is not a collocation method. Radau has five nodes and the order 9, but three
+    /// and the order 5 where dampers act between wheels and rails (`has_memory`): a penetration under such a damper
+    /// follows its force in a small part of a step, and its error does not decrease with the number of nodes.
     ///
     /// # Source
     /// Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.5.
-    pub fn new(method: Method) -> Option<Nodes> {
+    pub fn new(method: Method, has_memory: bool) -> Option<Nodes> {
         let fifteen = 15.0_f64.sqrt();
         let c = match method {
             Method::Auto | Method::Sdirk4 | Method::Series => return None,
-            Method::Radau => Self::RADAU.to_vec(),
+            Method::Radau if has_memory => Self::RADAU_3.to_vec(),
+            Method::Radau => Self::RADAU_5.to_vec(),
             Method::Gauss2 => vec![0.5 - 3.0_f64.sqrt() / 6.0, 0.5 + 3.0_f64.sqrt() / 6.0],
             Method::Gauss3 => vec![0.5 - fifteen / 10.0, 0.5, 0.5 + fifteen / 10.0],
         };
@@ -71,7 +83,7 @@ impl Nodes {
 
     /// Response to the Lagrange polynomial of node `b`, from the responses `powers` to the powers of time; `part` is
     /// 0 for displacement and 1 for speed.
-    pub fn load(&self, b: usize, powers: &[[f64; 2]; 3], part: usize) -> f64 {
+    pub fn load(&self, b: usize, powers: &[[f64; 2]; POWERS], part: usize) -> f64 {
         let s = self.count();
         (0..s).map(|k| self.lagrange[b * s + k] * powers[k][part]).sum()
     }
@@ -80,6 +92,20 @@ impl Nodes {
     pub fn value(&self, b: usize, share: f64) -> f64 {
         let s = self.count();
         self.lagrange[b * s..(b + 1) * s].iter().rev().fold(0.0, |sum, factor| sum * share + factor)
+    }
+
+    /// Displacement, speed and acceleration at the fraction `share` of a step of the length `h` by a unit acceleration
+    /// that is the Lagrange polynomial of node `b`.
+    pub fn motion(&self, b: usize, share: f64, h: f64) -> [f64; 3] {
+        let s = self.count();
+        let (mut q, mut v, mut power) = (0.0, 0.0, share);
+        for (k, factor) in self.lagrange[b * s..(b + 1) * s].iter().enumerate() {
+            let order = k as f64 + 1.0;
+            v += factor * power / order;
+            power *= share;
+            q += factor * power / (order * (order + 1.0));
+        }
+        [h * h * q, h * v, self.value(b, share)]
     }
 
     /// Number of nodes.

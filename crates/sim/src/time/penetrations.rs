@@ -21,7 +21,7 @@ const ITERATIONS: usize = 12;
 const QUICK: f64 = 0.25;
 
 /// The start and the nodes.
-const PLACES: [f64; 4] = [0.0, Nodes::RADAU[0], Nodes::RADAU[1], Nodes::RADAU[2]];
+const PLACES: [f64; 4] = [0.0, Nodes::RADAU_3[0], Nodes::RADAU_3[1], Nodes::RADAU_3[2]];
 
 /// The penetrations of the active contacts in one step.
 pub(crate) struct Penetrations {
@@ -73,7 +73,7 @@ impl Penetrations {
 
     /// Fractions of the step at which states must be [added](Self::add), in this order.
     pub fn fractions(&self) -> impl Iterator<Item = f64> + use<> {
-        Nodes::RADAU.into_iter().filter({
+        Nodes::RADAU_3.into_iter().filter({
             let is_solved = !self.contacts.is_empty();
             move |_| is_solved
         })

@@ -2,15 +2,21 @@
 
 use nalgebra::Complex;
 
-/// phi_k(z), k = 1, 2, 3: phi_1 = (e^z - 1)/z, phi_(k+1) = (phi_k - 1/k!)/z; power series where |z| < 1.
+/// Number of powers of time of a load, 0 to 4.
+pub(crate) const POWERS: usize = 5;
+
+/// k! for k = 0 to 5.
+const FACTORIALS: [f64; POWERS + 1] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0];
+
+/// phi_k(z), k = 1 to 5: phi_1 = (e^z - 1)/z, phi_(k+1) = (phi_k - 1/k!)/z; power series where |z| < 2.
 ///
 /// # Source
 /// Hochbruck, Ostermann, Exponential integrators, Acta Numerica 19 (2010), section 2.
-fn phi(z: Complex<f64>) -> [Complex<f64>; 3] {
-    let mut out = [Complex::new(0.0, 0.0); 3];
-    if z.norm() < 1.0 {
+fn phi(z: Complex<f64>) -> [Complex<f64>; POWERS] {
+    let mut out = [Complex::new(0.0, 0.0); POWERS];
+    if z.norm() < 2.0 {
         for (k, out) in out.iter_mut().enumerate() {
-            let mut term = Complex::new([1.0, 0.5, 1.0 / 6.0][k], 0.0);
+            let mut term = Complex::new(FACTORIALS[k + 1].recip(), 0.0);
             for n in 1..24 {
                 *out += term;
                 term *= z / (n + k + 1) as f64;
@@ -19,12 +25,13 @@ fn phi(z: Complex<f64>) -> [Complex<f64>; 3] {
         return out;
     }
     out[0] = (z.exp() - 1.0) / z;
-    out[1] = (out[0] - 1.0) / z;
-    out[2] = (out[1] - 0.5) / z;
+    for k in 1..POWERS {
+        out[k] = (out[k - 1] - FACTORIALS[k].recip()) / z;
+    }
     out
 }
 
-/// A mode q'' + 2 zeta omega q' + omega^2 q = f over a step h, with loads (t/h)^k for k = 0, 1, 2.
+/// A mode q'' + 2 zeta omega q' + omega^2 q = f over a step h, with loads (t/h)^k for k = 0 to 4.
 pub(crate) struct Propagator {
     rate: Complex<f64>,
     h: f64,
@@ -47,10 +54,10 @@ impl Propagator {
 
     /// Displacement q and speed v at time `c` h under the load (t/h)^k, one pair for each k: q = k! c^(k+1) h
     /// Im(phi_(k+1)) / omega_d.
-    pub fn forced(&self, c: f64) -> [[f64; 2]; 3] {
+    pub fn forced(&self, c: f64) -> [[f64; 2]; POWERS] {
         let responses = phi(self.rate * (c * self.h));
         let mut scale = self.h / self.rate.im;
-        let mut out = [[0.0; 2]; 3];
+        let mut out = [[0.0; 2]; POWERS];
         for (k, (out, response)) in out.iter_mut().zip(responses).enumerate() {
             scale *= c * if k == 0 { 1.0 } else { k as f64 };
             *out = [scale * response.im, scale * (self.rate * response).im];
@@ -68,7 +75,7 @@ mod tests {
     fn answers_meet_closed_forms_for_slow_and_fast_modes() {
         for angle in [1e-6, 1e-3, 0.3, 0.999, 1.001, 7.0, 1e2, 1e4, 1e6] {
             let mode = Propagator::new(angle, 0.0, 1.0);
-            let [one, linear, _] = mode.forced(1.0);
+            let [one, linear, ..] = mode.forced(1.0);
             let half = (0.5 * angle).sin();
             let wanted = 2.0 * half * half / (angle * angle);
             assert!((one[0] - wanted).abs() < 1e-13 * (wanted + 1.0 / (angle * angle).max(1.0)), "{angle}");

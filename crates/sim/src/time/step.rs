@@ -72,7 +72,8 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Creates steps from `start` by `method`, which must suit the scene.
     pub fn new(solver: &'b mut Solver<'a>, start: State, method: Method) -> Self {
         let system = solver.system();
-        let integrator = match Nodes::new(method) {
+        let has_memory = (0..system.verticals()).any(|i| system.fixed[i].has_memory);
+        let integrator = match Nodes::new(method, has_memory) {
             Some(nodes) => Integrator::Collocation(Box::new(Collocation::new(system, nodes, &start))),
             None => Integrator::Sdirk(Box::new(Sdirk::new(system, &start))),
         };
@@ -247,7 +248,7 @@ impl<'a, 'b> Step<'a, 'b> {
         Ok(penetrations)
     }
 
-    /// Sets `at` to the interpolating polynomials of the step just taken, and its modes to their exact values.
+    /// Sets `at` to the interpolating polynomials of the step just taken; collocation has its own for the motion.
     fn interpolate(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
         self.solver.interpolate([&self.from, &self.arrived], fraction, at)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
