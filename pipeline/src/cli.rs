@@ -189,6 +189,8 @@ pub enum SchemaArg {
     Sweep,
     /// Summary of a run
     Summary,
+    /// Summary of a design
+    DesignSummary,
 }
 
 /// Arguments of `init`.
