@@ -212,7 +212,7 @@ pub enum Starter {
     Crane,
     /// One girderway on columns and brackets
     Girderway,
-    /// A plain crane runway, with its design
+    /// A plain crane runway, with its design and a sweep
     Runway,
 }
 

@@ -65,7 +65,9 @@ fn summaries_of_another_form_do_not_fit() {
     let (spec, design) = runways();
     let (folder, _) = run(&spec, &design, &[]);
     let good = summary(&folder);
-    for (pointer, key) in [("", "within"), ("/extremes/0", "bound"), ("/pairs/0", "signs"), ("/units", "force")] {
+    for (pointer, key) in
+        [("", "within"), ("/extremes/0", "bound"), ("/pairs/0", "signs"), ("/units", "force")]
+    {
         for to in [None, Some("another")] {
             let mut bad = good.clone();
             let object = bad.pointer_mut(pointer).and_then(Value::as_object_mut).expect("an object");
