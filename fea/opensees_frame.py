@@ -45,6 +45,8 @@ def load():
                     pass  # The import below says what is missing.
     try:
         import openseespy.opensees as ops
+    except ModuleNotFoundError as error:
+        raise Refused(f"OpenSees is not installed: {error}") from error
     except (ImportError, RuntimeError) as error:
         reason = error.__cause__ or error.__context__ or error
         hint = "on Debian: apt-get install libblas3 liblapack3 libgfortran5 libgomp1"

@@ -189,6 +189,8 @@ pub enum SchemaArg {
     Sweep,
     /// Summary of a run
     Summary,
+    /// Summary of a design
+    DesignSummary,
 }
 
 /// Arguments of `init`.
@@ -210,7 +212,7 @@ pub enum Starter {
     Crane,
     /// One girderway on columns and brackets
     Girderway,
-    /// A plain crane runway, with its design
+    /// A plain crane runway, with its design and a sweep
     Runway,
 }
 

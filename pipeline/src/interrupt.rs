@@ -24,8 +24,11 @@ fn left() -> String {
 /// Makes Ctrl-C end the program with a sentence on what it leaves. Where the system refuses, Ctrl-C ends it in silence.
 pub fn listen() {
     let _ = ctrlc::set_handler(|| {
-        use std::io::Write;
-        let _ = std::io::stderr().write_all(left().as_bytes());
+        use std::io::{IsTerminal, Write};
+        let mut out = std::io::stderr();
+        // the sentence stands in place of a progress bar, not behind it
+        let clear = if out.is_terminal() { "\r\x1b[2K" } else { "" };
+        let _ = out.write_all(format!("{clear}{}", left()).as_bytes());
         std::process::exit(STOPPED);
     });
 }

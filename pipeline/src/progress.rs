@@ -3,7 +3,7 @@
 use std::io::{IsTerminal, Write};
 use std::time::Duration;
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
 use formats::text::inputs::Inputs;
 use study::{Observer, Steps};
@@ -58,10 +58,8 @@ impl Progress {
     #[must_use]
     pub fn bar(&self, message: &str, length: u64) -> Bar {
         let bar = self.hidden_or(ProgressBar::new(length));
-        if let Ok(style) =
-            ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone, {eta} left")
-        {
-            bar.set_style(style.progress_chars("=> "));
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}") {
+            bar.set_style(style.progress_chars("=> ").with_key("left", left));
         }
         bar.set_message(message.to_owned());
         if self.draws {
@@ -76,6 +74,14 @@ impl Progress {
             bar.set_draw_target(ProgressDrawTarget::hidden());
         }
         bar
+    }
+}
+
+/// The time left, in a form such as `, 12s left`; nothing before the first step, which alone tells how long a step takes.
+fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
+    if state.pos() > 0 {
+        // writing to the text of a bar does not fail
+        let _ = write!(out, ", {:#} left", HumanDuration(state.eta()));
     }
 }
 

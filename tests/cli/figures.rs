@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{folder, girderway, text};
+use super::{example, folder, girderway, path, text};
 
 /// A rail 285 m above a girder of 19.5 m, as from a height in millimetres.
 const SPEC: &str = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
@@ -30,4 +30,27 @@ fn a_figure_that_cannot_be_drawn_is_omitted_and_the_results_are_written() {
         assert!(folder.path().join("out").join(name).is_file(), "{name}");
     }
     assert!(!folder.path().join("out/plots/girder-runway.svg").exists());
+}
+
+/// Lateral reactions of a straight girder under vertical loads are zero up to rounding, and so is the loss of energy on a
+/// rigid rail.
+#[test]
+fn reports_show_no_rounding_of_zero() {
+    let folder = folder();
+    for scene in ["runway/scene.json", "bogie/fast.json"] {
+        let run = girderway(&folder, &["run", path(&example(scene)), "-o", "out", "--quiet", "--force"]);
+        assert!(run.status.success(), "{}", text(&run.stderr));
+        let report = fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+        // exponents from -20 on in superscript digits
+        let tiny = ["10\u{207b}\u{b2}", "10\u{207b}\u{b3}", "10\u{207b}\u{2074}"];
+        let is_tiny = |rest: &str| {
+            let next = rest.chars().nth(4);
+            next.is_some_and(|c| ('\u{2070}'..='\u{2079}').contains(&c) || "\u{b9}\u{b2}\u{b3}".contains(c))
+        };
+        for start in tiny {
+            for (at, _) in report.match_indices(start) {
+                assert!(!is_tiny(&report[at..]), "{scene}: {:.12}", &report[at..]);
+            }
+        }
+    }
 }

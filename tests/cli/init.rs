@@ -39,9 +39,11 @@ fn starter_files_are_those_of_the_examples() {
             assert!(folder.path().join("deep/mine").join(schema).exists(), "{schema}");
             assert_eq!(own, json(&example), "{file}");
         }
-        // with the static design of the example, where it has one
-        let has_design = files.iter().any(|file| file == "deep/mine/design.json");
-        assert_eq!(has_design, example(origin).join("design.json").exists(), "{word}");
+        // with the static design and the sweep of the example, where it has one
+        for other in ["design.json", "sweep.json"] {
+            let has_one = files.iter().any(|file| *file == format!("deep/mine/{other}"));
+            assert_eq!(has_one, example(origin).join(other).exists(), "{word}: {other}");
+        }
     }
 }
 
@@ -52,8 +54,14 @@ fn starter_files_run_where_they_are() {
         let run = girderway(&folder, &["init", word, word]);
         assert!(run.status.success(), "{}", text(&run.stderr));
         let scene = format!("{word}/scene.json");
+        let others = ["design", "sweep"].into_iter().filter(|other| {
+            let name = format!("{other}.json");
+            STARTERS.iter().any(|(own, origin)| *own == word && example(origin).join(&name).exists())
+        });
+        let others: String =
+            others.map(|other| format!("      girderway {other} {word}/{other}.json\n")).collect();
         assert!(
-            text(&run.stderr).ends_with(&format!("next: girderway run {scene}\n")),
+            text(&run.stderr).ends_with(&format!("next: girderway run {scene}\n{others}")),
             "{}",
             text(&run.stderr)
         );

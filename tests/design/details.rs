@@ -274,7 +274,7 @@ fn groups_6_and_8_follow_from_the_weights_and_the_test_load() {
 }
 
 /// Two simple beams of 6 m, 10 m apart, with a crane that stands on both.
-fn runways() -> (Value, Value) {
+pub(super) fn runways() -> (Value, Value) {
     let support = |point: usize, last: bool| {
         let fix = if last { json!(["uy", "uz", "rx"]) } else { json!(["ux", "uy", "uz", "rx"]) };
         json!({"point": point, "fix": fix})

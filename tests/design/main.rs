@@ -2,6 +2,7 @@
 
 mod built_up;
 mod details;
+mod form;
 mod lines;
 mod mill;
 mod moving;
@@ -32,9 +33,12 @@ fn run(spec: &Value, design: &Value, flags: &[&str]) -> (tempfile::TempDir, Outp
     (folder, output)
 }
 
+/// The summary of a design, which has the form of its schema.
 fn summary(folder: &tempfile::TempDir) -> Value {
     let text = std::fs::read_to_string(folder.path().join("out/summary.json")).expect("a summary");
-    serde_json::from_str(&text).expect("the summary is JSON")
+    let summary = serde_json::from_str(&text).expect("the summary is JSON");
+    form::fits(&summary);
+    summary
 }
 
 /// Rows of a CSV file of the output folder, by the names of its columns.

@@ -46,6 +46,10 @@ for (const element of document.querySelectorAll("p, a, th, td, caption, figcapti
   const contrast = (Math.max(one, other) + 0.05) / (Math.min(one, other) + 0.05);
   if (contrast < 4.5) found.faint.push(`${said(element)}: ${contrast.toFixed(1)}`);
 }
+// the key of a series has the colour of its line
+const keys = [...document.querySelectorAll(".swatch")];
+const filter = (element) => getComputedStyle(element).filter;
+found.keys = keys.every((key) => filter(key) === filter(document.querySelector(".picture > svg")));
 found.dark = matchMedia("(prefers-color-scheme: dark)").matches;
 const chart = document.querySelector(".chart.live");
 if (chart) {

@@ -83,6 +83,7 @@ fn reports_are_whole_in_a_browser() {
                 assert_eq!(found["zooms"], true, "{found}");
             }
             assert_eq!(found["dark"], is_dark);
+            assert_eq!(found["keys"], true, "{name} at {width}: colours of the keys");
         }
     }
 }

@@ -52,6 +52,6 @@ pub use outcome::{
     SolvedCase, StressCheck, WheelCycle, WheelStress,
 };
 pub use solve::solve;
-pub use summary::summary;
+pub use summary::{summary, summary_schema};
 pub use tables::{envelope_csv, load_word, reactions_csv};
 pub use words::{clause_json, plane_word, quantity_word, side_word};

@@ -27,12 +27,13 @@
 //! assert!(model.text.contains("\"PBAR 3\""));
 //! ```
 //!
-//! Wings, lowest first: findings, axes, structure, links, rail, fix, write, msh, bdf, inp
+//! Wings, lowest first: findings, axes, structure, links, rail, fix, write, includes, msh, bdf, inp
 
 mod axes;
 pub mod bdf;
 pub mod findings;
 pub mod fix;
+mod includes;
 pub mod inp;
 mod links;
 pub mod msh;
@@ -42,6 +43,7 @@ mod write;
 
 use std::path::Path;
 
+pub use includes::OpenFile;
 pub use write::{PARTS, write};
 
 use crate::findings::ImportFindings;
@@ -94,11 +96,7 @@ pub struct Imported {
 ///
 /// # Errors
 /// All errors of the model, with their positions. A model with errors is rejected as a whole.
-pub fn import(
-    path: &Path,
-    open: bdf::OpenFile<'_>,
-    options: &ImportOptions,
-) -> Result<Imported, Vec<Diagnostic>> {
+pub fn import(path: &Path, open: OpenFile<'_>, options: &ImportOptions) -> Result<Imported, Vec<Diagnostic>> {
     let name = path.display().to_string();
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_lowercase()).unwrap_or_default();
     let mut findings = ImportFindings::default();
@@ -210,7 +208,7 @@ fn only_for_bulk_data(flags: &[(&str, bool)]) -> Vec<Diagnostic> {
 /// without sections.
 fn read_input(
     path: &Path,
-    open: bdf::OpenFile<'_>,
+    open: OpenFile<'_>,
     options: &ImportOptions,
     findings: &mut ImportFindings,
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
@@ -253,7 +251,7 @@ fn read_input(
 /// Reads NASTRAN bulk data; the options specify the units.
 fn read_deck(
     path: &Path,
-    open: bdf::OpenFile<'_>,
+    open: OpenFile<'_>,
     options: &ImportOptions,
     findings: &mut ImportFindings,
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {
@@ -281,7 +279,7 @@ fn read_deck(
 /// Reads a gmsh mesh; the options specify the unit of its coordinates, the sections file all other units.
 fn read_mesh(
     path: &Path,
-    open: bdf::OpenFile<'_>,
+    open: OpenFile<'_>,
     options: &ImportOptions,
     findings: &mut ImportFindings,
 ) -> Result<ImportedStructure, Vec<Diagnostic>> {

@@ -3,6 +3,7 @@
 use sim::{Error, Status};
 
 use formats::scene::{DOFS, Scene};
+use formats::text::number::number;
 
 /// The word for the status of a run in summaries, and a message where the run did not reach its end.
 #[must_use]
@@ -61,7 +62,9 @@ pub fn in_scene_names(error: &Error, scene: &Scene) -> String {
                 Some(rail) => format!(
                     "a wheel leaves the end of rail {} at x = {x:.4}: the rail runs from {} to {}  hint: end earlier \
                      (`end.time`), or keep the body on its rail by a drive, a brake or an end stop (`stops`)",
-                    rail.name, rail.range[0], rail.range[1]
+                    rail.name,
+                    number(rail.range[0]),
+                    number(rail.range[1])
                 ),
                 None => error.to_string(),
             }

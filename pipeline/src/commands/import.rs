@@ -1,9 +1,12 @@
 //! `girderway import`: a model of another program as a beam spec.
 
+use std::io::ErrorKind;
+
 use crate::cli::{Global, ImportArgs};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
+use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::{Inputs, read_file};
 use import::{ImportOptions, import};
 
@@ -14,6 +17,12 @@ use import::{ImportOptions, import};
 /// The model or a flag is invalid, or the file cannot be written.
 pub fn run(args: &ImportArgs, global: Global) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
+    // a name mistyped is reported before flags that are missing for the file
+    if args.model.metadata().is_err_and(|error| error.kind() == ErrorKind::NotFound) {
+        return Err(
+            Diagnostic::of_file(args.model.display().to_string(), "cannot be read: no such file").into()
+        );
+    }
     let sections = match &args.sections {
         Some(path) => Some(Inputs::open(path).map_err(|error| Failure::from(*error))?.1),
         None => None,

@@ -26,15 +26,15 @@ macro_rules! files {
     };
 }
 
-const BOGIE: Files = files!("bogie": "scene.json", "spec.json", "printed.adm");
+const BOGIE: Files = files!("bogie": "scene.json", "spec.json", "printed.adm", "sweep.json");
 const GIRDERWAY: Files = files!("mill_girderway": "scene.json", "spec.json", "design.json");
 const CRANE: Files = files!(
     "bridge_crane":
     "scene.json", "aisle.json", "girders.json", "emergency.json", "lifting.json", "drop.json", "buffer.json", "skew.json",
-    "two_cranes.json",
+    "two_cranes.json", "sweep.json",
 );
 
-const RUNWAY: Files = files!("runway": "scene.json", "spec.json", "design.json");
+const RUNWAY: Files = files!("runway": "scene.json", "spec.json", "design.json", "sweep.json");
 
 const fn files(starter: Starter) -> Files {
     match starter {
@@ -75,7 +75,13 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
         progress.say(&format!("wrote {}", path.display()));
     }
     let scene = files[0].0.display().to_string();
+    let other = |name: &str| files.iter().map(|(path, _)| path).find(|path| path.ends_with(name));
     progress.say(&format!("next: girderway run {scene}"));
+    for (command, name) in [("design", "design.json"), ("sweep", "sweep.json")] {
+        if let Some(path) = other(name).filter(|path| !path.ends_with(format!("{SCHEMAS}/{name}"))) {
+            progress.say(&format!("      girderway {command} {}", path.display()));
+        }
+    }
     if global.json {
         let names: Vec<String> = files.iter().map(|(path, _)| path.display().to_string()).collect();
         output::print(&json_text(&json!({ "scene": scene, "files": names })))?;
@@ -85,15 +91,23 @@ pub fn run(args: &InitArgs, global: Global) -> Result<Exit, Failure> {
 
 /// Names and contents of the schemas.
 fn schemas() -> Vec<(&'static str, String)> {
-    let all =
-        [("beam.json", schema::beam()), ("scene.json", schema::scene()), ("design.json", schema::design())];
+    let all = [
+        ("beam.json", schema::beam()),
+        ("scene.json", schema::scene()),
+        ("design.json", schema::design()),
+        ("sweep.json", schema::sweep()),
+    ];
     all.into_iter().map(|(name, schema)| (name, json_text(&schema))).collect()
 }
 
 /// A file with the path of its schema as its first member; a file without a schema as it is.
 fn with_schema(text: &str) -> String {
-    let formats =
-        [("girderway-beam/", "beam"), ("girderway-scene/", "scene"), ("girderway-design/", "design")];
+    let formats = [
+        ("girderway-beam/", "beam"),
+        ("girderway-scene/", "scene"),
+        ("girderway-design/", "design"),
+        ("girderway-sweep/", "sweep"),
+    ];
     let own = formats.iter().find(|(format, _)| text.contains(&format!("\"{format}")));
     match (own, text.strip_prefix('{')) {
         (Some((_, name)), Some(rest)) => {

@@ -19,6 +19,7 @@ pub fn run(args: &SchemaArgs, global: Global) -> Result<Exit, Failure> {
         SchemaArg::Design => schema::design(),
         SchemaArg::Sweep => schema::sweep(),
         SchemaArg::Summary => results::summary::schema(),
+        SchemaArg::DesignSummary => design::summary_schema(),
     };
     output::deliver(args.output.as_deref(), &json_text(&schema), &Progress::new(global))?;
     Ok(Exit::Done)

@@ -41,6 +41,9 @@ pub fn run(args: &SplinesArgs, global: Global) -> Result<Exit, Failure> {
     let input = &inputs.all()[0];
     let mut summary = Map::new();
     let (mut set, exact) = given(args, input, &progress, &mut summary)?;
+    if set.tables.is_empty() {
+        progress.say(&format!("warning: {} has no tables", input.display_name));
+    }
     if !args.only.is_empty() {
         let directions: Vec<_> = args.only.iter().map(|direction| (*direction).into()).collect();
         set = tables::select(&set, &directions);

@@ -42,7 +42,19 @@ pub fn scene() -> Value {
 /// The schema of designs.
 #[must_use]
 pub fn design() -> Value {
-    of::<RawDesign>("Design", crate::design::FORMAT, "Design of girderway")
+    let mut schema = of::<RawDesign>("Design", crate::design::FORMAT, "Design of girderway");
+    let class = |key: &str, classes: &[&str]| json!({ "properties": { key: { "enum": classes } }, "required": [key] });
+    let conditions = [
+        ("AISC Design Guide 7", class("class", &["A", "B", "C", "D", "E", "F"])),
+        ("IS 800", class("class", &["manual", "electric", "heavy"])),
+        ("AIST TR-13", class("building_class", &["A", "B", "C", "D"])),
+    ];
+    let conditions = conditions.map(|(code, then)| {
+        let code = json!({ "type": "string", "pattern": format!(r"^\s*{code}\s*(:|$)") });
+        json!({ "if": { "properties": { "code": code }, "required": ["code"] }, "then": then })
+    });
+    schema["$defs"]["DesignPractice"]["allOf"] = json!(conditions);
+    schema
 }
 
 /// The schema of sweeps.
@@ -50,6 +62,21 @@ pub fn design() -> Value {
 pub fn sweep() -> Value {
     let mut schema = of::<RawSweep>("Sweep", crate::sweep::FORMAT, "Sweep of girderway");
     schema["required"] = json!(["format", "axes", "sampling", "results"]);
+    let has = |key: &str| json!({ "properties": { key: { "type": "string" } }, "required": [key] });
+    schema["oneOf"] = json!([has("scene"), has("design")]);
+    schema["properties"]["axes"]["minProperties"] = json!(1);
+    schema["properties"]["axes"]["propertyNames"] = json!({ "pattern": "^([^#]*#)?/" });
+    schema["properties"]["results"]["minItems"] = json!(1);
+    schema["properties"]["results"]["uniqueItems"] = json!(true);
+    let is_grid = json!({ "properties": { "sampling": { "const": "grid" } } });
+    let without = json!({ "properties": { "count": { "type": "null" } } });
+    schema["if"] = is_grid;
+    schema["then"] = without;
+    schema["else"] = json!({ "properties": { "count": { "type": "number" } }, "required": ["count"] });
+    let whole = json!({ "type": "integer", "minimum": 1 });
+    schema["$defs"]["Law"]["properties"]["range"]["prefixItems"] =
+        json!([{ "type": "number" }, { "type": "number" }, whole]);
+    schema["$defs"]["Law"]["minProperties"] = json!(1);
     schema
 }
 
@@ -135,11 +162,17 @@ schemas! {
         let law = generator.subschema_for::<RawLaw>();
         json_schema!({ "anyOf": [{ "type": "array", "items": value, "minItems": 1 }, law] })
     };
-    RawPick, "Pick", |_generator| json_schema!({ "type": ["integer", "string"] });
-    RawNode, "Node", |generator| {
-        let below = generator.subschema_for::<RawNode>();
-        json_schema!({ "anyOf": [{ "type": "number" }, { "type": "array", "items": below, "minItems": 2, "maxItems": 2 }] })
-    };
+    RawPick, "Pick", |_generator| json_schema!({ "type": ["integer", "string"], "minimum": 0 });
+    RawNode, "Node", |_generator| node();
+}
+
+/// A wheel, or an equaliser whose ends have the same number of wheels: with 2, 4 or 8 of them, or more.
+fn node() -> Schema {
+    let pair = |end: Value| json!({ "type": "array", "items": end, "minItems": 2, "maxItems": 2 });
+    let nested = |innermost: Value, depth: usize| (0..depth).fold(innermost, |end, _| pair(end));
+    let mut levels: Vec<Value> = (0..4).map(|depth| nested(json!({ "type": "number" }), depth)).collect();
+    levels.push(nested(json!({ "type": "array" }), 3));
+    json_schema!({ "anyOf": levels })
 }
 
 impl<T: JsonSchema> JsonSchema for Entries<T> {

@@ -7,7 +7,8 @@
 use serde_json::{Value, json};
 
 use Restriction::{
-    Alternatives, Blocks, Fraction, ListOf, ListOfNotNegative, ListOfPositive, NotNegative, Positive, Words,
+    Alternatives, AtLeastOne, Blocks, Fraction, ListOf, ListOfNotNegative, ListOfPositive, NotNegative,
+    Pattern, Positive, Second, Words,
 };
 
 /// What a property, or each item of its list, may be.
@@ -15,15 +16,20 @@ use Restriction::{
 enum Restriction {
     Words(&'static [&'static str]),
     ListOf(&'static [&'static str]),
-    /// A list of words of one of the groups.
-    Alternatives(&'static [&'static [&'static str]]),
+    /// A list of words of the first group, or all words of the second one in their order.
+    Alternatives(&'static [&'static str], &'static [&'static str]),
     /// A word for each cell, block by block.
     Blocks(&'static [&'static str]),
     Fraction,
     Positive,
     NotNegative,
+    AtLeastOne,
     ListOfPositive,
     ListOfNotNegative,
+    /// A pair whose second number is positive.
+    Second,
+    /// A string, or a list of strings, with this regular expression.
+    Pattern(&'static str),
 }
 
 const POINT_DOFS: &[&str] = &["ux", "uy", "uz", "rx", "ry", "rz"];
@@ -37,6 +43,8 @@ const CRANES: &[&str] =
     &["mill", "ladle", "bucket", "soaking pit", "stripping", "motor room", "stacker", "pendant"];
 const HOISTING: &[&str] = &["HC1", "HC2", "HC3", "HC4"];
 const DRIVES: &[&str] = &["steady", "smooth", "sudden", "backlash"];
+/// Codes with limits of deflections and the one for impact, whose editions may follow behind a colon.
+const CODES: &str = r"^\s*(EN 1991-3|EN 1993-6|CMAA 70|AISC Design Guide 7|AIST TR-13|IS 800|ASCE 7)\s*(:|$)";
 const LATERAL_SECTIONS: &[&str] = &["whole section", "top flange"];
 
 /// Definition, property, and what the reader asks of its value.
@@ -117,12 +125,13 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Body", "mass", Positive),
     ("Body", "weight", Positive),
     ("Body", "inertia", ListOfNotNegative),
-    ("Body", "dof", Alternatives(&[BODY_DOFS, &["X", "Y", "Z"]])),
+    ("Body", "dof", Alternatives(BODY_DOFS, &["X", "Y", "Z"])),
     ("Wheel", "radius", Positive),
     ("Wheel", "spin_inertia", Positive),
     ("Vertical", "law", Words(&["linear", "impact"])),
     ("Vertical", "k", Positive),
     ("Vertical", "c", NotNegative),
+    ("Vertical", "exponent", AtLeastOne),
     ("Vertical", "depth", Positive),
     ("Vertical", "damper", Words(&["rail", "ground"])),
     ("Lateral", "k", Positive),
@@ -174,6 +183,7 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("NamedCase", "gap", NotNegative),
     ("NamedCase", "order", Words(&["any", "given"])),
     ("SectionCut", "component", Words(COMPONENTS)),
+    ("DesignPractice", "code", Pattern(CODES)),
     ("DesignPractice", "rail_head", Positive),
     ("DesignPractice", "bridge_speed", Positive),
     ("DesignPractice", "trolley_speed", Positive),
@@ -188,6 +198,12 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("DesignPractice", "lateral_section", Words(LATERAL_SECTIONS)),
     ("DesignPractice", "rail_fastening", Words(&["rigid", "loose", "pad"])),
     ("DesignPractice", "guide", Words(&["flanges", "rollers"])),
+    // sweeps
+    ("Sweep", "sampling", Words(&["grid", "latin", "sobol"])),
+    ("Sweep", "count", AtLeastOne),
+    ("Sweep", "results", Pattern(r"^(peaks|extremes|fatigue|ratios)$|\.")),
+    ("Law", "normal", Second),
+    ("Law", "lognormal", ListOfPositive),
     // grids
     ("Grid", "theory", Words(THEORIES)),
 ];
@@ -214,9 +230,10 @@ fn restrict(property: &mut Value, restriction: Restriction) {
             property["enum"] = words.iter().map(|word| json!(word)).chain(null).collect();
         }
         ListOf(words) => property["items"]["enum"] = json!(words),
-        Alternatives(groups) => {
-            let lists = groups.iter().map(|words| json!({ "items": { "enum": words } }));
-            property["anyOf"] = lists.collect();
+        Alternatives(some, all) => {
+            let all: Vec<Value> = all.iter().map(|word| json!({ "enum": [word] })).collect();
+            let whole = json!({ "prefixItems": all, "minItems": all.len(), "maxItems": all.len() });
+            property["anyOf"] = json!([{ "items": { "enum": some } }, whole]);
         }
         Blocks(words) => {
             for block in property["items"]["anyOf"].as_array_mut().into_iter().flatten() {
@@ -233,6 +250,15 @@ fn restrict(property: &mut Value, restriction: Restriction) {
         }
         Positive => property["exclusiveMinimum"] = json!(0),
         NotNegative => property["minimum"] = json!(0),
+        AtLeastOne => property["minimum"] = json!(1),
+        Second => {
+            property["prefixItems"] =
+                json!([{ "type": "number" }, { "type": "number", "exclusiveMinimum": 0 }]);
+        }
+        Pattern(text) => match property.get_mut("items") {
+            Some(items) => items["pattern"] = json!(text),
+            None => property["pattern"] = json!(text),
+        },
         ListOfPositive => property["items"]["exclusiveMinimum"] = json!(0),
         ListOfNotNegative => property["items"]["minimum"] = json!(0),
     }
@@ -250,6 +276,7 @@ mod tests {
             ("Grid", schema::grid()),
             ("Scene", schema::scene()),
             ("Design", schema::design()),
+            ("Sweep", schema::sweep()),
         ];
         for (definition, property, _) in RESTRICTIONS {
             let has = |(root, schema): &(&str, Value)| {

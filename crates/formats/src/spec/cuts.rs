@@ -77,7 +77,8 @@ pub(super) fn read_girder(
         }
         if x < first - slack || x > last + slack {
             let factor = check.scale.factor(Dimension::LENGTH);
-            let expected = format!("must be on the girder, from {} to {}", first / factor, last / factor);
+            let [first, last] = [first, last].map(|end| number(end / factor));
+            let expected = format!("must be on the girder, from {first} to {last}");
             check.faults.add(Fault::new(&at.key("x"), expected).got(number(given)));
             return;
         }

@@ -31,6 +31,9 @@ const SHAPES: [f64; 2] = [1e-3, 1e3];
 /// Ratio of a property to that of the rolled section of the same girder above which one of them is wrong.
 const BESIDE_ROLLED: f64 = 3.0;
 
+/// Largest height of a rail above the axis of its girder, as a fraction of the longest span.
+const RAIL_HEIGHT: f64 = 0.5;
+
 impl Spec {
     /// Warnings about values that are probably wrong, each with what is known of the unit that was meant.
     #[must_use]
@@ -41,6 +44,7 @@ impl Spec {
             Form::Girder(girder) => {
                 all.extend(modulus("the girder's `E`", girder.e, self.units, scale));
                 all.extend(self.girder_properties(girder, scale));
+                all.extend(self.rail_height(girder));
             }
             Form::Frame(frame) => {
                 // where ties carry the rail, the sections of the model also include those of the ties
@@ -66,6 +70,25 @@ impl Spec {
         strengths.dedup();
         all.extend(strengths.into_iter().filter_map(|fy| strength(fy, self.units, scale)));
         all
+    }
+
+    /// A rail that lies too high above the axis of its girder, in comparison with the spans.
+    fn rail_height(&self, girder: &Girder) -> Option<String> {
+        let most = RAIL_HEIGHT * girder.spans.iter().fold(0.0, |most: f64, span| most.max(*span));
+        let height = girder.rail_height;
+        let unit = self.units.label(Dimension::LENGTH);
+        let meant = height * Length::Millimetre.in_units_of(self.units.length);
+        let hint = if meant < height && meant <= most {
+            format!("; if it is meant in mm, write {}", short(meant))
+        } else {
+            String::new()
+        };
+        (height > most).then(|| {
+            format!(
+                "the girder's `rail_height` is {} {unit}, more than half of its longest span: check its unit{hint}",
+                short(height)
+            )
+        })
     }
 
     /// Warnings about the section of a girder: beside the rolled section that it names, or beside its spans.
@@ -293,6 +316,7 @@ mod tests {
             ("5.768e-4", "5.768e8", "if it is meant in mm^4, write 0.0005768"),
             ("0.01978", "197.8", "check its unit, that of `A` and the spans"),
             ("0.1555", "155.5", "a density of 7860000 kg/m3"),
+            ("\"fy\"", "\"rail_height\": 200, \"fy\"", "check its unit; if it is meant in mm, write 0.2"),
             ("2.35e5", "235", "`fy` is 235 kN/m^2, 0.235 N/mm2: S235 has 235000 kN/m^2"),
         ];
         for (old, new, told) in slips {

@@ -84,8 +84,8 @@ fn read_rail(
     for (index, station) in rail.stations.iter_mut().enumerate() {
         if *station < range[0] - slack || *station > range[1] + slack {
             let factor = check.scale.factor(Dimension::LENGTH);
-            let expected =
-                format!("must be on the rail, from {} to {}", range[0] / factor, range[1] / factor);
+            let [first, last] = range.map(|end| number(end / factor));
+            let expected = format!("must be on the rail, from {first} to {last}");
             let fault = Fault::new(&line.index(index), expected).got(number(stations[index]));
             check.faults.add(fault.hint("a station is a distance from `origin` along `axis`"));
         }

@@ -104,8 +104,12 @@ fn refuse_general(raw: &RawSpec, root: &Place<'_>, faults: &mut Faults) {
 
 /// Checks that the member `format` is present and equal to `expected`.
 pub fn format(found: &Option<String>, expected: &str, root: &Place<'_>, faults: &mut Faults) {
-    if let Some(word) = faults.require(found, root, "format") {
-        faults.check_format(word, &root.key("format"), expected);
+    match found {
+        Some(word) => faults.check_format(word, &root.key("format"), expected),
+        None => {
+            let fault = Fault::new(root, "missing key `format`").of_value();
+            faults.add(fault.hint(format!("such as \"format\": \"{expected}\"")));
+        }
     }
 }
 

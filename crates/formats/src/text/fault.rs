@@ -243,13 +243,16 @@ fn distance(a: &str, b: &str) -> usize {
 }
 
 /// Formats of the program, with what to do with a file of each that is given in place of another.
-const OTHER_FORMATS: [(&str, &str); 6] = [
+const OTHER_FORMATS: [(&str, &str); 9] = [
     (
         "girderway-beam/1",
         "this is a beam spec, which `fea` and `crosscheck` read; scenes and designs name theirs",
     ),
     ("girderway-scene/1", "this is a scene, which `run`, `sim`, `study` and `deck` read"),
     ("girderway-design/1", "this is a design, which `design` reads"),
+    ("girderway-sweep/1", "this is a sweep, which `sweep` reads"),
+    ("girderway-sections/1", "these are sections, which `import` reads with --sections"),
+    ("girderway-shard/1", "this belongs to a shard, whose folder `sweep --merge` reads"),
     ("girderway-grid/1", "this is a grid, which `splines` reads"),
     ("girderway-summary/1", "this is the summary of a run, which no command reads"),
     ("girderway-design-summary/1", "this is the summary of a design, which no command reads"),

@@ -1,16 +1,10 @@
 //! Lines of a deck, in which each INCLUDE line is replaced by the contents of the included file.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use formats::text::inputs::read_error_message;
-
-/// Function that reads a file; the command line and the tests supply different ones.
-pub type OpenFile<'a> = &'a dyn Fn(&Path) -> io::Result<Vec<u8>>;
-
-/// Largest number of files of a deck. A larger number indicates files that include each other repeatedly.
-const MOST_FILES: usize = 1000;
+use crate::includes::{Includes, OpenFile};
 
 /// A line without its comment. Blank lines are not stored.
 #[derive(Clone, Debug)]
@@ -29,28 +23,21 @@ pub struct BulkLine {
 /// The deck itself cannot be read. Errors of included files are added to the findings.
 pub fn read(path: &Path, open: OpenFile<'_>, findings: &mut ImportFindings) -> io::Result<Vec<BulkLine>> {
     let bytes = open(path)?;
-    let mut reader = Reader { open, lines: Vec::new(), stack: Vec::new(), main: folder(path), ended: false };
+    let includes = Includes::new(path, open, "INCLUDE");
+    let mut reader = Reader { includes, lines: Vec::new(), ended: false };
     reader.file(path, &bytes, findings);
     Ok(reader.lines)
 }
 
-fn folder(path: &Path) -> PathBuf {
-    path.parent().map(Path::to_path_buf).unwrap_or_default()
-}
-
 struct Reader<'a> {
-    open: OpenFile<'a>,
+    includes: Includes<'a>,
     lines: Vec<BulkLine>,
-    stack: Vec<PathBuf>,
-    main: PathBuf,
     ended: bool,
 }
 
 impl Reader<'_> {
     fn file(&mut self, path: &Path, bytes: &[u8], findings: &mut ImportFindings) {
-        let file = findings.files.len();
-        findings.files.push(path.display().to_string());
-        self.stack.push(path.to_path_buf());
+        let file = self.includes.begin(path, findings);
         // comments may have any encoding; a replaced byte in a field causes an error when the field is read
         let text = String::from_utf8_lossy(bytes);
         let mut gap = false;
@@ -62,7 +49,7 @@ impl Reader<'_> {
                 continue;
             }
             if let Some(name) = included(text) {
-                self.include(path, name, at, findings);
+                self.include(name, at, findings);
             } else if text.trim_start().to_ascii_uppercase().starts_with("ENDDATA") {
                 self.ended = true;
             } else {
@@ -73,43 +60,18 @@ impl Reader<'_> {
                 break;
             }
         }
-        self.stack.pop();
+        self.includes.end();
     }
 
-    fn include(&mut self, from: &Path, name: Result<&str, ()>, at: FilePlace, findings: &mut ImportFindings) {
-        let refuse = |expected: &str, hint: &str| ImportFinding::new(at, "INCLUDE", expected).hint(hint);
+    fn include(&mut self, name: Result<&str, ()>, at: FilePlace, findings: &mut ImportFindings) {
         let Ok(name) = name else {
-            let hint = "write INCLUDE 'file name' in one line";
-            findings.error(refuse("must name a file between quotation marks", hint));
+            let fault = ImportFinding::new(at, "INCLUDE", "must name a file between quotation marks");
+            findings.error(fault.hint("write INCLUDE 'file name' in one line"));
             return;
         };
-        let places = [folder(from).join(name), self.main.join(name)];
-        let mut read = Err(io::ErrorKind::NotFound.into());
-        let mut path = &places[0];
-        for place in &places {
-            if read.is_err() {
-                path = place;
-                read = (self.open)(place);
-            }
-        }
-        let bytes = match read {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                let expected = format!("{} {}", places[0].display(), read_error_message(&error));
-                findings.error(refuse(&expected, "names are relative to the file that includes"));
-                return;
-            }
-        };
-        if self.stack.contains(path) {
-            findings.error(
-                refuse("must not include a file that is already being read", "remove one of the INCLUDEs")
-                    .with_found(name),
-            );
-        } else if findings.files.len() >= MOST_FILES {
-            findings.error(refuse("includes too many files", "a deck may include up to 999 files"));
-            self.ended = true;
-        } else {
-            self.file(&path.clone(), &bytes, findings);
+        match self.includes.open(name, at, findings) {
+            Some((path, bytes)) => self.file(&path, &bytes, findings),
+            None => self.ended |= Includes::is_full(findings),
         }
     }
 }

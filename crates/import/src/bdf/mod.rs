@@ -31,9 +31,9 @@ use std::io;
 use std::path::Path;
 
 pub use deck::Omissions;
-pub use line::OpenFile;
 
 use super::findings::ImportFindings;
+use super::includes::OpenFile;
 use super::structure::{ImportedStructure, MassDistribution};
 
 /// Reads a deck into `empty`, a structure that has a name and units only.

@@ -6,14 +6,10 @@
 //! contents of the file that it names.
 
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
-use crate::bdf::OpenFile;
 use crate::findings::{FilePlace, ImportFinding, ImportFindings};
-use formats::text::inputs::read_error_message;
-
-/// Largest number of files of a model. A larger number indicates files that include each other repeatedly.
-const MOST_FILES: usize = 1000;
+use crate::includes::{Includes, OpenFile};
 
 /// A value with its position.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -76,16 +72,14 @@ impl KeywordBlock {
 /// The file itself cannot be read. Errors of included files are added to the findings.
 pub fn read(path: &Path, open: OpenFile<'_>, findings: &mut ImportFindings) -> io::Result<Vec<KeywordBlock>> {
     let bytes = open(path)?;
-    let main = path.parent().map(Path::to_path_buf).unwrap_or_default();
-    let mut reader = Reader { open, main, stack: Vec::new(), blocks: Vec::new(), pending: None };
+    let includes = Includes::new(path, open, "*INCLUDE");
+    let mut reader = Reader { includes, blocks: Vec::new(), pending: None };
     reader.file(path, &bytes, findings);
     Ok(reader.blocks)
 }
 
 struct Reader<'a> {
-    open: OpenFile<'a>,
-    main: PathBuf,
-    stack: Vec<PathBuf>,
+    includes: Includes<'a>,
     blocks: Vec<KeywordBlock>,
     /// The beginning of a keyword whose line ends with a comma.
     pending: Option<(FilePlace, Vec<InpField>)>,
@@ -93,9 +87,7 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn file(&mut self, path: &Path, bytes: &[u8], findings: &mut ImportFindings) {
-        let file = findings.files.len();
-        findings.files.push(path.display().to_string());
-        self.stack.push(path.to_path_buf());
+        let file = self.includes.begin(path, findings);
         // comments may have any encoding; a replaced byte in a value causes an error when the value is read
         let text = String::from_utf8_lossy(bytes);
         for (index, line) in text.lines().enumerate() {
@@ -108,10 +100,10 @@ impl Reader<'_> {
             let goes_on = trimmed.ends_with(',');
             if let Some((at, mut before)) = self.pending.take() {
                 before.extend(fields);
-                self.keyword(at, before, goes_on, path, findings);
+                self.keyword(at, before, goes_on, findings);
             } else if trimmed.starts_with('*') {
                 let at = fields.first().map_or(at, |field| field.at);
-                self.keyword(at, fields, goes_on, path, findings);
+                self.keyword(at, fields, goes_on, findings);
             } else if let Some(block) = self.blocks.last_mut() {
                 block.data.push(fields);
             } else {
@@ -121,9 +113,9 @@ impl Reader<'_> {
             }
         }
         if let Some((at, before)) = self.pending.take() {
-            self.keyword(at, before, false, path, findings);
+            self.keyword(at, before, false, findings);
         }
-        self.stack.pop();
+        self.includes.end();
     }
 
     fn keyword(
@@ -131,7 +123,6 @@ impl Reader<'_> {
         at: FilePlace,
         fields: Vec<InpField>,
         goes_on: bool,
-        path: &Path,
         findings: &mut ImportFindings,
     ) {
         if goes_on {
@@ -154,40 +145,16 @@ impl Reader<'_> {
             block.parameters.push(Parameter { name: name.to_uppercase(), value });
         }
         if block.name == "INCLUDE" {
-            self.include(&block, path, findings);
+            self.include(&block, findings);
         } else {
             self.blocks.push(block);
         }
     }
 
-    fn include(&mut self, block: &KeywordBlock, from: &Path, findings: &mut ImportFindings) {
+    fn include(&mut self, block: &KeywordBlock, findings: &mut ImportFindings) {
         let Some(name) = block.required("INPUT", findings) else { return };
-        let folder = from.parent().map(Path::to_path_buf).unwrap_or_default();
-        let places = [folder.join(&name.text), self.main.join(&name.text)];
-        let refuse =
-            |expected: String, hint: &str| ImportFinding::new(name.at, "*INCLUDE", expected).hint(hint);
-        let mut read = Err(io::ErrorKind::NotFound.into());
-        let mut path = &places[0];
-        for place in &places {
-            if read.is_err() {
-                path = place;
-                read = (self.open)(place);
-            }
-        }
-        match read {
-            Err(error) => {
-                let expected = format!("{} {}", places[0].display(), read_error_message(&error));
-                findings.error(refuse(expected, "names are relative to the file that includes"));
-            }
-            Ok(_) if self.stack.contains(path) => {
-                let expected = "must not include a file that is already being read".to_owned();
-                findings.error(refuse(expected, "remove one of the *INCLUDE lines"));
-            }
-            Ok(_) if findings.files.len() >= MOST_FILES => {
-                let expected = "includes too many files".to_owned();
-                findings.error(refuse(expected, "a model may include up to 999 files"));
-            }
-            Ok(bytes) => self.file(&path.clone(), &bytes, findings),
+        if let Some((path, bytes)) = self.includes.open(&name.text, name.at, findings) {
+            self.file(&path, &bytes, findings);
         }
     }
 }

@@ -24,8 +24,9 @@ mod values;
 use std::io;
 use std::path::Path;
 
-use super::bdf::{Omissions, OpenFile};
+use super::bdf::Omissions;
 use super::findings::{ImportFinding, ImportFindings};
+use super::includes::OpenFile;
 use super::msh::{Mesh, Sections, structure_of};
 use super::structure::ImportedStructure;
 use model::{InpKind, InpModel};
@@ -42,14 +43,24 @@ pub fn read(
     omit: Omissions<'_>,
     findings: &mut ImportFindings,
 ) -> io::Result<ImportedStructure> {
-    let mut blocks = keyword::read(path, open, findings)?;
-    scope::with_instances(&mut blocks);
-    let model = InpModel::new(&blocks, omit, findings);
+    let model = model(path, open, omit, findings)?;
     // a reference to something that could not be read would cause a second, misleading error
     if findings.has_errors() {
         return Ok(empty);
     }
     Ok(resolve::resolve(&model, empty, findings))
+}
+
+/// The model of a file.
+fn model(
+    path: &Path,
+    open: OpenFile<'_>,
+    omit: Omissions<'_>,
+    findings: &mut ImportFindings,
+) -> io::Result<InpModel> {
+    let mut blocks = keyword::read(path, open, findings)?;
+    scope::with_instances(&mut blocks);
+    Ok(InpModel::new(&blocks, omit, findings))
 }
 
 /// Reads a file without sections into `empty`. `factor` converts its coordinates to the unit of length of the structure,
@@ -66,9 +77,7 @@ pub fn read_mesh(
     omit: Omissions<'_>,
     findings: &mut ImportFindings,
 ) -> io::Result<ImportedStructure> {
-    let mut blocks = keyword::read(path, open, findings)?;
-    scope::with_instances(&mut blocks);
-    let model = InpModel::new(&blocks, omit, findings);
+    let model = model(path, open, omit, findings)?;
     if let Some(section) = model.sections.first() {
         let finding =
             ImportFinding::new(section.set.at, &section.label, "must not be in a file with --sections");

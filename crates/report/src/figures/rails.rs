@@ -11,6 +11,9 @@ use results::response::{ColumnStatistics, RunComparison, rail_sums};
 /// Largest number of rails that are drawn.
 const RAILS: usize = 4;
 
+/// Largest number of runs whose peaks are marked and whose statistics stand below the chart; a table has those of all.
+const NOTED: usize = 2;
+
 /// Fraction of the range below which a mean is treated as zero.
 const SMALL: f64 = 0.1;
 
@@ -46,13 +49,17 @@ fn chart(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
         let style = if index == 0 { Style::Line } else { Style::Dashed };
         chart = chart.with(Series::new(&run.label, style, run.record.points("time", column)));
         let Some(found) = figures.get(index).and_then(Option::as_ref) else { continue };
+        if runs.len() > NOTED && index > 0 {
+            continue;
+        }
         chart = chart.mark(found.peak.time, format!("peak, {}", run.label));
         notes.push(line(&run.label, found, &unit));
     }
     chart.note = notes.join(" ");
+    let whose = if runs.len() > NOTED { ", here of the first run," } else { "" };
     let caption = format!(
-        "Sum of the {word} forces of all wheels on {rail} in every run. Means and frequencies are those of the last \
-         quarter; an excursion leaves the band of 5 % about the mean."
+        "Sum of the {word} forces of all wheels on {rail} in every run. Means and frequencies{whose} are those of the \
+         last quarter; an excursion leaves the band of 5 % about the mean."
     );
     Some(RunFigure::chart(format!("rail-{rail}-{word}"), caption, chart))
 }

@@ -8,13 +8,15 @@ use ::design::{plane_word, quantity_word};
 use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
-use results::girders::GirderExtreme;
+use results::girders::{GirderExtreme, GirderReaction};
 use trains::GirderResponse;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
 /// Largest number of rows of the table of all spans; summary.json has all.
 const ROWS: usize = 80;
+/// Fraction of the largest reaction of the same kind below which a reaction counts as rounding of zero.
+const ROUNDING: f64 = 1e-12;
 
 /// Which values stand in the first table, with their words.
 pub(super) const GOVERNING: [(GirderResponse, bool, &str); 9] = [
@@ -143,10 +145,21 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         TableColumn::new("smallest", &unit),
         TableColumn::new("time", "s"),
     ];
+    // what is left of a zero after rounding, by the largest force and the largest moment
+    let is_moment = |found: &&GirderReaction| found.direction.to_string().starts_with('r');
+    let most = |is_wanted: bool| {
+        let sizes = all.iter().filter(|found| is_moment(found) == is_wanted).map(|found| found.value.abs());
+        ROUNDING * sizes.fold(0.0, f64::max)
+    };
+    let least = [most(false), most(true)];
+    let cleared = |found: &GirderReaction| {
+        let is_small = found.value.abs() <= least[usize::from(is_moment(&found))];
+        if is_small { 0.0 } else { found.value }
+    };
     let (mut rows, mut zero) = (Vec::new(), Vec::new());
     for pair in all.chunks_exact(2) {
         let [largest, smallest] = [&pair[0], &pair[1]];
-        if largest.value == 0.0 && smallest.value == 0.0 {
+        if cleared(largest) == 0.0 && cleared(smallest) == 0.0 {
             zero.push(format!("{} {}", largest.support, largest.direction));
             continue;
         }
@@ -159,7 +172,7 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         ];
         row.extend(
             pair.iter()
-                .flat_map(|own| [factor * own.value, own.time])
+                .flat_map(|own| [factor * cleared(own), own.time])
                 .map(|n| TableCell::from(digits(n, DIGITS))),
         );
         rows.push(row);

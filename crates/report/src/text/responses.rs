@@ -7,7 +7,7 @@ use formats::scene::columns::Column;
 use formats::text::number::rounded;
 use formats::units::Dimension;
 use results::columns::NamedColumns;
-use results::response::{ColumnEnvelope, Response, RunComparison};
+use results::response::{ColumnEnvelope, ColumnStatistics, Response, RunComparison};
 
 /// Largest number of rows of a table; summary.json has all.
 const ROWS: usize = 60;
@@ -77,19 +77,33 @@ pub fn comparison(
     record: &NamedColumns,
     comparison: &RunComparison,
 ) -> Option<ReportSection> {
-    let all: Vec<_> = comparison.columns().collect();
+    let of = |name: &str| record.columns.iter().find(|column| column.name == name);
+    let most = |figures: &[&ColumnStatistics]| {
+        figures.iter().fold(0.0_f64, |most, found| most.max(size(found.peak.value, found.least.value)))
+    };
+    // what is left of a zero after rounding, by the largest value of the same dimension in any run
+    let largest = |dimension: Dimension| {
+        let same =
+            comparison.columns().filter(|(name, _)| of(name).is_some_and(|own| own.dimension == dimension));
+        same.map(|(_, figures)| most(&figures)).fold(0.0, f64::max)
+    };
+    let (zero, all): (Vec<_>, Vec<_>) = comparison.columns().partition(|(name, figures)| {
+        of(name).is_some_and(|column| most(figures) <= ZERO * largest(column.dimension))
+    });
     if all.is_empty() {
         return None;
     }
+    let zero: Vec<&str> = zero.into_iter().map(|(name, _)| name).collect();
+    let without =
+        if zero.is_empty() { String::new() } else { format!(" Zero throughout: {}.", zero.join(", ")) };
     let more = all.len().saturating_sub(ROWS);
     let rest = if more > 0 { format!(" {more} more are in summary.json.") } else { String::new() };
     let mut rows = Vec::new();
     for (name, figures) in all.into_iter().take(ROWS) {
-        let column = record.columns.iter().find(|column| column.name == name);
-        let most =
-            figures.iter().fold(0.0_f64, |most, found| most.max(size(found.peak.value, found.least.value)));
-        let (unit, factor) = column
-            .map_or_else(|| (String::new(), 1.0), |column| column_unit(scene.units, column.dimension, most));
+        let (unit, factor) = of(name).map_or_else(
+            || (String::new(), 1.0),
+            |column| column_unit(scene.units, column.dimension, most(&figures)),
+        );
         let mut head = vec![TableCell::from(name.to_owned()), TableCell::from(unit)];
         for (label, found) in labels.iter().zip(figures) {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
@@ -117,7 +131,7 @@ pub fn comparison(
     ];
     let caption = format!(
         "Mean over the last quarter of each run, extremes, number of excursions from the band of 5 % about this \
-         mean, and the frequency of largest amplitude in that quarter.{rest}"
+         mean, and the frequency of largest amplitude in that quarter.{rest}{without}"
     );
     let columns = columns.map(|(name, unit)| TableColumn::new(name, unit)).into();
     Some(ReportSection::new("Comparison of the runs").table(ReportTable { caption, columns, rows }))

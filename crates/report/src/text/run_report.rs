@@ -276,10 +276,13 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         let run = &outcome.run;
         if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
             let exchanged = &run.audit.exchanged;
+            // what is left of a zero after rounding
+            let cleared =
+                |energy: f64| if energy.abs() < 1e-15 * run.audit.peak_stored { 0.0 } else { energy };
             table.rows.push(vec![
                 TableCell::from(run_name(&outcome.label)),
                 TableCell::from(factor * run.audit.peak_stored),
-                TableCell::from(factor * (exchanged.net_loss() + exchanged.supplied())),
+                TableCell::from(factor * cleared(exchanged.net_loss() + exchanged.supplied())),
                 TableCell::from(factor * exchanged.supplied()),
                 TableCell::from(rounded(run.audit.residual(), 2)),
                 TableCell::from(run.counts.steps as f64),

@@ -72,13 +72,12 @@ fn implausible(
 ) -> Option<String> {
     let si = value * Scale { from: scene.units, to: Units::SI }.factor(dimension);
     (value != 0.0 && !(low..=high).contains(&si)).then(|| {
-        format!(
-            "{what} is {} {}, {} {}: check its unit; {usual}",
-            number(rounded(value, 6)),
-            scene.units.label(dimension),
-            number(rounded(si, 3)),
-            Units::SI.label(dimension)
-        )
+        let in_units = |value: f64, units: Units| format!("{} {}", number(value), units.label(dimension));
+        let own = in_units(rounded(value, 6), scene.units);
+        let in_si = in_units(rounded(si, 3), Units::SI);
+        // a scene in m and s has the same text twice
+        let both = if own == in_si { own } else { format!("{own}, {in_si}") };
+        format!("{what} is {both}: check its unit; {usual}")
     })
 }
 

@@ -347,11 +347,14 @@ fn check_travel(raw: &RawScene, scene: &Scene, root: &Place<'_>, faults: &mut Fa
         };
         let expected = format!(
             "wheel {wheel} of truck \"{}\" must stay on rail {}, from x = {} to {}",
-            truck.name, rail.name, rail.range[0], rail.range[1]
+            truck.name,
+            rail.name,
+            number(rail.range[0]),
+            number(rail.range[1])
         );
         let found = if time > 0.0 {
             let end = if x < rail.range[0] { rail.range[0] } else { rail.range[1] };
-            format!("x beyond {end} from t = {time:.4}")
+            format!("x beyond {} from t = {time:.4}", number(end))
         } else {
             format!("x = {} at the start", number(x))
         };

@@ -66,6 +66,17 @@ pub fn summary(design: &Design, result: &DesignResult) -> Value {
     summary
 }
 
+/// The JSON Schema of the summary of a design.
+///
+/// ```
+/// assert_eq!(design::summary_schema()["properties"]["format"]["const"], "girderway-design-summary/1");
+/// ```
+#[must_use]
+pub fn summary_schema() -> Value {
+    serde_json::from_str(include_str!("schema.json"))
+        .expect("the schema is JSON, as the test of this function shows")
+}
+
 struct OfCase<'a> {
     design: &'a Design,
     number: usize,
