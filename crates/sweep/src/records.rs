@@ -30,7 +30,7 @@ impl RecordLines {
     /// Lines of a run, each with its newline: the names of its results, unless they are those of the run before, and
     /// the run.
     pub fn lines(&mut self, record: &RunRecord) -> String {
-        let axes: Vec<Value> = record.axes.iter().map(axis_value_json).collect();
+        let axes: Vec<Value> = record.axes.iter().map(AxisValue::json).collect();
         match &record.outcome {
             Err(why) => format!("{}\n", json!({ "run": record.run, "axes": axes, "failure": why })),
             Ok(row) => {
@@ -79,16 +79,6 @@ fn record(value: &Value, names: &[String]) -> Option<RunRecord> {
         }
     };
     Some(RunRecord { run, axes, outcome })
-}
-
-/// A value of an axis as JSON.
-#[must_use]
-fn axis_value_json(value: &AxisValue) -> Value {
-    match value {
-        AxisValue::Number(number) => json!(number),
-        AxisValue::Text(text) => json!(text),
-        AxisValue::Flag(flag) => json!(flag),
-    }
 }
 
 fn scalar(value: &Value) -> Option<AxisValue> {
