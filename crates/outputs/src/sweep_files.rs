@@ -114,6 +114,7 @@ pub fn make_sweep(
             failed = Some(error);
             return false;
         }
+        let record = record.beside(records.last());
         records.push(record);
         done += 1;
         if progress(SweepProgress::Made(done, left.len())).is_break() {
