@@ -47,7 +47,7 @@ fn extremes_on_demand_are_those_of_the_run_to_the_last_bit() {
 fn runs_that_share_solved_structures_and_modes_are_those_that_do_not() {
     let changes = |modes: usize| {
         let structure = format!(r#"{{"foundation": "modal", "modes": {modes}}}"#);
-        format!(r#"{{"end": {{"time": 1}}, "structures": {{"girder": {structure}}}, "compare": null}}"#)
+        format!(r#"{{"end": {{"time": 1}}, "structures": {{"girder": {structure}}}}}"#)
     };
     let shared = StructureCache::default();
     for modes in [8, 3, 8, 5] {
