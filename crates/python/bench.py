@@ -104,3 +104,26 @@ else:
         return system.GetNodeOutput(point, exu.OutputVariableType.Displacement)[0]
 
     say("Exudyn: a mass on a spring, 10,000 steps", best(oscillator, 3))
+
+try:
+    sys.path.insert(0, str(ROOT / "fea"))
+    import bench_scenes as scenes
+except ImportError as error:
+    print(f"(no comparison with Exudyn for the same answer: {error})", file=sys.stderr)
+else:
+    # the bogie at 100 ft/s on the girder without mass, a damper to ground in each wheel: scene S2 of bench_scenes.py
+    crossing = scenes.Crossing("S2")
+    samples = {"output": {"dt": crossing.end / (len(crossing.times) - 1)}}
+    for asked in (1e-3, 1e-4):
+        steps = next(n for n in (100, 200, 500, 1000, 2000, 5000, 10000)
+                     if crossing.error(scenes.by_exudyn(crossing, n)) <= asked)
+        error = crossing.error(scenes.by_exudyn(crossing, steps))
+        say(f"Exudyn: the fast bogie in {steps} steps, error {error:.1g}",
+            best(lambda: scenes.by_exudyn(crossing, steps), 3))
+        for accuracy in (1e-2, 1e-3, 1e-4, 1e-5, 1e-6):
+            changes = samples | {"accuracy": accuracy}
+            error = crossing.error(gw.run(BOGIE / "fast.json", changes)["bogie.deflection"])
+            if error <= asked:
+                break
+        say(f"girderway: the same, accuracy {accuracy:g}, error {error:.1g}",
+            best(lambda: gw.run(BOGIE / "fast.json", changes), 20))

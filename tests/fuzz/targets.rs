@@ -13,10 +13,9 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use adams::{AdamsModel, DataSet};
-use design::DesignError;
 use formats::grid::file as grid_file;
 use formats::scene::Document;
-use formats::spec::Spec;
+use formats::spec::{SolveError, Spec};
 use formats::tables::{TableFormat, contents, expand, factor, is_tables, read, round, write};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::source::Source;
@@ -251,8 +250,8 @@ fn design(bytes: &[u8]) -> u64 {
             assert!(used.chain(local).chain(moved).all(f64::is_finite), "a detail that is not finite");
             result.cases.len() as u64
         }
-        Err(DesignError::Input(wrong)) => refused(&wrong, None),
-        Err(DesignError::NoSolution(why)) => signature([why.as_str()]),
+        Err(SolveError::Input(wrong)) => refused(&wrong, None),
+        Err(SolveError::NoSolution(why)) => signature([why.as_str()]),
     }
 }
 

@@ -69,7 +69,7 @@ fn extremes_of_reactions_are_those_between_outputs() {
     assert!((with - exact - dead).abs() < 1e-9 * WEIGHT, "{with}");
     assert!((row["dead"].as_f64().expect("a number") - dead).abs() < 1e-9 * WEIGHT, "{row}");
     // every direction of every support has two rows, also where it is zero
-    let count = ran.outcomes[0].girders.reactions.len();
+    let count = ran.outcomes[0].girders().reactions.len();
     assert_eq!(count, 2 * (4 + 3 + 3), "four directions at the first support, three at the others");
 }
 
@@ -124,7 +124,7 @@ fn the_reaction_of_a_cantilever_is_in_equilibrium_with_wheels_weight_and_inertia
     let response = &ran.outcomes[0].response;
     for (column, envelope) in response.columns.iter().zip(&response.envelopes) {
         let own = |is_max: bool| {
-            let all = ran.outcomes[0].girders.reactions.iter();
+            let all = ran.outcomes[0].girders().reactions.iter();
             let mut own = all.filter(|own| own.is_max == is_max && own.column == column.name);
             own.next().map(|own| own.value).expect("a reaction for every column of one")
         };

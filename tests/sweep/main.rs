@@ -57,18 +57,28 @@ fn make(folder: &TempDir, arguments: &[&str]) {
     assert_eq!((run.status.code(), errors(&run)), (Some(0), String::new()));
 }
 
+/// Names of the files in a folder and in the folders in it.
+fn names(folder: &TempDir, own: &str) -> Vec<String> {
+    let mut found = Vec::new();
+    for entry in fs::read_dir(folder.path().join(own)).expect("a folder") {
+        let entry = entry.expect("an entry");
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if entry.path().is_dir() {
+            found.extend(
+                names(folder, &format!("{own}/{name}")).iter().map(|below| format!("{name}/{below}")),
+            );
+        } else {
+            found.push(name);
+        }
+    }
+    found.sort();
+    found
+}
+
 /// Checks that two output folders have the same files with the same bytes.
 fn assert_same(folder: &TempDir, a: &str, b: &str) {
-    let names = |own: &str| {
-        let entries = fs::read_dir(folder.path().join(own)).expect("a folder");
-        let mut names: Vec<String> = entries
-            .map(|entry| entry.expect("an entry").file_name().to_string_lossy().into_owned())
-            .collect();
-        names.sort();
-        names
-    };
-    assert_eq!(names(a), names(b));
-    for name in names(a) {
+    assert_eq!(names(folder, a), names(folder, b));
+    for name in names(folder, a) {
         assert_eq!(read(folder, &format!("{a}/{name}")), read(folder, &format!("{b}/{name}")), "{name}");
     }
 }
@@ -231,4 +241,35 @@ fn runs_of_another_sweep_are_not_lost() {
     assert!(errors(&run).contains("--force"), "{}", errors(&run));
     make(&folder, &["sweep.json", "-o", "out", "--force"]);
     assert!(!rows.exists());
+}
+
+#[test]
+fn figures_have_values_of_codes_and_the_mean_of_damages_with_its_confidence() {
+    let folder = folder("");
+    for name in ["crane.json", "girder.json", "bridge.json"] {
+        fs::copy(example("runway").join(name), folder.path().join(name)).expect("a copy");
+    }
+    let text = fs::read_to_string(example("runway").join("crane_sweep.json")).expect("an example");
+    assert_eq!(text.matches("\"count\": 200").count(), 1);
+    write(&folder, "sweep.json", &text.replace("\"count\": 200", "\"count\": 8"));
+    make(&folder, &["sweep.json", "-o", "out"]);
+    let figure =
+        |name: &str| String::from_utf8(read(&folder, &format!("out/plots/{name}.svg"))).expect("text");
+    let first = figure("distribution-1");
+    assert!(first.contains("Distribution of rail_factor") && first.contains("AIST TR-13"), "{first}");
+    // three factors have values by codes, then come the damages of the life
+    let damage = figure("mean-4");
+    assert!(damage.contains("life damage") && damage.contains("95 % confidence"), "{damage}");
+    let summary = json(&folder, "out/summary.json");
+    let found = &summary["results"]["south.midspan.bottom flange.life damage"];
+    let [low, high] = [0, 1].map(|k| found["mean_interval"][k].as_f64().expect("a number"));
+    let mean = found["mean"].as_f64().expect("a number");
+    assert!(0.0 < low && low < mean && mean < high && high < 1.0, "{found}");
+    let listed = String::from_utf8(read(&folder, "out/manifest.json")).expect("text");
+    assert!(
+        names(&folder, "out")
+            .iter()
+            .filter(|name| *name != "manifest.json")
+            .all(|name| listed.contains(name.as_str()))
+    );
 }

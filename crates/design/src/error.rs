@@ -2,72 +2,56 @@
 
 use formats::design::Design;
 use formats::spec::SolveError;
-use formats::text::diagnostic::Diagnostic;
 use formats::text::fault::{Basis, Fault, Faults};
 use formats::text::inputs::{Input, Inputs};
 use formats::text::place::{Path, Step};
 use splines::Axis;
 
-/// Why a design has no results.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum DesignError {
-    /// The design or its spec is invalid.
-    Input(Vec<Diagnostic>),
-    /// The structure has no trustworthy solution.
-    NoSolution(String),
-}
-
-impl DesignError {
-    /// An error of the calculation in the terms of the design's files.
-    pub(crate) fn of(error: &trains::Error, design: &Design, inputs: &Inputs) -> DesignError {
-        let path = |steps: &[(&str, usize)]| {
-            let each =
-                steps.iter().flat_map(|(key, index)| [Step::Key((*key).to_owned()), Step::Index(*index)]);
-            Path(each.collect())
-        };
-        let fault = |path: Path, expected: String, hint: &str| Fault {
-            path,
-            at_key: false,
-            expected,
-            found: None,
-            hint: Some(hint.to_owned()),
-            basis: Basis::Several,
-        };
-        let fault = match error {
-            trains::Error::NoRoom { case } => fault(
-                path(&[("cases", *case)]),
-                "its trains must fit on the rails beside each other".to_owned(),
-                "fewer trains, a smaller gap, or \"enters\": true",
-            ),
-            trains::Error::Ring { case } => fault(
-                path(&[("cases", *case)]),
-                "its trains hinder each other in a ring, which cannot be arranged exactly".to_owned(),
-                "leave out a train that shares a rail with only some of the others",
-            ),
-            trains::Error::NoStiffness { train, wheel, axis } => fault(
-                path(&[("trains", *train), ("wheels", *wheel)]),
-                format!("must have no {} force: the structure does not resist one on this rail", word(*axis)),
-                "give the spec the stiffness that resists it: A, I_lateral, J in the short form",
-            ),
-            trains::Error::TooLong { train, .. } | trains::Error::Wheel { train, .. } => {
-                fault(path(&[("trains", *train)]), error.to_string(), "check its wheels and its rail")
-            }
-            trains::Error::Frame(error) => {
-                let source = inputs.find(&design.spec_file).map(Input::source);
-                return match source {
-                    Some(Ok(source)) => match design.spec.locate_error(&source, error) {
-                        SolveError::Input(diagnostics) => DesignError::Input(diagnostics),
-                        SolveError::NoSolution(why) => DesignError::NoSolution(why),
-                    },
-                    _ => DesignError::NoSolution(error.to_string()),
-                };
-            }
-            trains::Error::Function(error) => return DesignError::NoSolution(error.to_string()),
-        };
-        match inputs.all().first().map(Input::source) {
-            Some(Ok(source)) => DesignError::Input(source.diagnose(&Faults(vec![fault]))),
-            _ => DesignError::NoSolution(error.to_string()),
+/// An error of the calculation in the terms of the design's files.
+pub(crate) fn located(error: &trains::Error, design: &Design, inputs: &Inputs) -> SolveError {
+    let path = |steps: &[(&str, usize)]| {
+        let each = steps.iter().flat_map(|(key, index)| [Step::Key((*key).to_owned()), Step::Index(*index)]);
+        Path(each.collect())
+    };
+    let fault = |path: Path, expected: String, hint: &str| Fault {
+        path,
+        at_key: false,
+        expected,
+        found: None,
+        hint: Some(hint.to_owned()),
+        basis: Basis::Several,
+    };
+    let fault = match error {
+        trains::Error::NoRoom { case } => fault(
+            path(&[("cases", *case)]),
+            "its trains must fit on the rails beside each other".to_owned(),
+            "fewer trains, a smaller gap, or \"enters\": true",
+        ),
+        trains::Error::Ring { case } => fault(
+            path(&[("cases", *case)]),
+            "its trains hinder each other in a ring, which cannot be arranged exactly".to_owned(),
+            "leave out a train that shares a rail with only some of the others",
+        ),
+        trains::Error::NoStiffness { train, wheel, axis } => fault(
+            path(&[("trains", *train), ("wheels", *wheel)]),
+            format!("must have no {} force: the structure does not resist one on this rail", word(*axis)),
+            "give the spec the stiffness that resists it: A, I_lateral, J in the short form",
+        ),
+        trains::Error::TooLong { train, .. } | trains::Error::Wheel { train, .. } => {
+            fault(path(&[("trains", *train)]), error.to_string(), "check its wheels and its rail")
         }
+        trains::Error::Frame(error) => {
+            let source = inputs.find(&design.spec_file).map(Input::source);
+            return match source {
+                Some(Ok(source)) => design.spec.locate_error(&source, error),
+                _ => SolveError::NoSolution(error.to_string()),
+            };
+        }
+        trains::Error::Function(error) => return SolveError::NoSolution(error.to_string()),
+    };
+    match inputs.all().first().map(Input::source) {
+        Some(Ok(source)) => SolveError::Input(source.diagnose(&Faults(vec![fault]))),
+        _ => SolveError::NoSolution(error.to_string()),
     }
 }
 

@@ -1,10 +1,11 @@
 //! Influence lines of the values that govern a design, with the ordinates under the wheels that cause them.
 
 use formats::design::Design;
+use formats::spec::SolveError;
 use formats::text::inputs::Inputs;
 use trains::{GirderResponse, Governing, InfluenceLine, SectionSide, SpanExtreme, Structure, TrainCase};
 
-use crate::error::DesignError;
+use crate::error::located;
 use crate::loads::{LoadKind, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes};
 use crate::solve::reactions;
@@ -109,8 +110,8 @@ pub fn governing_lines(
     design: &Design,
     inputs: &Inputs,
     result: &DesignResult,
-) -> Result<Vec<GoverningLine>, DesignError> {
-    let located = |error: trains::Error| DesignError::of(&error, design, inputs);
+) -> Result<Vec<GoverningLine>, SolveError> {
+    let located = |error: trains::Error| located(&error, design, inputs);
     let (model, rails) = design.spec.model().map_err(|error| located(error.into()))?;
     let structure = Structure::new(&model, &rails, false).map_err(located)?;
     let mut out = Vec::new();

@@ -40,7 +40,6 @@ mod wheel_stresses;
 mod words;
 
 pub use combinations::with_combinations;
-pub use error::DesignError;
 pub use fibres::{FibreStress, Fibres};
 pub use girder_sections::{GirderSections, by_reason};
 pub use governing_lines::{
@@ -51,7 +50,7 @@ pub use outcome::{
     DesignResult, EndStopForce, FatigueLoads, LimitCheck, RailPairResponse, ReactionExtremes, ReactionName,
     SolvedCase, StressCheck, WheelCycle, WheelStress,
 };
-pub use solve::solve;
+pub use solve::{DesignStructures, solve, solve_on};
 pub use summary::{summary, summary_schema};
 pub use tables::{envelope_csv, load_word, reactions_csv};
 pub use words::{clause_json, plane_word, quantity_word, side_word};

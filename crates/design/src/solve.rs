@@ -1,15 +1,18 @@
 //! The calculation of a design.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
-use fea::{Effect, Model};
+use fea::{Effect, Model, Rail};
 use formats::design::{Design, DesignCase};
+use formats::kept::KeptValues;
+use formats::spec::{SolveError, Spec};
 use formats::text::inputs::Inputs;
 use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
 use crate::combinations::groups_left_out;
 use crate::details::Details;
-use crate::error::DesignError;
+use crate::error::located;
 use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
@@ -19,18 +22,55 @@ use crate::words::quantity_word;
 /// Parts of each span at whose ends envelopes are listed.
 const PARTS: usize = 20;
 
+/// The solved structures of many designs: each spec is solved once, for all threads.
+#[derive(Debug, Default)]
+pub struct DesignStructures {
+    /// By spec, and whether loads stand beside the rails.
+    solved: KeptValues<(Arc<Spec>, bool), Arc<DesignStructure>>,
+}
+
+/// The model of a spec and its solution.
+#[derive(Debug)]
+struct DesignStructure {
+    model: Model,
+    rails: Vec<Rail>,
+    structure: Structure,
+}
+
+impl DesignStructures {
+    fn of(&self, design: &Design) -> Result<Arc<DesignStructure>, trains::Error> {
+        let mut wheels = design.trains.iter().flat_map(|train| &train.wheels);
+        let is_eccentric = wheels.any(|wheel| wheel.eccentricity != 0.0);
+        self.solved.get(&(Arc::clone(&design.spec), is_eccentric), || {
+            let (model, rails) = design.spec.model()?;
+            let structure = Structure::new(&model, &rails, is_eccentric)?;
+            Ok(Arc::new(DesignStructure { model, rails, structure }))
+        })
+    }
+}
+
 /// Solves a design; `inputs` are the files from which it was read.
 ///
 /// # Errors
 /// A structure that has no trustworthy solution; loads that it does not resist; trains that do not fit beside each other.
-pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignError> {
-    let located = |error: trains::Error| DesignError::of(&error, design, inputs);
-    let (model, rails) = design.spec.model().map_err(|error| located(error.into()))?;
-    let eccentric =
-        design.trains.iter().flat_map(|train| &train.wheels).any(|wheel| wheel.eccentricity != 0.0);
-    let structure = Structure::new(&model, &rails, eccentric).map_err(located)?;
+pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, SolveError> {
+    solve_on(&DesignStructures::default(), design, inputs)
+}
+
+/// Solves a design like [`solve`], on a structure that an earlier design may have solved.
+///
+/// # Errors
+/// As [`solve`].
+pub fn solve_on(
+    structures: &DesignStructures,
+    design: &Design,
+    inputs: &Inputs,
+) -> Result<DesignResult, SolveError> {
+    let located = |error: trains::Error| located(&error, design, inputs);
+    let solved = structures.of(design).map_err(located)?;
+    let DesignStructure { model, rails, structure } = &*solved;
     let dead = DeadLoads { gravity: design.dead.gravity, lines: design.dead.lines.clone() };
-    let (names, reactions) = reactions(design, &model, &structure);
+    let (names, reactions) = reactions(design, model, structure);
     let sections = design.sections.iter().map(|section| {
         vec![Effect::InternalForce {
             member: section.member,
@@ -40,10 +80,10 @@ pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignErr
     });
     let mut effects = reactions.clone();
     effects.extend(sections);
-    let request = Request { spans: design.spans.clone(), places: places(design, &structure), effects };
+    let request = Request { spans: design.spans.clone(), places: places(design, structure), effects };
     let cases: Vec<TrainCase> =
         design.cases.iter().map(|case| train_case(design, case, LoadKind::All)).collect();
-    let found = trains::envelopes(&structure, &dead, &cases, &request).map_err(located)?;
+    let found = trains::envelopes(structure, &dead, &cases, &request).map_err(located)?;
     let mut solved = Vec::new();
     let length =
         (0..structure.rail_count()).map(|rail| structure.range(rail)).map(|[a, b]| b - a).fold(0.0, f64::max);
@@ -54,13 +94,13 @@ pub fn solve(design: &Design, inputs: &Inputs) -> Result<DesignResult, DesignErr
         solved.push(SolvedCase {
             name: case.name.clone(),
             reactions: named(&names, all),
-            by_load: by_load(design, case, &structure, &names, &reactions).map_err(located)?,
+            by_load: by_load(design, case, structure, &names, &reactions).map_err(located)?,
             sections,
             envelopes,
         });
     }
     let warnings = warnings(design, &solved);
-    let details = Details::new(design, &model, &rails, &dead, &cases, &solved).map_err(located)?;
+    let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(located)?;
     let mut limits = check_limits(design, &solved);
     limits.extend(details.limits);
     let error_bound = structure.frame().certificate().error_bound;

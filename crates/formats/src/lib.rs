@@ -26,11 +26,12 @@
 //! The modules from low to high are [`limits`], [`text`], [`vector`], [`units`], [`check`], [`spec`], [`grid`], [`tables`],
 //! [`scene`], [`design`], [`sweep`], [`schema`].
 //!
-//! Wings, lowest first: limits, text, vector, units, check, practice_words, spec, grid, tables, scene, design, sweep, schema
+//! Wings, lowest first: limits, kept, text, vector, units, check, practice_words, spec, grid, tables, scene, design, sweep, schema
 
 pub mod check;
 pub mod design;
 pub mod grid;
+pub mod kept;
 pub mod limits;
 mod practice_words;
 pub mod scene;

@@ -24,13 +24,14 @@
 //! assert!((influence.value[(0, 0)] - expected).abs() < 1e-12 * expected);
 //! ```
 //!
-//! Wings, lowest first: error, solved, influence, tables, mount, built, modal, parts, build, check, select
+//! Wings, lowest first: error, mount, mesh_modes, solved, influence, tables, built, modal, parts, build, check, select
 
 mod build;
 mod built;
 mod check;
 mod error;
 mod influence;
+mod mesh_modes;
 mod modal;
 mod mount;
 mod parts;
@@ -42,6 +43,7 @@ pub use build::{build, full_mesh_foundation, rigid_parts_foundation};
 pub use built::{BuiltFoundation, MotionBasis, RigidParts};
 pub use check::check_scene;
 pub use error::Error;
+pub use mesh_modes::ComputedModes;
 pub use modal::ModeCache;
 pub use mount::mount;
 pub use parts::roll_inertia;

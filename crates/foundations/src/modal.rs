@@ -26,6 +26,8 @@
 //! # Source
 //! R. H. MacNeal, A hybrid method of component mode synthesis, Computers & Structures 1 (1971), 581-601.
 
+use std::sync::Arc;
+
 use fea::{FactoredFrame, Modes, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Shapes};
@@ -33,6 +35,7 @@ use splines::{Compliance, ExactSurface, Probe, Rails, ResidualFlexibility};
 
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
+use crate::mesh_modes::{MeshModes, ModeRequest, StaticCompliance};
 use crate::mount::{self, Excitation};
 use crate::solved::SolvedModel;
 use formats::spec::ties::Pad;
@@ -47,23 +50,6 @@ const STILL: f64 = 1e-6;
 /// Relative difference up to which two frequencies are treated as equal.
 const EQUAL: f64 = 1e-6;
 
-/// Modes of one mesh that wheels can excite, and the static compliance from which the retained modes are subtracted.
-pub(super) struct MeshModes {
-    refined: RefinedModes,
-    excited: Vec<fea::Mode>,
-    compliance: StaticCompliance,
-    /// Whether `excited` contains every mode of the mesh that wheels can excite.
-    is_whole: bool,
-}
-
-/// Static compliance of the structure before modes are subtracted.
-enum StaticCompliance {
-    /// Compliance of the members as given, used with the lowest modes, whose shapes the mesh resolves.
-    Given(ExactSurface),
-    /// Compliance of the subdivided members, used with all modes of a mesh.
-    Subdivided(ExactSurface),
-}
-
 impl MeshModes {
     /// At least the lowest `count` modes that `excitation` excites, or all if there are fewer, with frequencies within
     /// `accuracy`.
@@ -73,10 +59,12 @@ impl MeshModes {
         count: usize,
         accuracy: f64,
         excitation: Excitation,
-    ) -> Result<MeshModes, Error> {
-        let (refined, excited, is_whole) =
-            search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
-        MeshModes::new(name, refined, excited, Some(given_surface(name, solved)?), is_whole)
+    ) -> Result<Arc<MeshModes>, Error> {
+        solved.modes.get(ModeRequest::Lowest { count, accuracy, excitation }, || {
+            let (refined, excited, is_whole) =
+                search(solved, count, accuracy, excitation).map_err(Error::modes(name))?;
+            MeshModes::new(name, refined, excited, Some(given_surface(name, solved)?), is_whole)
+        })
     }
 
     /// All modes that `excitation` excites of a mesh of `elements` elements for each member; of members that are
@@ -88,19 +76,21 @@ impl MeshModes {
         elements: usize,
         has_dampers: bool,
         excitation: Excitation,
-    ) -> Result<MeshModes, Error> {
-        let forces = excitation.forces();
-        let mut refined =
-            fea::full_modes(&solved.model, &solved.rails, &forces, elements).map_err(Error::modes(name))?;
-        if !has_dampers {
-            refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
-        }
-        let excited = excited_by(&refined.modes, solved, excitation);
-        if refined.modes.next.is_some() {
-            let given = given_surface(name, solved)?;
-            return MeshModes::new(name, refined, excited, Some(given), true);
-        }
-        MeshModes::new(name, refined, excited, None, true)
+    ) -> Result<Arc<MeshModes>, Error> {
+        solved.modes.get(ModeRequest::Whole { elements, has_dampers, excitation }, || {
+            let forces = excitation.forces();
+            let mut refined = fea::full_modes(&solved.model, &solved.rails, &forces, elements)
+                .map_err(Error::modes(name))?;
+            if !has_dampers {
+                refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
+            }
+            let excited = excited_by(&refined.modes, solved, excitation);
+            if refined.modes.next.is_some() {
+                let given = given_surface(name, solved)?;
+                return MeshModes::new(name, refined, excited, Some(given), true);
+            }
+            MeshModes::new(name, refined, excited, None, true)
+        })
     }
 
     fn new(
@@ -223,16 +213,17 @@ impl Dampers<'_> {
     pub const NONE: Dampers<'static> = Dampers { pads: &[], c: 0.0 };
 }
 
-/// Cache of the modes of one structure: each mesh is solved once for all foundations that are built from it.
+/// Modes of one structure in one run: foundations with fewer modes are built from the mesh of those with more. The modes
+/// themselves are kept with the solution of the structure, for other runs.
 #[derive(Default)]
 pub struct ModeCache {
     /// In the order in which they were computed, with increasing numbers of modes. The same number of modes is always
     /// taken from the same mesh: signs of modes, and so the coordinates in a run, differ between meshes.
-    lowest: Vec<MeshModes>,
+    lowest: Vec<Arc<MeshModes>>,
     /// Modes that serve only to estimate errors.
-    coarse: Option<MeshModes>,
+    coarse: Option<Arc<MeshModes>>,
     /// Number of elements for each member, and all modes of that mesh.
-    whole: Vec<(usize, MeshModes)>,
+    whole: Vec<(usize, Arc<MeshModes>)>,
 }
 
 impl ModeCache {

@@ -45,7 +45,7 @@ pub fn mount(structure: &Structure) -> Result<Option<Carrier>, Error> {
 
 /// Excitation of a structure: vertical wheel forces, lateral and longitudinal forces where wheels exert them, and the
 /// motion of the body that carries the structure.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(super) struct Excitation {
     pub lateral: bool,
     pub longitudinal: bool,

@@ -1,14 +1,16 @@
 //! FE solutions of the structures of a scene, computed once for all foundations that are built from them.
 
-use std::collections::VecDeque;
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::Arc;
 
 use fea::FactoredFrame;
 use formats::grid::StationGrid;
+use formats::kept::KeptValues;
 use formats::scene::{Document, Origin};
 use formats::spec::{SolveError, Spec};
 use formats::text::inputs::Input;
 use splines::ExactSurface;
+
+use crate::mesh_modes::ComputedModes;
 
 /// FE model of a structure and its solution.
 pub struct SolvedModel {
@@ -24,6 +26,8 @@ pub struct SolvedModel {
     pub girder: Option<fea::Girder>,
     /// Size of the system of equations; `None` where the solution was read from an earlier run.
     pub size: Option<SystemSize>,
+    /// Natural modes that runs have computed of it.
+    pub modes: ComputedModes,
 }
 
 /// Size of a system of equations.
@@ -70,7 +74,15 @@ pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, 
         None
     };
     let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.factor_bytes() });
-    Ok(SolvedModel { model, rails, surface, grid, girder: spec.girder().cloned(), size })
+    Ok(SolvedModel {
+        model,
+        rails,
+        surface,
+        grid,
+        girder: spec.girder().cloned(),
+        size,
+        modes: ComputedModes::default(),
+    })
 }
 
 /// A spec and its solution. Copies share both.
@@ -136,13 +148,8 @@ fn solve_spec(document: &Document, file: &str, spec: &Arc<Spec>) -> Result<Solve
     Ok(SolvedStructure { spec: Arc::clone(spec), solution: Arc::new(solution) })
 }
 
-/// Number of solutions that a [`StructureCache`] keeps.
-const KEPT: usize = 64;
-
-/// A solution that is computed once, by the first who asks.
-type Entry = (Arc<Spec>, Arc<OnceLock<Result<SolvedStructure, SolveError>>>);
-
-/// Solutions of the specs of many documents, each computed once and shared by all threads. The last 64 are kept.
+/// Solutions of the specs of many documents, each computed once and shared by all threads, as are the modes that are
+/// computed of them. The last 64 are kept.
 ///
 /// ```
 /// use std::sync::Arc;
@@ -158,7 +165,7 @@ type Entry = (Arc<Spec>, Arc<OnceLock<Result<SolvedStructure, SolveError>>>);
 /// ```
 #[derive(Default)]
 pub struct StructureCache {
-    entries: Mutex<VecDeque<Entry>>,
+    solved: KeptValues<Arc<Spec>, SolvedStructure>,
 }
 
 impl StructureCache {
@@ -168,29 +175,8 @@ impl StructureCache {
     /// As [`solve_specs`].
     pub fn solve(&self, document: &Document) -> Result<Vec<SolvedStructure>, SolveError> {
         let specs = distinct_specs(document);
-        specs.iter().map(|&(_, file, spec)| self.solve_one(document, file, spec)).collect()
-    }
-
-    fn solve_one(
-        &self,
-        document: &Document,
-        file: &str,
-        spec: &Arc<Spec>,
-    ) -> Result<SolvedStructure, SolveError> {
-        let cell = {
-            let mut entries = self.entries.lock().unwrap_or_else(PoisonError::into_inner);
-            match entries.iter().find(|(known, _)| known == spec) {
-                Some((_, cell)) => Arc::clone(cell),
-                None => {
-                    if entries.len() == KEPT {
-                        entries.pop_front();
-                    }
-                    let cell = Arc::default();
-                    entries.push_back((Arc::clone(spec), Arc::clone(&cell)));
-                    cell
-                }
-            }
-        };
-        cell.get_or_init(|| solve_spec(document, file, spec)).clone()
+        let each =
+            specs.iter().map(|&(_, file, spec)| self.solved.get(spec, || solve_spec(document, file, spec)));
+        each.collect()
     }
 }

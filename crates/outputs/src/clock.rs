@@ -33,6 +33,22 @@ impl StageClock {
         self.last = now;
     }
 
+    /// Goes on after a pause, which is not counted.
+    pub fn resume(&mut self) {
+        let now = Instant::now();
+        self.started += now - self.last;
+        self.last = now;
+    }
+
+    /// Adds the time since the previous lap to the duration of the last stage.
+    pub fn prolong(&mut self) {
+        let now = Instant::now();
+        if let Some((_, seconds)) = self.stages.last_mut() {
+            *seconds += (now - self.last).as_secs_f64();
+        }
+        self.last = now;
+    }
+
     /// Durations of the stages and their total as JSON, s.
     #[must_use]
     pub fn json(&self) -> Value {

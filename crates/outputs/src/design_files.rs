@@ -10,6 +10,7 @@ use crate::folder::{OutputFolder, PlannedFiles};
 use crate::manifest::Manifest;
 use design::{DesignResult, GoverningLine};
 use formats::design::Design;
+use formats::spec::SolveError;
 use formats::text::inputs::Inputs;
 use report::text::design_report::design_report;
 
@@ -33,7 +34,7 @@ impl SolvedDesign {
     ///
     /// # Errors
     /// Those of [`design::solve`] and [`design::governing_lines`].
-    pub fn of(design: &Design, inputs: Inputs) -> Result<SolvedDesign, design::DesignError> {
+    pub fn of(design: &Design, inputs: Inputs) -> Result<SolvedDesign, SolveError> {
         let design = design::with_combinations(design);
         let result = design::solve(&design, &inputs)?;
         let lines = design::governing_lines(&design, &inputs, &result)?;

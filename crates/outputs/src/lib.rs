@@ -9,6 +9,7 @@
 //!
 //! use formats::scene::SceneSource;
 //! use foundations::StructureCache;
+//! use results::cases::RunOptions;
 //! use outputs::clock::StageClock;
 //! use outputs::run_files::save_run;
 //! use results::scene_run::SceneRun;
@@ -16,7 +17,7 @@
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let bogie = SceneSource::open("../../examples/bogie/scene.json".as_ref()).expect("an example is right");
 //! let document = bogie.document(None, false).expect("an example is right");
-//! let run = SceneRun::of(document, &StructureCache::default(), None, &|_| ControlFlow::Continue(()))?;
+//! let run = SceneRun::of(document, &StructureCache::default(), RunOptions::default(), &|_| ControlFlow::Continue(()))?;
 //!
 //! let folder = std::env::temp_dir().join(format!("girderway-outputs-{}", std::process::id()));
 //! save_run(&run, &folder, false, None, StageClock::new())?;

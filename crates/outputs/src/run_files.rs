@@ -77,7 +77,7 @@ pub fn write_run(
         if let Some(cycles) = fatigue::csv(&result.fatigue, &result.columns).map_err(Error::not_shown)? {
             folder.add(&name.replacen("history", "cycles", 1), cycles);
         }
-        if let Some(envelope) = result.girders.csv(&case.scene, index + 1).map_err(Error::not_shown)? {
+        if let Some(envelope) = result.girders().csv(&case.scene, index + 1).map_err(Error::not_shown)? {
             folder.add(&name.replacen("history", "envelope", 1), envelope);
         }
     }

@@ -17,11 +17,15 @@ use formats::sweep::Sweep;
 use formats::text::fault::{Fault, Faults};
 use formats::text::inputs::{Inputs, sha256};
 use formats::text::place::Place;
+use report::figures::sweep::{SWEEP_FIGURES, SweepFigures};
 use report::text::sweep_report::sweep_report;
-use results::threads::parallel_stream;
+use results::threads::{parallel_map, parallel_stream};
 
 /// Files that a sweep writes.
-const FILES: [&str; 5] = ["results.csv", "results.parquet", "failures.csv", "summary.json", "report.html"];
+const FILES: [&str; 4] = ["results.csv", "failures.csv", "summary.json", "report.html"];
+
+/// The results once more, where the feature is on.
+const PARQUET: &str = "results.parquet";
 
 /// How far a sweep is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,6 +114,7 @@ pub fn make_sweep(
             failed = Some(error);
             return false;
         }
+        let record = record.beside(records.last());
         records.push(record);
         done += 1;
         if progress(SweepProgress::Made(done, left.len())).is_break() {
@@ -123,7 +128,7 @@ pub fn make_sweep(
     }
     records.sort_by_key(|record| record.run);
     let shard = shard.map(|(shard, of)| Shard { key, shard, of, info: info.clone() });
-    let written = write(folder, (&info, sweep.pointers()), inputs, records, (shard.as_ref(), threads))?;
+    let written = write(folder, &info, inputs, records, (shard.as_ref(), threads))?;
     rows.remove();
     Ok(written)
 }
@@ -140,14 +145,13 @@ pub fn join_shards(
 ) -> Result<WrittenSweep, Error> {
     let joined = read_shards(shards)?;
     let folder = OutputFolder::open(path, "sweep", force, &planned(false))?;
-    let axes = joined.info.axes.iter().map(|[pointer, _]| pointer.clone()).collect();
-    write(folder, (&joined.info, axes), joined.inputs, joined.records, (None, threads))
+    write(folder, &joined.info, joined.inputs, joined.records, (None, threads))
 }
 
 /// Writes the results of runs, in the order of their numbers, into a folder.
 fn write(
     mut folder: OutputFolder,
-    (info, axes): (&SweepInfo, Vec<String>),
+    info: &SweepInfo,
     inputs: Vec<InputEntry>,
     records: Vec<RunRecord>,
     (shard, threads): (Option<&Shard>, Option<u16>),
@@ -157,14 +161,22 @@ fn write(
         folder.add(ROWS, records.iter().map(|record| lines.lines(record)).collect::<String>());
         folder.add(SHARD, json_text(&shard.json(&inputs)));
     }
+    let axes = info.axes.iter().map(|[pointer, _]| pointer.clone()).collect();
     let table = ResultTable::new(axes, records);
     folder.add("results.csv", table.csv().map_err(Error::not_shown)?);
     #[cfg(feature = "parquet")]
-    folder.add("results.parquet", sweep::parquet(&table).map_err(Error::not_shown)?);
+    folder.add(PARQUET, sweep::parquet(&table).map_err(Error::not_shown)?);
     folder.add("failures.csv", table.failures_csv().map_err(Error::not_shown)?);
     let summary = sweep::summary(info, &table);
     folder.add("summary.json", json_text(&summary));
-    folder.add("report.html", sweep_report(info, &table).html(threads).map_err(Error::not_shown)?);
+    let figures = SweepFigures::new(info, &table);
+    let drawn = parallel_map(&figures.figures, threads, |_, figure| figure.svg());
+    for (figure, svg) in figures.figures.iter().zip(drawn) {
+        let svg = svg.map_err(Error::not_shown)?;
+        folder.add(&format!("plots/{}.svg", figure.name), svg.file());
+    }
+    let page = sweep_report(info, &table, figures);
+    folder.add("report.html", page.html(threads).map_err(Error::not_shown)?);
     let folder = folder.commit(Manifest::of_entries("sweep", inputs, json!({})))?;
     let failures = table.failures.into_iter().map(|(run, _, why)| (run, why)).collect();
     Ok(WrittenSweep { folder, summary, rows: table.rows.len(), failures })
@@ -172,6 +184,7 @@ fn write(
 
 fn planned(is_shard: bool) -> PlannedFiles {
     let shard: &[&str] = if is_shard { &[ROWS, SHARD] } else { &[] };
-    let names = FILES.iter().chain(shard).map(|name| (*name).to_owned()).collect();
-    PlannedFiles { names, plots: Vec::new() }
+    let parquet = cfg!(feature = "parquet").then_some(&PARQUET);
+    let names = FILES.iter().chain(parquet).chain(shard).map(|name| (*name).to_owned()).collect();
+    PlannedFiles { names, plots: SWEEP_FIGURES.map(str::to_owned).to_vec() }
 }

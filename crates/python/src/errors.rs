@@ -1,6 +1,5 @@
 //! Errors of the libraries as exceptions of the package.
 
-use design::DesignError;
 use formats::spec::SolveError;
 use formats::text::diagnostic::Diagnostic;
 use pyo3::exceptions::{PyKeyboardInterrupt, PyRuntimeError};
@@ -82,15 +81,6 @@ impl From<SolveError> for Refusal {
         match error {
             SolveError::Input(diagnostics) => Refusal::Input(diagnostics),
             SolveError::NoSolution(why) => Refusal::Untrusted(why),
-        }
-    }
-}
-
-impl From<DesignError> for Refusal {
-    fn from(error: DesignError) -> Self {
-        match error {
-            DesignError::Input(diagnostics) => Refusal::Input(diagnostics),
-            DesignError::NoSolution(why) => Refusal::Untrusted(why),
         }
     }
 }

@@ -3,6 +3,7 @@
 use outputs::clock::StageClock;
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use results::cases::{GirderTime, RunOptions};
 
 use crate::errors::Refusal;
 use crate::run::made;
@@ -24,6 +25,7 @@ pub(crate) fn run_many<'py>(
 ) -> PyResult<Bound<'py, PyList>> {
     let patches: Vec<_> = patches.into_iter().map(changes).collect();
     let each = each.map(|each| each.clone().unbind());
+    let options = RunOptions { threads, girders: GirderTime::OnDemand };
     let all = without_lock(py, progress, |state| -> Result<Vec<Py<PyAny>>, Refusal> {
         let source = scene.scene()?;
         let observe = |fraction: f64| state.advance(fraction);
@@ -37,7 +39,7 @@ pub(crate) fn run_many<'py>(
                 value.unwrap_or_else(|error| error.into_value(py).into_any())
             })
         };
-        Ok(results::many::run_many(&source, &patches, comparisons, threads, &observe, &each))
+        Ok(results::many::run_many(&source, &patches, comparisons, options, &observe, &each))
     })?;
     PyList::new(py, all.map_err(|refusal| refusal.exception(py))?)
 }

@@ -9,10 +9,9 @@ use outputs::clock::StageClock;
 use outputs::run_files::save_run;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyList};
-use results::cases::SimulationProgress;
+use results::cases::{GirderTime, RunOptions, SimulationProgress};
 use results::scene_run::SceneRun;
 use results::warning;
-use sim::History;
 
 use crate::convert::{array, python, table};
 use crate::errors::{Refusal, internal, untrusted_error};
@@ -22,7 +21,7 @@ use crate::watch::without_lock;
 /// A run of a scene and of its comparisons.
 ///
 /// The values of its columns are in the arrays alone; they are copied back while the summary is made or files are
-/// written.
+/// written. Extremes of girders are computed when the summary, the envelope, messages or files are first asked for.
 #[pyclass(frozen, module = "girderway._native")]
 pub(crate) struct Run {
     /// The results, with empty columns. Locked only by threads that have released the interpreter.
@@ -44,8 +43,7 @@ impl Run {
     pub(crate) fn new(py: Python<'_>, mut run: SceneRun, clock: StageClock) -> Run {
         let why_incomplete = run.reason_incomplete();
         let cases = run.cases.iter_mut().map(|case| {
-            // everything that is derived from the history has been derived
-            case.run.history = History::default();
+            case.drop_history();
             let columns = case.columns.columns.iter_mut();
             let arrays = columns.map(|column| array(py, std::mem::take(&mut column.values)).unbind());
             CaseColumns { label: case.label.clone(), arrays: arrays.collect() }
@@ -127,7 +125,10 @@ impl Run {
 
     /// The contents of `summary.json`.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let summary = self.with_columns(py, |run, _| run.summary(&run.comparison(None)));
+        let summary = self.with_columns(py, |run, _| {
+            run.compute_girders(None);
+            run.summary(&run.comparison(None))
+        });
         python(py, &summary)
     }
 
@@ -135,7 +136,7 @@ impl Run {
     fn envelope<'py>(&self, py: Python<'py>, case: usize) -> PyResult<Bound<'py, PyDict>> {
         self.case(case)?;
         let text =
-            self.with_run(py, |run| run.cases[case].girders.csv(&run.document.cases[case].scene, case + 1));
+            self.with_run(py, |run| run.cases[case].girders().csv(&run.document.cases[case].scene, case + 1));
         match text.map_err(internal)? {
             Some(text) => table(py, &text),
             None => Ok(PyDict::new(py)),
@@ -145,6 +146,7 @@ impl Run {
     /// Warnings and notes, as the command line prints them.
     fn messages<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
         let messages = self.with_columns(py, |run, _| {
+            run.compute_girders(None);
             let all = warning::messages(&run.cases, &run.document);
             all.iter().map(ToString::to_string).collect::<Vec<_>>()
         });
@@ -153,7 +155,12 @@ impl Run {
 
     /// Writes the files of `girderway run` to a folder.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<PathBuf> {
-        let saved = self.with_columns(py, |run, clock| save_run(run, &path, force, None, clock));
+        let saved = self.with_columns(py, |run, mut clock| {
+            clock.resume();
+            run.compute_girders(None);
+            clock.prolong();
+            save_run(run, &path, force, None, clock)
+        });
         saved.map(|written| written.folder).map_err(|error| Refusal::from(error).exception(py))
     }
 }
@@ -180,6 +187,8 @@ pub(crate) fn run(
     threads: Option<u16>,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<Py<Run>> {
+    // most callers ask for columns alone
+    let options = RunOptions { threads, girders: GirderTime::OnDemand };
     let found = without_lock(py, progress, |state| {
         let mut clock = StageClock::new();
         let source = scene.scene()?;
@@ -189,7 +198,7 @@ pub(crate) fn run(
         clock.lap("read");
         let structures = StructureCache::default().solve(&document)?;
         clock.lap("fea");
-        let run = SceneRun::on(document, structures, threads, &|now| match now {
+        let run = SceneRun::on(document, structures, options, &|now| match now {
             SimulationProgress::Fraction(fraction) => state.advance(fraction),
             SimulationProgress::Trial(_) => state.go_on(),
         })?;

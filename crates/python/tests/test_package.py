@@ -5,6 +5,7 @@ import gc
 import json
 import os
 import pickle
+import signal
 import sys
 import threading
 import time
@@ -175,6 +176,8 @@ def test_an_exception_of_the_progress_function_stops_the_run():
 def test_ctrl_c_stops_a_run():
     import _thread
 
+    # a shell that starts the tests in the background has it ignored
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     long = {"output": {"dt": 1e-3}, "accuracy": 1e-12}
     timer = threading.Timer(0.1, _thread.interrupt_main)
     timer.start()
@@ -182,6 +185,7 @@ def test_ctrl_c_stops_a_run():
         for _ in range(200):
             gw.run(BOGIE, long)
     timer.join()
+    signal.signal(signal.SIGINT, before)
 
 
 def test_the_lock_is_released_while_a_scene_runs():

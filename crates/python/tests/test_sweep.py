@@ -38,7 +38,8 @@ def runway(tmp_path: Path, examples: Path) -> Path:
 
 
 def contents(folder: Path) -> dict[str, bytes]:
-    return {path.name: path.read_bytes() for path in sorted(folder.iterdir())}
+    files = (path for path in sorted(folder.rglob("*")) if path.is_file())
+    return {str(path.relative_to(folder)): path.read_bytes() for path in files}
 
 
 def test_a_sweep_writes_the_bytes_of_the_command_line(runway: Path, girderway: str) -> None:

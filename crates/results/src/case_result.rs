@@ -1,12 +1,12 @@
 //! The result of one case of a scene.
 
 use formats::scene::motion::SimulationInput;
-use sim::Run;
+use sim::{History, Run};
 
 use crate::codes::CodeCheck;
 use crate::columns::NamedColumns;
 use crate::fatigue::FatigueResult;
-use crate::girders::GirderExtremes;
+use crate::girders::{DeferredGirders, GirderExtremes};
 use crate::response::{ColumnInfluence, Response};
 
 /// The result of one case: its run and the quantities computed from it.
@@ -40,10 +40,26 @@ pub struct CaseResult {
     pub lines: Vec<Option<ColumnInfluence>>,
     /// The response of the structures.
     pub response: Response,
-    /// Extremes and envelopes of the girders.
-    pub girders: GirderExtremes,
+    /// Extremes and envelopes of the girders, or what they are computed from.
+    pub(crate) girders: DeferredGirders,
     /// Values of codes compared with those of the run; `None` where the scene does not request them.
     pub codes: Option<CodeCheck>,
     /// Damage at the stress points that have a detail category.
     pub fatigue: Vec<FatigueResult>,
+}
+
+impl CaseResult {
+    /// Extremes and envelopes of the girders. Where the run has left them
+    /// ([`GirderTime::OnDemand`](crate::cases::GirderTime::OnDemand)), the first who asks computes them.
+    #[must_use]
+    pub fn girders(&self) -> &GirderExtremes {
+        self.girders.get(&self.input, &self.run.history, &self.response.envelopes)
+    }
+
+    /// Drops the history of the run, whose values are in the columns. Its rows are kept as long as extremes of girders
+    /// need them.
+    pub fn drop_history(&mut self) {
+        self.girders.keep_rows(&mut self.run.history);
+        self.run.history = History::default();
+    }
 }

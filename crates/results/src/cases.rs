@@ -5,22 +5,23 @@
 //! modes, values of codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use sim::{Foundation, History, Run, Status};
+use sim::{Foundation, Status};
 
 use crate::Error;
 use crate::case_result::CaseResult;
 use crate::codes::{CodeCheck, SpanResponse};
 use crate::columns::NamedColumns;
 use crate::fatigue;
-use crate::girders::{self, SolvedMembers};
+use crate::girders::{DeferredGirders, GirderInputs, SolvedMembers};
 use crate::observe::ColumnObserver;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
-use formats::scene::motion::{SimulationInput, simulation_input};
+use formats::scene::motion::simulation_input;
 use formats::scene::{Case, Document, Scene};
-use foundations::{SolvedModel, SolvedStructure, solution_of};
+use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
 /// SimulationProgress of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -29,6 +30,27 @@ pub enum SimulationProgress<'a> {
     Fraction(f64),
     /// A run with these foundations begins, as one of several from which "auto" chooses.
     Trial(&'a str),
+}
+
+/// When the extremes of girders are computed, which can take many times as long as a run: at all its steps, at many
+/// sections, and in repetitions with more rows. They are the same at either time.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum GirderTime {
+    /// With the run, on its thread; `progress` can break off.
+    #[default]
+    WithRun,
+    /// When they are first asked for ([`CaseResult::girders`]), if ever; until then what they are computed from stays in
+    /// memory.
+    OnDemand,
+}
+
+/// How a scene is run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RunOptions {
+    /// Largest number of threads; `None`: as many as the machine has.
+    pub threads: Option<u16>,
+    /// When the extremes of girders are computed.
+    pub girders: GirderTime,
 }
 
 /// Runs every case, on at most `threads` threads (`None`: as many as the machine has). `progress` is called from any
@@ -61,23 +83,23 @@ pub fn simulate(
         progress(now);
         ControlFlow::Continue(())
     };
-    simulate_while(document, known, threads, &observed)
+    simulate_while(document, known, RunOptions { threads, ..RunOptions::default() }, &observed)
 }
 
-/// Runs every case like [`simulate`], until `progress` breaks off.
+/// Runs every case like [`simulate`], with options, until `progress` breaks off.
 ///
 /// # Errors
 /// Those of [`simulate`]; [`Error::Stopped`] where `progress` breaks off.
 pub fn simulate_while(
     document: &Document,
     known: &[SolvedStructure],
-    threads: Option<u16>,
+    options: RunOptions,
     progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
 ) -> Result<Vec<CaseResult>, Error> {
     let cases = &document.cases;
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
-    let members = SolvedMembers::new(known);
-    let outcomes = parallel_map(cases, threads, |index, case| {
+    let members = Arc::new(SolvedMembers::new(known));
+    let outcomes = parallel_map(cases, options.threads, |index, case| {
         let mut watch = |t: f64| {
             // with "auto" a case is run several times, and its time starts again from zero in each run
             done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
@@ -88,7 +110,7 @@ pub fn simulate_while(
             // the steps of the trial ask again whether to go on
             let _ = progress(SimulationProgress::Trial(trial));
         };
-        run_case(case, (known, &members), &trial, &mut watch)
+        run_case(case, &members, options.girders, &trial, &mut watch)
     });
     outcomes.into_iter().collect()
 }
@@ -110,10 +132,12 @@ pub fn records_dofs(scene: &Scene, known: &[SolvedStructure]) -> impl Fn(usize, 
 /// Simulates one case and evaluates its run.
 fn run_case(
     case: &Case,
-    (known, members): (&[SolvedStructure], &SolvedMembers<'_>),
+    members: &Arc<SolvedMembers>,
+    when: GirderTime,
     trial: &dyn Fn(&str),
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<CaseResult, Error> {
+    let known = members.known();
     let mut scene = case.scene.clone();
     let mut input = simulation_input(&scene)?;
     input.scene.records_steps = true;
@@ -142,30 +166,11 @@ fn run_case(
     let lines = response::influence_lines(&scene, &built, &solved)?;
     let mut record = NamedColumns::new(&scene, &run.history);
     let mut response = Response::new(&scene, &input, &run.history, &built, &solved, &lines, &mut record)?;
-    let prepared = girders::Prepared::new(&scene, &built, &solved, members);
-    let mut foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
+    let (mut foundations, bases): (Vec<Foundation>, Vec<_>) =
+        built.into_iter().map(|built| (built.foundation, built.basis)).unzip();
     for (s, foundation) in foundations.iter_mut().enumerate() {
         foundation.recorded = recorded(s, foundation);
     }
-    // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
-    let mut left = if run.strike.is_some() { 0 } else { 1_usize };
-    let mut is_stopped = false;
-    let mut repeat = |rows: usize| {
-        left = left.checked_sub(1)?;
-        let mut watch = |t: f64| {
-            let now = watch(t);
-            is_stopped |= now.is_break();
-            now
-        };
-        repeated(&scene, &input, &run, &foundations, rows, &mut watch)
-    };
-    let mut girders =
-        girders::of_run(&prepared, (&scene, &input), [&run.history, &run.steps], &foundations, &mut repeat);
-    if is_stopped {
-        return Err(Error::Stopped);
-    }
-    girders.reactions.iter_mut().for_each(|reaction| reaction.extend_to(&response.envelopes));
-    run.steps = History::default();
     response.modes = SceneMode::all(&scene, &input, &foundations, &run);
     let spans = SpanResponse { history: &run.history, solved: &solved, deflections: &response.deflections };
     let codes = CodeCheck::new(&scene, &input, &record, &spans)?;
@@ -173,25 +178,17 @@ fn run_case(
     if let Some((column, time)) = record.first_not_finite() {
         return Err(Error::NotFinite { label, column: column.to_owned(), time });
     }
+    let built = foundations.into_iter().zip(bases);
+    let built = built.map(|(foundation, basis)| BuiltFoundation { foundation, basis }).collect();
+    let inputs = GirderInputs::new(scene, built, Arc::clone(members), &mut run);
+    let girders = match when {
+        GirderTime::OnDemand => DeferredGirders::of(inputs),
+        GirderTime::WithRun => {
+            let found = inputs.extremes(&input, &run.history, &response.envelopes, watch);
+            found.ok_or(Error::Stopped)?.into()
+        }
+    };
     Ok(CaseResult { label, input, run, columns: record, choices, lines, response, girders, codes, fatigue })
-}
-
-/// The history of a complete run with a number of rows in each output interval; `None` if the repetition does not end
-/// like the run.
-fn repeated(
-    scene: &Scene,
-    input: &SimulationInput,
-    run: &Run,
-    foundations: &[Foundation],
-    rows: usize,
-    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-) -> Option<History> {
-    if !run.status.is_complete() {
-        return None;
-    }
-    let finer = sim::Scene { output_parts: rows, ..input.scene.clone() };
-    let again = sim::run_by(scene.stepping, &finer, foundations, watch).ok()?;
-    again.status.is_complete().then_some(again.history)
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

@@ -46,3 +46,8 @@ pub mod threads;
 pub mod warning;
 
 pub use error::Error;
+
+/// The examples of the page on the libraries.
+#[cfg(doctest)]
+#[doc = include_str!("../../../docs/library.md")]
+pub struct LibraryPage;

@@ -4,15 +4,15 @@ use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::Error;
-use crate::cases::SimulationProgress;
+use crate::cases::{RunOptions, SimulationProgress};
 use crate::scene_run::SceneRun;
 use crate::threads::parallel_map;
 use formats::scene::SceneSource;
 use formats::text::source::Source;
 use foundations::StructureCache;
 
-/// Runs a scene once for each of `changes`, on at most `threads` threads (`None`: as many as the machine has), and
-/// returns what `each` makes of the results, in the order of the changes. It does not depend on the number of threads.
+/// Runs a scene once for each of `changes`, as many at a time as the options have threads, and returns what `each` makes
+/// of the results, in the order of the changes. It does not depend on the number of threads.
 ///
 /// The files of the scene are read once, and equal specs are solved once. Comparisons of the scene are run where
 /// `compares`. `progress` is called from any thread with the fraction of the runs that are done, and can break off:
@@ -23,6 +23,7 @@ use foundations::StructureCache;
 ///
 /// use formats::scene::SceneSource;
 /// use formats::text::source::Source;
+/// use results::cases::RunOptions;
 /// use results::many::run_many;
 ///
 /// # fn main() -> Result<(), results::Error> {
@@ -31,7 +32,7 @@ use foundations::StructureCache;
 ///     name: "changes".to_owned(),
 ///     text: format!(r#"{{"end": {{"time": {end}}}}}"#),
 /// });
-/// let last = run_many(&bogie, &changes, false, None, &|_| ControlFlow::Continue(()), &|_, run| {
+/// let last = run_many(&bogie, &changes, false, RunOptions::default(), &|_| ControlFlow::Continue(()), &|_, run| {
 ///     run.map(|run| run.cases[0].columns.values("time").last().copied())
 /// });
 /// let last = last.into_iter().collect::<Result<Vec<_>, _>>()?;
@@ -43,7 +44,7 @@ pub fn run_many<R: Send>(
     source: &SceneSource,
     changes: &[Source],
     compares: bool,
-    threads: Option<u16>,
+    options: RunOptions,
     progress: &(dyn Fn(f64) -> ControlFlow<()> + Sync),
     each: &(dyn Fn(usize, Result<SceneRun, Error>) -> R + Sync),
 ) -> Vec<R> {
@@ -60,12 +61,12 @@ pub fn run_many<R: Send>(
             return Err(Error::Stopped);
         }
         let document = source.document(Some(changes), compares)?;
-        SceneRun::of(document, &cache, Some(1), &|now| match now {
+        SceneRun::of(document, &cache, RunOptions { threads: Some(1), ..options }, &|now| match now {
             SimulationProgress::Fraction(_) => progress(fraction()),
             SimulationProgress::Trial(_) => ControlFlow::Continue(()),
         })
     };
-    parallel_map(changes, threads, |index, changes| {
+    parallel_map(changes, options.threads, |index, changes| {
         let made = each(index, run(changes));
         done.fetch_add(1, Ordering::Relaxed);
         made

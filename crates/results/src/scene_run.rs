@@ -7,11 +7,12 @@ use serde_json::Value;
 use crate::Error;
 use crate::before;
 use crate::case_result::CaseResult;
-use crate::cases::{SimulationProgress, simulate_while};
+use crate::cases::{RunOptions, SimulationProgress, simulate_while};
 use crate::columns::NamedColumns;
 use crate::response::{Response, RunComparison};
 use crate::run_error::reason_incomplete;
 use crate::summary;
+use crate::threads::parallel_map;
 use formats::scene::Document;
 use foundations::{SolvedModel, SolvedStructure, StructureCache, solution_of};
 
@@ -23,6 +24,7 @@ use foundations::{SolvedModel, SolvedStructure, StructureCache, solution_of};
 /// use formats::scene::SceneSource;
 /// use formats::text::source::Source;
 /// use foundations::StructureCache;
+/// use results::cases::RunOptions;
 /// use results::scene_run::SceneRun;
 ///
 /// # fn main() -> Result<(), results::Error> {
@@ -32,7 +34,7 @@ use foundations::{SolvedModel, SolvedStructure, StructureCache, solution_of};
 /// let run = |changes: Option<&Source>| {
 ///     let document = bogie.document(changes, false)?;
 ///     // the girder is solved by the first run and known to the second
-///     SceneRun::of(document, &cache, None, &|_| ControlFlow::Continue(()))
+///     SceneRun::of(document, &cache, RunOptions::default(), &|_| ControlFlow::Continue(()))
 /// };
 ///
 /// let [whole, shorter] = [run(None)?, run(Some(&changes))?];
@@ -52,9 +54,8 @@ pub struct SceneRun {
 }
 
 impl SceneRun {
-    /// Checks a document, solves those of its structures that `cache` does not know, and runs its cases on at most
-    /// `threads` threads (`None`: as many as the machine has). `progress` is called from any thread, and can break
-    /// off.
+    /// Checks a document, solves those of its structures that `cache` does not know, and runs its cases. `progress` is
+    /// called from any thread, and can break off.
     ///
     /// # Errors
     /// [`Error::Input`] for faults with a place in a file, [`Error::Stopped`] where `progress` breaks off, and those
@@ -62,12 +63,12 @@ impl SceneRun {
     pub fn of(
         document: Document,
         cache: &StructureCache,
-        threads: Option<u16>,
+        options: RunOptions,
         progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
     ) -> Result<SceneRun, Error> {
         before::check(&document)?;
         let structures = cache.solve(&document)?;
-        SceneRun::on(document, structures, threads, progress)
+        SceneRun::on(document, structures, options, progress)
     }
 
     /// Runs the cases of a document that has been checked ([`before::check`]) on its solved structures.
@@ -77,12 +78,20 @@ impl SceneRun {
     pub fn on(
         document: Document,
         structures: Vec<SolvedStructure>,
-        threads: Option<u16>,
+        options: RunOptions,
         progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
     ) -> Result<SceneRun, Error> {
-        let cases = simulate_while(&document, &structures, threads, progress)
+        let cases = simulate_while(&document, &structures, options, progress)
             .map_err(|error| before::located(&document, error))?;
         Ok(SceneRun { document, structures, cases })
+    }
+
+    /// Computes the extremes of girders that the runs have left ([`GirderTime::OnDemand`](crate::cases::GirderTime::OnDemand)),
+    /// on at most `threads` threads.
+    pub fn compute_girders(&self, threads: Option<u16>) {
+        parallel_map(&self.cases, threads, |_, case| {
+            let _ = case.girders();
+        });
     }
 
     /// The reason why the run of a case did not reach its end, with the label of the first such case; `None` where all

@@ -5,6 +5,21 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, SyncSender};
 use std::time::Duration;
 
+/// Number of threads for the items of a list: at most `threads` (`None`: as many as the machine has), and at least one.
+fn thread_count<T>(threads: Option<u16>, items: &[T]) -> usize {
+    let available = std::thread::available_parallelism().map_or(1, usize::from);
+    threads.map_or(available, usize::from).clamp(1, items.len().max(1))
+}
+
+/// The next item with its index, for any thread that asks; `None` at the end of the list.
+fn next_of<'a, T: Sync>(items: &'a [T]) -> impl Fn() -> Option<(usize, &'a T)> + Sync {
+    let next = AtomicUsize::new(0);
+    move || {
+        let index = next.fetch_add(1, Ordering::Relaxed);
+        Some((index, items.get(index)?))
+    }
+}
+
 /// Evaluates `work(index, item)` for each of `items` on at most `threads` threads (`None`: as many as the machine
 /// has) and returns the results in the order of the items. They do not depend on the number of threads.
 ///
@@ -22,16 +37,14 @@ pub fn parallel_map<T: Sync, R: Send>(
     threads: Option<u16>,
     work: impl Fn(usize, &T) -> R + Sync,
 ) -> Vec<R> {
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = threads.map_or(available, usize::from).min(items.len());
-    let next = AtomicUsize::new(0);
+    let threads = thread_count(threads, items);
+    let next = next_of(items);
     let worker = || {
         let mut done = Vec::new();
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(index) else { return done };
+        while let Some((index, item)) = next() {
             done.push((index, work(index, item)));
         }
+        done
     };
     let mut made: Vec<(usize, R)> = std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
@@ -110,14 +123,11 @@ pub fn parallel_stream<T: Sync, R: Send>(
     work: impl Fn(&T) -> R + Sync,
     mut receive: impl FnMut(&T, R) -> bool,
 ) {
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    let threads = threads.map_or(available, usize::from).clamp(1, items.len().max(1));
-    let next = AtomicUsize::new(0);
+    let threads = thread_count(threads, items);
+    let next = next_of(items);
     let (sender, receiver) = mpsc::sync_channel(2 * threads);
     let worker = |sender: SyncSender<(usize, R)>| {
-        loop {
-            let index = next.fetch_add(1, Ordering::Relaxed);
-            let Some(item) = items.get(index) else { return };
+        while let Some((index, item)) = next() {
             // the receiver is gone if no further results are wanted
             if sender.send((index, work(item))).is_err() {
                 return;

@@ -1,12 +1,14 @@
 //! What a run gives: results by name, or the reason why there are none.
 
+use std::sync::Arc;
+
 use formats::units::Dimension;
 
 /// The results of a run, by name, in their order.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct RunRow {
-    /// Names of the results.
-    pub names: Vec<String>,
+    /// Names of the results; runs with the same share them.
+    pub names: Arc<Vec<String>>,
     /// Their values, all finite.
     pub values: Vec<f64>,
     /// Their dimensions; empty for a row that was read from a file.
@@ -16,7 +18,7 @@ pub struct RunRow {
 impl RunRow {
     /// Adds a result.
     pub(crate) fn add(&mut self, name: String, value: f64, dimension: Dimension) {
-        self.names.push(name);
+        Arc::make_mut(&mut self.names).push(name);
         // no negative zero
         self.values.push(value + 0.0);
         self.dimensions.push(dimension);

@@ -4,6 +4,8 @@
 //! that follow; a line `{"run": 7, "axes": [...], "values": [...]}` is a run, and `{"run": 7, "axes": [...], "failure":
 //! "..."}` one without results. Numbers have as many digits as their doubles need.
 
+use std::sync::Arc;
+
 use formats::sweep::AxisValue;
 use serde_json::{Value, json};
 
@@ -20,17 +22,35 @@ pub struct RunRecord {
     pub outcome: RunOutcome,
 }
 
+impl RunRecord {
+    /// The run in little memory beside another one: equal names are shared, and dimensions, which are those of the input
+    /// as written, are left out.
+    #[must_use]
+    pub fn beside(mut self, other: Option<&RunRecord>) -> RunRecord {
+        if let Ok(row) = &mut self.outcome {
+            row.dimensions = Vec::new();
+            row.values.shrink_to_fit();
+            if let Some(Ok(known)) = other.map(|other| &other.outcome)
+                && known.names == row.names
+            {
+                row.names = Arc::clone(&known.names);
+            }
+        }
+        self
+    }
+}
+
 /// Writes runs as lines.
 #[derive(Clone, Debug, Default)]
 pub struct RecordLines {
-    names: Option<Vec<String>>,
+    names: Option<Arc<Vec<String>>>,
 }
 
 impl RecordLines {
     /// Lines of a run, each with its newline: the names of its results, unless they are those of the run before, and
     /// the run.
     pub fn lines(&mut self, record: &RunRecord) -> String {
-        let axes: Vec<Value> = record.axes.iter().map(axis_value_json).collect();
+        let axes: Vec<Value> = record.axes.iter().map(AxisValue::json).collect();
         match &record.outcome {
             Err(why) => format!("{}\n", json!({ "run": record.run, "axes": axes, "failure": why })),
             Ok(row) => {
@@ -38,8 +58,8 @@ impl RecordLines {
                 if self.names.as_ref() == Some(&row.names) {
                     return format!("{line}\n");
                 }
-                self.names = Some(row.names.clone());
-                format!("{}\n{line}\n", json!({ "names": row.names }))
+                self.names = Some(Arc::clone(&row.names));
+                format!("{}\n{line}\n", json!({ "names": *row.names }))
             }
         }
     }
@@ -49,13 +69,13 @@ impl RecordLines {
 /// that is not whole, which an interrupted writer leaves.
 #[must_use]
 pub fn read_records(text: &str) -> Vec<RunRecord> {
-    let mut names: Vec<String> = Vec::new();
+    let mut names: Arc<Vec<String>> = Arc::default();
     let mut seen = std::collections::BTreeSet::new();
     let mut records = Vec::new();
     for line in text.split_inclusive('\n').filter(|line| line.ends_with('\n')) {
         let Ok(value) = serde_json::from_str::<Value>(line) else { break };
         if let Some(list) = value["names"].as_array() {
-            names = list.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect();
+            names = Arc::new(list.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect());
             continue;
         }
         let Some(record) = record(&value, &names) else { break };
@@ -66,7 +86,7 @@ pub fn read_records(text: &str) -> Vec<RunRecord> {
     records
 }
 
-fn record(value: &Value, names: &[String]) -> Option<RunRecord> {
+fn record(value: &Value, names: &Arc<Vec<String>>) -> Option<RunRecord> {
     let run = usize::try_from(value["run"].as_u64()?).ok()?;
     let axes = value["axes"].as_array()?.iter().map(scalar).collect::<Option<Vec<_>>>()?;
     let outcome = match value["failure"].as_str() {
@@ -75,20 +95,10 @@ fn record(value: &Value, names: &[String]) -> Option<RunRecord> {
             let values: Vec<f64> =
                 value["values"].as_array()?.iter().map(Value::as_f64).collect::<Option<_>>()?;
             let is_whole = values.len() == names.len();
-            is_whole.then(|| Ok(RunRow { names: names.to_vec(), values, dimensions: Vec::new() }))?
+            is_whole.then(|| Ok(RunRow { names: Arc::clone(names), values, dimensions: Vec::new() }))?
         }
     };
     Some(RunRecord { run, axes, outcome })
-}
-
-/// A value of an axis as JSON.
-#[must_use]
-fn axis_value_json(value: &AxisValue) -> Value {
-    match value {
-        AxisValue::Number(number) => json!(number),
-        AxisValue::Text(text) => json!(text),
-        AxisValue::Flag(flag) => json!(flag),
-    }
 }
 
 fn scalar(value: &Value) -> Option<AxisValue> {
@@ -105,7 +115,7 @@ mod tests {
     use super::*;
 
     fn row(names: &[&str], values: &[f64]) -> RunOutcome {
-        let names = names.iter().map(|name| (*name).to_owned()).collect();
+        let names = Arc::new(names.iter().map(|name| (*name).to_owned()).collect());
         Ok(RunRow { names, values: values.to_vec(), dimensions: Vec::new() })
     }
 

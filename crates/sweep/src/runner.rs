@@ -2,14 +2,16 @@
 
 use std::ops::ControlFlow;
 
-use ::design::DesignError;
+use ::design::DesignStructures;
 use formats::design::Design;
 use formats::scene::{Document, SceneSource};
+use formats::spec::SolveError;
 use formats::sweep::{AxisValue, Sweep, SweepInput};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use formats::units::Units;
 use foundations::StructureCache;
+use results::cases::{GirderTime, RunOptions};
 use results::scene_run::SceneRun;
 
 use crate::outcome::{RunFailure, RunOutcome, RunRow};
@@ -20,13 +22,14 @@ use crate::values;
 pub struct Runner<'s> {
     sweep: &'s Sweep,
     solved: StructureCache,
+    designed: DesignStructures,
 }
 
 impl<'s> Runner<'s> {
     /// A runner without solved structures.
     #[must_use]
     pub fn new(sweep: &'s Sweep) -> Runner<'s> {
-        Runner { sweep, solved: StructureCache::default() }
+        Runner { sweep, solved: StructureCache::default(), designed: DesignStructures::default() }
     }
 
     /// The files of a run: those of the scene or design with the values of the axes in them.
@@ -57,12 +60,7 @@ impl<'s> Runner<'s> {
     /// # Errors
     /// As [`Runner::run`].
     pub fn run_as_written(&self) -> Result<(Units, RunRow), RunFailure> {
-        let inputs = self.sweep.target.inputs().clone();
-        let units = match &self.sweep.input {
-            SweepInput::Scene(_) => scene(inputs.clone()).map(|document| document.scene().units),
-            SweepInput::Design(_) => design(inputs.clone()).map(|(design, _)| design.units),
-        };
-        Ok((units.map_err(|wrong| first(&wrong))?, self.run_files(inputs)?))
+        self.run_files(self.sweep.target.inputs().clone())
     }
 
     /// Runs the scene or design with values of the axes, in their order.
@@ -71,7 +69,8 @@ impl<'s> Runner<'s> {
     /// Why the run has no results: faults of the files with these values, a structure that does not stand, a scene that
     /// cannot start, a run that is incomplete, results that it does not have. The text has one line.
     pub fn run(&self, values: &[AxisValue]) -> RunOutcome {
-        self.run_files(self.inputs(values)).map_err(|failure| self.with_own_names(failure.why()))
+        let made = self.run_files(self.inputs(values));
+        made.map(|(_, row)| row).map_err(|failure| self.with_own_names(failure.why()))
     }
 
     /// A reason in which files are called as their inputs are, wherever the sweep was started, so that it is the same on
@@ -81,34 +80,37 @@ impl<'s> Runner<'s> {
         files.fold(why, |text, file| text.replace(&file.display_name, &file.name))
     }
 
-    fn run_files(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
+    fn run_files(&self, inputs: Inputs) -> Result<(Units, RunRow), RunFailure> {
         match &self.sweep.input {
             SweepInput::Scene(_) => self.run_scene(inputs),
             SweepInput::Design(_) => self.run_design(inputs),
         }
     }
 
-    fn run_scene(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
+    fn run_scene(&self, inputs: Inputs) -> Result<(Units, RunRow), RunFailure> {
         let document = scene(inputs).map_err(|wrong| first(&wrong))?;
-        let run = SceneRun::of(document, &self.solved, Some(1), &|_| ControlFlow::Continue(()));
+        // runs are on threads of their own, and few sweeps ask for extremes of girders
+        let options = RunOptions { threads: Some(1), girders: GirderTime::OnDemand };
+        let run = SceneRun::of(document, &self.solved, options, &|_| ControlFlow::Continue(()));
         let run = run.map_err(|error| match error {
             results::Error::Input(wrong) => first(&wrong),
             other => line(&other.to_string()),
         })?;
-        match run.reason_incomplete() {
-            Some(why) => Err(line(&why).into()),
-            None => values::of_scene(&self.sweep.results, run.document.scene(), &run.cases[0]),
+        if let Some(why) = run.reason_incomplete() {
+            return Err(line(&why).into());
         }
+        let scene = run.document.scene();
+        Ok((scene.units, values::of_scene(&self.sweep.results, scene, &run.cases[0])?))
     }
 
-    fn run_design(&self, inputs: Inputs) -> Result<RunRow, RunFailure> {
+    fn run_design(&self, inputs: Inputs) -> Result<(Units, RunRow), RunFailure> {
         let (read, inputs) = design(inputs).map_err(|wrong| first(&wrong))?;
         let read = ::design::with_combinations(&read);
-        let result = ::design::solve(&read, &inputs).map_err(|error| match error {
-            DesignError::Input(wrong) => first(&wrong),
-            DesignError::NoSolution(why) => line(&why),
+        let result = ::design::solve_on(&self.designed, &read, &inputs).map_err(|error| match error {
+            SolveError::Input(wrong) => first(&wrong),
+            SolveError::NoSolution(why) => line(&why),
         })?;
-        values::of_design(&self.sweep.results, &::design::summary(&read, &result))
+        Ok((read.units, values::of_design(&self.sweep.results, &::design::summary(&read, &result))?))
     }
 }
 

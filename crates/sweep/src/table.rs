@@ -1,5 +1,7 @@
 //! The results of all runs as one table.
 
+use std::sync::Arc;
+
 use formats::sweep::AxisValue;
 
 use crate::records::RunRecord;
@@ -42,7 +44,7 @@ impl ResultTable {
             rows: Vec::with_capacity(records.len()),
             failures: Vec::new(),
         };
-        let mut known: (Vec<String>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut known: (Arc<Vec<String>>, Vec<usize>) = (Arc::default(), Vec::new());
         for RunRecord { run, axes, outcome } in records {
             match outcome {
                 Ok(row) => {

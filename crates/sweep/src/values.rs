@@ -28,7 +28,7 @@ pub(crate) fn of_scene(
             }
             ResultKind::Column(name) => peaks(name, outcome, &mut row),
             ResultKind::Extremes => {
-                if let Some(all) = outcome.girders.json(scene, 1) {
+                if let Some(all) = outcome.girders().json(scene, 1) {
                     extremes(&all, false, &mut row);
                 }
             }

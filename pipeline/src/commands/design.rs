@@ -8,7 +8,7 @@ use crate::cli::{DesignArgs, Global};
 use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
-use design::{DesignError, LimitCheck};
+use design::LimitCheck;
 use formats::design::Design;
 use formats::text::inputs::Inputs;
 use outputs::design_files::{SolvedDesign, open_design_folder};
@@ -54,10 +54,7 @@ pub(super) fn of_design(
 ) -> Result<SolvedDesign, Failure> {
     let progress = Progress::new(global);
     let folder = open_design_folder(path, force)?;
-    let solved = SolvedDesign::of(read, inputs).map_err(|error| match error {
-        DesignError::Input(diagnostics) => Failure::Input(diagnostics),
-        DesignError::NoSolution(why) => Failure::Untrusted(why),
-    })?;
+    let solved = SolvedDesign::of(read, inputs)?;
     let written = solved.write(folder, global.threads)?;
     let SolvedDesign { design: read, result, .. } = &solved;
     for warning in &result.warnings {

@@ -19,7 +19,7 @@ use outputs::folder::OutputFolder;
 use outputs::planned::{check_names, planned_files};
 use outputs::run_files::{WrittenRun, write_run};
 use results::before;
-use results::cases::SimulationProgress;
+use results::cases::{RunOptions, SimulationProgress};
 use results::columns::peak;
 use results::scene_run::SceneRun;
 use results::warning;
@@ -73,7 +73,8 @@ fn whole(
     let known = structures(&document, path, &progress)?;
     clock.lap("fea");
     let bar = progress.bar("simulating", 1000);
-    let run = SceneRun::on(document, known, global.threads, &|now| {
+    let options = RunOptions { threads: global.threads, ..RunOptions::default() };
+    let run = SceneRun::on(document, known, options, &|now| {
         match now {
             SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
             SimulationProgress::Trial(foundations) => {

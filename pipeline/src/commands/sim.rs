@@ -14,7 +14,7 @@ use formats::scene::Document;
 use formats::spec::Spec;
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
-use foundations::SolvedModel;
+use foundations::{ComputedModes, SolvedModel};
 use foundations::{SolvedStructure, distinct_specs};
 use outputs::manifest::{MANIFEST, OutputEntry, listed_files};
 
@@ -88,5 +88,7 @@ fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel,
     }
     let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
     let (model, rails) = spec.model().map_err(Failure::untrusted)?;
-    Ok(SolvedModel { model, rails, surface: Some(surface), grid, girder: spec.girder().cloned(), size: None })
+    let girder = spec.girder().cloned();
+    let modes = ComputedModes::default();
+    Ok(SolvedModel { model, rails, surface: Some(surface), grid, girder, size: None, modes })
 }

@@ -47,18 +47,10 @@ impl Design {
     /// # Errors
     /// As [`Design::open`].
     pub fn read(mut inputs: Inputs, source: &Source) -> Result<(Design, Inputs), Vec<Diagnostic>> {
-        let mut wrong = Vec::new();
-        let read = source.read(FORMAT, |raw: &RawDesign, faults| {
-            Some(read(raw, &source.name, &mut inputs, faults, &mut wrong))
-        });
-        match read {
-            Ok(Some(design)) if wrong.is_empty() => Ok((design, inputs)),
-            Ok(_) => Err(wrong),
-            Err(mut own) => {
-                own.append(&mut wrong);
-                Err(own)
-            }
-        }
+        let design = source.read_with_others(FORMAT, |raw: &RawDesign, faults, wrong| {
+            read(raw, &source.name, &mut inputs, faults, wrong)
+        })?;
+        Ok((design, inputs))
     }
 }
 

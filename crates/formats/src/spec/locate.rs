@@ -8,7 +8,7 @@ use crate::text::fault::{Basis, Fault, Faults};
 use crate::text::place::{Path, Step};
 use crate::text::source::Source;
 
-/// The reason why the structure of a spec has no solution, in the terms of the spec.
+/// The reason why the structure of a spec, or a design on it, has no solution, in the terms of its files.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SolveError {
     /// An entry of the file is invalid.

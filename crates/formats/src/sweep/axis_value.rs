@@ -23,13 +23,13 @@ impl AxisValue {
         }
     }
 
-    /// The value as JSON text, a number with the fewest digits that mean the same double.
+    /// The value as JSON; the text of a number has the fewest digits that mean the same double.
     #[must_use]
-    pub fn json(&self) -> String {
+    pub fn json(&self) -> serde_json::Value {
         match self {
-            AxisValue::Number(value) => serde_json::json!(value).to_string(),
-            AxisValue::Text(text) => serde_json::json!(text).to_string(),
-            AxisValue::Flag(flag) => flag.to_string(),
+            AxisValue::Number(value) => serde_json::json!(value),
+            AxisValue::Text(text) => serde_json::json!(text),
+            AxisValue::Flag(flag) => serde_json::json!(flag),
         }
     }
 }
@@ -38,7 +38,7 @@ impl fmt::Display for AxisValue {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             AxisValue::Text(text) => f.write_str(text),
-            other => f.write_str(&other.json()),
+            other => other.json().fmt(f),
         }
     }
 }

@@ -36,18 +36,10 @@ impl Sweep {
     pub fn open(path: &Path) -> Result<(Sweep, Inputs), Vec<Diagnostic>> {
         let (inputs, source) = Inputs::open(path).map_err(|error| vec![*error])?;
         let folder = path.parent().map(Path::to_path_buf).unwrap_or_default();
-        let mut wrong = Vec::new();
-        let read = source.read(FORMAT, |raw: &RawSweep, faults| {
-            Some(read(raw, &source.name, &folder, faults, &mut wrong))
-        });
-        match read {
-            Ok(Some(sweep)) if wrong.is_empty() => Ok((sweep, inputs)),
-            Ok(_) => Err(wrong),
-            Err(mut own) => {
-                own.append(&mut wrong);
-                Err(own)
-            }
-        }
+        let sweep = source.read_with_others(FORMAT, |raw: &RawSweep, faults, wrong| {
+            read(raw, &source.name, &folder, faults, wrong)
+        })?;
+        Ok((sweep, inputs))
     }
 }
 
@@ -182,12 +174,12 @@ fn check_kind(values: &AxisValues, old: &AxisValue, at: &Place<'_>, faults: &mut
         AxisValues::List(list) => {
             for (index, value) in list.iter().enumerate().filter(|(_, value)| word(value) != wanted) {
                 let fault = Fault::new(&at.index(index), format!("must be {wanted}, as in the file"));
-                faults.add(fault.got(value.json()));
+                faults.add(fault.got(value.json().to_string()));
             }
         }
         _ if wanted != "a number" => {
             let fault = Fault::new(at, format!("must be a list: the value in the file is {wanted}"));
-            faults.add(fault.got(old.json()));
+            faults.add(fault.got(old.json().to_string()));
         }
         _ => {}
     }

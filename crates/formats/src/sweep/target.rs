@@ -61,7 +61,7 @@ impl SweepTarget {
             let mut from = 0;
             for (place, value) in own {
                 new.extend_from_slice(&old[from..place.start]);
-                new.extend_from_slice(value.json().as_bytes());
+                new.extend_from_slice(value.json().to_string().as_bytes());
                 from = place.end;
             }
             new.extend_from_slice(&old[from..]);

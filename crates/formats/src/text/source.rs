@@ -123,6 +123,24 @@ impl Source {
         self.tree().read(format, check)
     }
 
+    /// Converts and checks the text like [`Source::read`], together with other files that it names: the check adds what
+    /// is wrong in those to the list that it is given, after the faults of this text.
+    ///
+    /// # Errors
+    /// All faults of this text and of the other files.
+    pub fn read_with_others<T: DeserializeOwned, R>(
+        &self,
+        format: &str,
+        check: impl FnOnce(&T, &mut Faults, &mut Vec<Diagnostic>) -> Option<R>,
+    ) -> Result<R, Vec<Diagnostic>> {
+        let mut others = Vec::new();
+        match self.read(format, |raw: &T, faults| Some(check(raw, faults, &mut others))) {
+            Ok(Some(value)) if others.is_empty() => Ok(value),
+            Ok(_) => Err(others),
+            Err(own) => Err(own.into_iter().chain(others).collect()),
+        }
+    }
+
     /// Locates faults in the text and returns them in the order of the text.
     #[must_use]
     pub fn diagnose(&self, faults: &Faults) -> Vec<Diagnostic> {

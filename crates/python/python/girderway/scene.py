@@ -158,6 +158,9 @@ def run(
 ) -> Run:
     """Solves the structures of a scene and runs it. Numbers are those of `girderway run`, bit for bit.
 
+    Extremes of girders take many times as long as a run; they are computed when `extremes`, `summary`, `envelope`,
+    `messages` or `save` first asks for them.
+
     Parameters
     ----------
     scene:

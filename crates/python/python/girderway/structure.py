@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -151,11 +152,16 @@ class Structure:
         return Modes(self._native.modes(count))
 
     def write_tables(self, path: str | os.PathLike[str]) -> None:
-        """Writes the tables of the grid; the ending gives the format: .adm, .cmd, .csv, .json or .npz."""
+        """Writes the tables of the grid; the ending gives the format: .adm, .cmd, .csv, .json or .npz.
+
+        The folder is made where it does not exist.
+        """
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
         self._native.write_tables(os.fspath(path))
 
     def write_grid(self, path: str | os.PathLike[str]) -> None:
-        """Writes the grid file of `girderway fea`."""
+        """Writes the grid file of `girderway fea`. The folder is made where it does not exist."""
+        Path(path).parent.mkdir(parents=True, exist_ok=True)
         self._native.write_grid(os.fspath(path))
 
     def design(self, trains: Sequence[Mapping[str, Any]], **members: Any) -> Design:

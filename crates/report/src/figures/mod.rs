@@ -19,4 +19,4 @@ pub mod run;
 pub mod run_figure;
 pub(crate) mod run_name;
 pub(crate) mod structures;
-pub(crate) mod sweep;
+pub mod sweep;

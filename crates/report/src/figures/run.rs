@@ -102,7 +102,7 @@ pub fn figures(
         &labelled,
         &responses,
         &outcomes[0].lines,
-        &outcomes[0].girders,
+        outcomes[0].girders(),
     ));
     for (index, structure) in scene.structures.iter().enumerate() {
         let Some(solved) = solution_of(known, &structure.origin) else { continue };

@@ -1,12 +1,29 @@
-//! Figures of a sweep: the distribution of a result over the runs, and the result over its strongest axis.
+//! Figures of a sweep: the distribution of a result over the runs, the result over its strongest axis, and the mean of a
+//! damage with its confidence.
 
 use sweep::{ResultDistribution, ResultTable, Sensitivity, SweepInfo};
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
 use crate::figures::design::digits;
+use crate::figures::run_figure::RunFigure;
+
+/// Results with figures.
+const FIGURES: usize = 6;
+
+/// Fewest values of a lone axis of a grid that are joined by a line.
+const LINE: usize = 3;
+
+/// Numbers of runs at which a mean over the first runs is drawn.
+const MEANS: usize = 200;
+
+/// Fewest runs of which a mean is drawn.
+const FEWEST: usize = 5;
 
 /// Most classes of a histogram.
 const CLASSES: usize = 40;
+
+/// Distance from the ends of a histogram to a mark beyond the runs, as a fraction of their range.
+const MARGIN: f64 = 0.05;
 
 /// Most runs that are drawn as points.
 const POINTS: usize = 1500;
@@ -30,7 +47,7 @@ pub(crate) struct SweptResult<'t> {
     pub as_written: Option<f64>,
     /// Its dependence on each axis; may be empty.
     pub sensitivities: Vec<Sensitivity>,
-    /// Values by codes beside a measured value that do not vary: name and value.
+    /// Values by codes beside a measured value: name and value. Of those that vary it is that of the input as written.
     pub codes: Vec<(String, f64)>,
     /// Largest magnitude of all results of the same unit.
     size: f64,
@@ -57,8 +74,12 @@ impl<'t> SweptResult<'t> {
                 let beside = table.columns.iter().enumerate().filter(|(_, one)| parent(one) == Some(name));
                 let codes = beside.filter_map(|(index, one)| {
                     let found = ResultDistribution::new(&table.column(index))?;
-                    let is_constant = found.least.0 == found.most.0;
-                    is_constant.then(|| (one[name.len() + 1..].to_owned(), found.mean))
+                    let code = one[name.len() + 1..].to_owned();
+                    if found.least.0 == found.most.0 {
+                        return Some((code, found.mean));
+                    }
+                    let (.., written) = info.as_written.iter().find(|(known, ..)| known == one)?;
+                    Some((format!("{code}, as written"), *written))
                 });
                 Some(SweptResult {
                     name,
@@ -89,6 +110,22 @@ impl<'t> SweptResult<'t> {
         self.statistics.most.0 - self.statistics.least.0 > ROUNDING * self.size
     }
 
+    /// Whether it is a damage by fatigue, which adds up over runs.
+    fn is_damage(&self) -> bool {
+        self.name.ends_with("damage")
+    }
+
+    /// Its place among the results: what codes have values for comes first, then damages, those of the life before those
+    /// of a run.
+    fn order(&self) -> usize {
+        match self.codes.is_empty() {
+            false => 0,
+            true if self.name.ends_with("life damage") => 1,
+            true if self.is_damage() => 2,
+            true => 3,
+        }
+    }
+
     /// The axis on which the result depends most, by the rank correlation or the first-order index; its index.
     pub fn strongest(&self) -> Option<usize> {
         let strength = |one: &Sensitivity| {
@@ -101,8 +138,46 @@ impl<'t> SweptResult<'t> {
     }
 }
 
+/// The results of a sweep and their figures.
+pub struct SweepFigures<'t> {
+    pub(crate) results: Vec<SweptResult<'t>>,
+    /// The figures, in the order of the report.
+    pub figures: Vec<RunFigure>,
+}
+
+impl<'t> SweepFigures<'t> {
+    /// The figures of the first results that vary: those for which codes have values, damages, and the others.
+    #[must_use]
+    pub fn new(info: &SweepInfo, table: &'t ResultTable) -> SweepFigures<'t> {
+        let mut results = SweptResult::all(info, table);
+        results.sort_by_key(SweptResult::order);
+        let is_line = info.axes.len() == 1 && info.sampling == "grid" && table.rows.len() >= LINE;
+        let mut figures = Vec::new();
+        for (index, result) in results.iter().filter(|result| result.varies()).take(FIGURES).enumerate() {
+            let mut add = |kind: &str, (chart, caption): (Chart, String)| {
+                figures.push(RunFigure::chart(format!("{kind}-{}", index + 1), caption, chart));
+            };
+            if !is_line {
+                add("distribution", histogram(result));
+            }
+            let is_sample = info.sampling != "grid" && result.values.len() >= FEWEST;
+            if result.is_damage() && is_sample {
+                add("mean", mean_over_runs(result));
+            }
+            let axis = if is_line { Some(0) } else { result.strongest() };
+            if let Some(chart) = axis.and_then(|axis| over_axis(table, result, axis, is_line)) {
+                add("dependence", chart);
+            }
+        }
+        SweepFigures { results, figures }
+    }
+}
+
+/// Beginnings of the names of the figures of a sweep.
+pub const SWEEP_FIGURES: [&str; 3] = ["distribution-", "mean-", "dependence-"];
+
 /// The histogram of a result, with its median, its quantile of 95 %, the value as written, and values by codes.
-pub(crate) fn histogram(result: &SweptResult<'_>) -> (Chart, String) {
+fn histogram(result: &SweptResult<'_>) -> (Chart, String) {
     let found = &result.statistics;
     let (low, high) = (found.least.0, found.most.0);
     let classes = ((result.values.len() as f64).sqrt() as usize).clamp(5, CLASSES);
@@ -112,9 +187,15 @@ pub(crate) fn histogram(result: &SweptResult<'_>) -> (Chart, String) {
         counts[(((value - low) / width) as usize).min(classes - 1)] += 1;
     }
     let share = |count: usize| 100.0 * count as f64 / result.values.len() as f64;
-    let mut points = vec![[low, 0.0]];
+    // values by codes near the runs are shown as well
+    let near = |value: &f64| (2.0 * low - high..=2.0 * high - low).contains(value);
+    let marked = || result.codes.iter().map(|(_, value)| *value).chain(result.as_written).filter(near);
+    let margin = MARGIN * (high - low);
+    let begin = marked().map(|value| value - margin).fold(low, f64::min);
+    let end = marked().map(|value| value + margin).fold(high, f64::max);
+    let mut points = vec![[begin, 0.0], [low, 0.0]];
     points.extend(counts.iter().enumerate().map(|(k, count)| [low + width * k as f64, share(*count)]));
-    points.push([high, 0.0]);
+    points.extend([[high, 0.0], [end, 0.0]]);
     let axes = [ChartAxis::new(result.name, &result.unit), ChartAxis::new("runs in the class", "%")];
     let [x, y] = axes;
     let mut chart = Chart::new(format!("Distribution of {}", result.name), x, y)
@@ -142,7 +223,7 @@ pub(crate) fn histogram(result: &SweptResult<'_>) -> (Chart, String) {
 }
 
 /// A result over the values of an axis; `None` where these are not numbers.
-pub(crate) fn over_axis(
+fn over_axis(
     table: &ResultTable,
     result: &SweptResult<'_>,
     axis: usize,
@@ -169,4 +250,30 @@ pub(crate) fn over_axis(
         "Every run; the axis in the units of its file.".to_owned()
     };
     Some((chart, caption))
+}
+
+/// The mean of a damage over the first runs, with the interval that contains the mean of all possible runs with a
+/// confidence of 95 %: the mean is the damage of a life whose crossings scatter like the runs.
+fn mean_over_runs(result: &SweptResult<'_>) -> (Chart, String) {
+    let count = result.values.len();
+    let step = count.div_ceil(MEANS);
+    let numbers = (FEWEST..=count).filter(|n| (count - n).is_multiple_of(step));
+    let found: Vec<ResultDistribution> =
+        numbers.filter_map(|n| ResultDistribution::new(&result.values[..n])).collect();
+    let at = |one: &ResultDistribution, value: f64| [one.count as f64, value];
+    let curve = |of: fn(&ResultDistribution) -> f64| found.iter().map(|one| at(one, of(one))).collect();
+    let [x, y] = [ChartAxis::new("runs", ""), ChartAxis::new(result.name, &result.unit)];
+    let chart = Chart::new(format!("Mean of {} with its confidence", result.name), x, y)
+        .with(Series::new("mean of the first runs", Style::Line, curve(|one| one.mean)))
+        .with(Series::new("95 % confidence, upper end", Style::Limit, curve(|one| one.mean_interval.high)))
+        .with(Series::new("lower end", Style::Limit, curve(|one| one.mean_interval.low)));
+    let all = &result.statistics;
+    let caption = format!(
+        "Damages add up, so that the mean {} of {count} runs is the damage where crossings scatter like the runs; \
+         the mean of all possible runs is between {} and {} with a confidence of 95 %, as if the runs were independent.",
+        digits(all.mean, DIGITS),
+        digits(all.mean_interval.low, DIGITS),
+        digits(all.mean_interval.high, DIGITS),
+    );
+    (chart, caption)
 }

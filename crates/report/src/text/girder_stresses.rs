@@ -18,7 +18,7 @@ const DIGITS: usize = 4;
 pub(super) fn verdict_line(document: &Document, outcomes: &[CaseResult]) -> Option<String> {
     let scene = document.scene();
     let lateral = scene.lateral_section?;
-    let Some(found) = outcomes[0].girders.stresses.governing() else {
+    let Some(found) = outcomes[0].girders().stresses.governing() else {
         return Some(format!(
             "No direct stress of a girder is known ({}); the section on warnings and notes says why where it can.",
             lateral.phrase()
@@ -39,7 +39,7 @@ pub(super) fn verdict_line(document: &Document, outcomes: &[CaseResult]) -> Opti
     );
     for (case, outcome) in document.cases.iter().zip(outcomes).skip(1) {
         let own = case.scene.lateral_section.filter(|own| *own != lateral);
-        if let Some((own, found)) = own.zip(outcome.girders.stresses.governing()) {
+        if let Some((own, found)) = own.zip(outcome.girders().stresses.governing()) {
             out.push_str(&format!(
                 "; in the run \"{}\" {}, {}",
                 run_name(&outcome.label),
@@ -85,7 +85,7 @@ pub(super) fn table(document: &Document, outcomes: &[CaseResult]) -> Option<(Rep
     };
     let mut models: Vec<LateralSection> = Vec::new();
     for (case, outcome) in document.cases.iter().zip(outcomes) {
-        for found in &outcome.girders.stresses.rows {
+        for found in &outcome.girders().stresses.rows {
             table.rows.push(row(&case.scene, run_name(&outcome.label), found, factor));
             models.extend(case.scene.lateral_section.filter(|own| !models.contains(own)));
         }

@@ -34,7 +34,7 @@ pub(super) const GOVERNING: [(GirderResponse, bool, &str); 9] = [
 /// The governing values of every run, and all extremes of the first; `None` where no structure has girders.
 #[must_use]
 pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSection> {
-    if outcomes.iter().all(|outcome| outcome.girders.extremes.is_empty()) {
+    if outcomes.iter().all(|outcome| outcome.girders().extremes.is_empty()) {
         return None;
     }
     let scene = document.scene();
@@ -49,10 +49,10 @@ pub fn section(document: &Document, outcomes: &[CaseResult]) -> Option<ReportSec
     ));
     section = section.table(governing(document, outcomes));
     let first = &outcomes[0];
-    if !first.girders.extremes.is_empty() {
+    if !first.girders().extremes.is_empty() {
         section = section.table(spans(scene, first));
     }
-    if !first.girders.reactions.is_empty() {
+    if !first.girders().reactions.is_empty() {
         section = section.table(reactions(scene, first));
     }
     if let Some((table, method)) = girder_stresses::table(document, outcomes) {
@@ -96,14 +96,14 @@ pub(super) fn largest(
     is_max: bool,
 ) -> Option<&GirderExtreme> {
     let sign = if is_max { 1.0 } else { -1.0 };
-    let own = outcome.girders.extremes.iter();
+    let own = outcome.girders().extremes.iter();
     let own = own.filter(|e| e.quantity == quantity && e.is_max == is_max && sign * e.value > 0.0);
     own.reduce(|best, next| if sign * next.value > sign * best.value { next } else { best })
 }
 
 /// All extremes of one run.
 fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
-    let all = &outcome.girders.extremes;
+    let all = &outcome.girders().extremes;
     let shown = if all.len() > ROWS { ", the first of them; summary.json has all" } else { "" };
     let mut table = ReportTable {
         caption: format!("Extremes of every span in the run \"{}\"{shown}", run_name(&outcome.label)),
@@ -133,7 +133,7 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
 
 /// Largest and smallest reactions of one run.
 fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
-    let all = &outcome.girders.reactions;
+    let all = &outcome.girders().reactions;
     let (unit, by_force) = reading_unit(scene.units, Dimension::FORCE);
     let (moment_unit, by_moment) = reading_unit(scene.units, Dimension::MOMENT);
     let columns = vec![

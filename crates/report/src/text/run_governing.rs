@@ -126,10 +126,10 @@ fn girder_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<
 
 /// The direct stress that governs, where the scene asks for stresses.
 fn stress_row(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Option<GoverningRow> {
-    let found = first.girders.stresses.governing()?;
+    let found = first.girders().stresses.governing()?;
     let (unit, factor) = stress_unit(scene.units);
     let more = found.utilisation().map_or_else(String::new, |used| format!(" = {:.0} % of fy", 100.0 * used));
-    let same = others.iter().filter_map(|other| other.girders.stresses.governing());
+    let same = others.iter().filter_map(|other| other.girders().stresses.governing());
     Some(GoverningRow {
         more,
         span: TableCell::from(found.span),
@@ -242,7 +242,7 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
 /// structures whose girders have no extremes.
 fn ground_forces(scene: &Scene, outcome: &CaseResult, direction: Option<Direction>) -> Vec<NamedReaction> {
     let mut out = Vec::new();
-    let known = &outcome.girders.reactions;
+    let known = &outcome.girders().reactions;
     for own in known.iter().filter(|own| scene.structures[own.structure].carrier.is_none()) {
         if own.relative == direction && own.direction < Dof::Rx {
             out.push((own.value, own.time, format!("{} {}", own.support, own.direction)));

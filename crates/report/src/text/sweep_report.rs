@@ -3,14 +3,12 @@
 use sweep::{ResultTable, Sensitivity, SweepInfo};
 
 use crate::figures::design::digits;
-use crate::figures::sweep::{SweptResult, histogram, over_axis};
+use crate::figures::run_figure::RunFigure;
+use crate::figures::sweep::{SweepFigures, SweptResult};
 use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
 
 /// Digits of values.
 const DIGITS: usize = 4;
-
-/// Results with figures.
-const FIGURES: usize = 6;
 
 /// Rows of a table; more are in the files.
 const ROWS: usize = 60;
@@ -18,15 +16,12 @@ const ROWS: usize = 60;
 /// Failures that are listed.
 const FAILURES: usize = 10;
 
-/// Fewest values of a lone axis of a grid that are joined by a line.
-const LINE: usize = 3;
-
-/// The report of a sweep from its description and its table.
+/// The report of a sweep from its description, its table and its figures.
 #[must_use]
-pub fn sweep_report(info: &SweepInfo, table: &ResultTable) -> Report {
-    let results = SweptResult::all(info, table);
+pub fn sweep_report(info: &SweepInfo, table: &ResultTable, figures: SweepFigures<'_>) -> Report {
+    let SweepFigures { results, figures } = figures;
     let mut sections = vec![overview(info, table)];
-    sections.push(distributions(info, table, &results));
+    sections.push(distributions(&results, figures));
     sections.push(governing(info, &results));
     sections.extend(dependence(table, &results));
     sections.extend(failures(table));
@@ -69,23 +64,12 @@ fn overview(info: &SweepInfo, table: &ResultTable) -> ReportSection {
 }
 
 /// Distributions of all results, and pictures of the first that vary.
-fn distributions(info: &SweepInfo, table: &ResultTable, results: &[SweptResult<'_>]) -> ReportSection {
+fn distributions(results: &[SweptResult<'_>], figures: Vec<RunFigure>) -> ReportSection {
     let mut section = ReportSection::new("Distributions");
-    let varying = results.iter().filter(|result| result.varies());
-    // what codes have values for comes first
-    let (mut first, rest): (Vec<_>, Vec<_>) = varying.partition(|result| !result.codes.is_empty());
-    first.extend(rest);
-    let is_line = info.axes.len() == 1 && info.sampling == "grid" && table.rows.len() >= LINE;
-    for result in first.iter().take(FIGURES) {
-        if !is_line {
-            let (chart, caption) = histogram(result);
-            section = section.figure(chart, caption);
-        }
-        let axis = if is_line { Some(0) } else { result.strongest() };
-        if let Some((chart, caption)) = axis.and_then(|axis| over_axis(table, result, axis, is_line)) {
-            section = section.figure(chart, caption);
-        }
+    for RunFigure { picture, caption, .. } in figures {
+        section = section.figure(picture, caption);
     }
+    let varying: Vec<_> = results.iter().filter(|result| result.varies()).collect();
     let constant = results.iter().filter(|result| !result.varies()).count();
     let columns = [
         "result",
@@ -110,9 +94,9 @@ fn distributions(info: &SweepInfo, table: &ResultTable, results: &[SweptResult<'
     };
     let unchanged = if constant > 0 { format!("; {constant} results do not vary") } else { String::new() };
     section.table(ReportTable {
-        caption: format!("Distributions of the results over the runs{}{unchanged}", more(first.len())),
+        caption: format!("Distributions of the results over the runs{}{unchanged}", more(varying.len())),
         columns: columns.map(|name| TableColumn::new(name, "")).to_vec(),
-        rows: first.iter().take(ROWS).map(row).collect(),
+        rows: varying.iter().take(ROWS).map(row).collect(),
     })
 }
 

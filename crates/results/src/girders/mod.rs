@@ -23,8 +23,9 @@
 //! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
 //!
 //! Files, lowest first: solved, peaks, kept_rows, instants, fibres, sections, points, distributed, girder, scan, refine, deflections, spans,
-//! stresses, reactions, structure, rows, this one.
+//! stresses, reactions, structure, rows, this one, and `deferred`, which computes all of it when it is asked for.
 
+mod deferred;
 mod deflections;
 mod distributed;
 mod fibres;
@@ -43,8 +44,8 @@ mod spans;
 mod stresses;
 mod structure;
 
+pub(crate) use deferred::{DeferredGirders, GirderInputs};
 pub use reactions::GirderReaction;
-pub(crate) use rows::{Prepared, of_run};
 pub(crate) use solved::SolvedMembers;
 pub use stresses::{GirderStress, GirderStresses};
 

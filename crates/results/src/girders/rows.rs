@@ -22,7 +22,7 @@ const REPETITIONS: usize = 2;
 const WORTHWHILE: f64 = 0.7;
 
 /// The girders of a scene, prepared for any number of runs on the same foundations.
-pub(crate) struct Prepared<'a> {
+pub(super) struct Prepared<'a> {
     girders: Vec<PreparedGirders<'a>>,
     notes: Vec<String>,
 }
@@ -33,7 +33,7 @@ impl<'a> Prepared<'a> {
         scene: &'a Scene,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
-        members: &'a SolvedMembers<'_>,
+        members: &'a SolvedMembers,
     ) -> Prepared<'a> {
         let (mut girders, mut notes) = (Vec::new(), Vec::new());
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
@@ -45,14 +45,28 @@ impl<'a> Prepared<'a> {
         }
         Prepared { girders, notes }
     }
+
+    /// What there is of a run without an interval.
+    pub fn without_rows(&self) -> GirderExtremes {
+        GirderExtremes { notes: self.notes.clone(), ..GirderExtremes::default() }
+    }
+}
+
+/// The samples of a run from which extremes are found.
+#[derive(Clone, Copy)]
+pub(super) enum Recorded<'a> {
+    /// The rows of its history.
+    Rows(&'a History),
+    /// The same, and the ends of its steps.
+    Steps(&'a History),
 }
 
 /// Repeats a run with a number of rows in each output interval; `None` if it cannot be repeated.
-pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
+pub(super) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 
 /// The extremes and envelopes of all girders of a scene.
 ///
-/// Where the ends of `steps` were recorded, the extremes are those at the ends of steps and between them: those
+/// Where the ends of steps were recorded, the extremes are those at the ends of steps and between them: those
 /// between which loads and motions are straight lines to 1e-5 of the largest. By how much they change from those of a tolerance
 /// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run.
 ///
@@ -61,29 +75,30 @@ pub(crate) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 /// `accuracy` times the largest value of its kind, the run is repeated with as many rows as this rate suggests, at most
 /// twice. The change after a repetition is the smaller one of that from every second row and that from the history
 /// before; a note says by how much the extremes still change.
-pub(crate) fn of_run(
+pub(super) fn of_run(
     prepared: &Prepared<'_>,
     (scene, input): (&Scene, &SimulationInput),
-    [history, steps]: [&History; 2],
+    recorded: Recorded<'_>,
     foundations: &[Foundation],
     repeat: &mut Repetition<'_>,
 ) -> GirderExtremes {
-    let Prepared { girders, notes } = prepared;
-    let mut out = GirderExtremes { notes: notes.clone(), ..GirderExtremes::default() };
+    let girders = &prepared.girders;
+    let mut out = prepared.without_rows();
+    let (Recorded::Rows(history) | Recorded::Steps(history)) = recorded;
     let is_known = |girders: &&PreparedGirders<'_>| {
         let s = girders.structure();
         foundations[s].dofs() == 0 || history.position(Channel::Coordinate(s, 0)).is_some()
     };
     let girders: Vec<&PreparedGirders<'_>> = girders.iter().filter(is_known).collect();
-    if girders.is_empty() || history.len() < 2 {
+    if girders.is_empty() {
         return out;
     }
     let all = Evaluation { scene, input, foundations, girders: &girders };
-    let (found, finer) = match steps.is_empty() {
-        true => all.by_repetition(history, repeat),
-        false => (all.attempt(steps, RowChoice::Needed), None),
+    let (found, finer) = match recorded {
+        Recorded::Rows(rows) => all.by_repetition(rows, repeat),
+        Recorded::Steps(steps) => (all.attempt(steps, RowChoice::Needed), None),
     };
-    let history = if steps.is_empty() { finer.as_ref().unwrap_or(history) } else { steps };
+    let history = finer.as_ref().unwrap_or(history);
     let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
         let rows = Rows { history, loads: &loads, foundations };

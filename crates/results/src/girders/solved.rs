@@ -6,15 +6,20 @@ use foundations::{SolvedModel, SolvedStructure};
 use trains::MemberForces;
 
 /// The members under the rails of the solved specs of a document.
-pub(crate) struct SolvedMembers<'a> {
-    known: &'a [SolvedStructure],
+pub(crate) struct SolvedMembers {
+    known: Vec<SolvedStructure>,
     members: Vec<OnceLock<Result<MemberForces, trains::Error>>>,
 }
 
-impl<'a> SolvedMembers<'a> {
-    /// None of `known` is solved yet.
-    pub fn new(known: &'a [SolvedStructure]) -> SolvedMembers<'a> {
-        SolvedMembers { known, members: known.iter().map(|_| OnceLock::new()).collect() }
+impl SolvedMembers {
+    /// The members of none of `known` are solved yet.
+    pub fn new(known: &[SolvedStructure]) -> SolvedMembers {
+        SolvedMembers { known: known.to_vec(), members: known.iter().map(|_| OnceLock::new()).collect() }
+    }
+
+    /// The solved specs.
+    pub fn known(&self) -> &[SolvedStructure] {
+        &self.known
     }
 
     /// The members of a solution that is one of those known; `None` for another one.

@@ -94,7 +94,7 @@ impl<'a> PreparedGirders<'a> {
         s: usize,
         built: &BuiltFoundation,
         solved: &SolvedModel,
-        all: &'a SolvedMembers<'_>,
+        all: &'a SolvedMembers,
     ) -> Result<Option<PreparedGirders<'a>>, Error> {
         let failed =
             |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };

@@ -76,8 +76,9 @@ pub fn run(scene: &Scene, outcome: &CaseResult, number: usize) -> Value {
     }
     if let Some(members) = result.as_object_mut() {
         members.extend(outcome.response.json());
-        members.extend(outcome.girders.json(scene, number).map(|extremes| ("extremes".to_owned(), extremes)));
-        let stresses = outcome.girders.stresses.json(scene, number);
+        members
+            .extend(outcome.girders().json(scene, number).map(|extremes| ("extremes".to_owned(), extremes)));
+        let stresses = outcome.girders().stresses.json(scene, number);
         members.extend(stresses.map(|stresses| ("stresses".to_owned(), stresses)));
         members.extend(fatigue::json(&outcome.fatigue).map(|fatigue| ("fatigue".to_owned(), fatigue)));
         members.extend(outcome.codes.as_ref().map(|codes| ("practice".to_owned(), codes.json())));

@@ -13,7 +13,9 @@ use crate::case_result::CaseResult;
 pub fn accuracy_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let CaseResult { run, input, .. } = outcome;
     let own = many_bounces(scene, run).into_iter().chain(after_strike(scene, input, run));
-    own.chain(outcome.girders.notes.iter().cloned()).chain(outcome.girders.stresses.notes(scene)).collect()
+    own.chain(outcome.girders().notes.iter().cloned())
+        .chain(outcome.girders().stresses.notes(scene))
+        .collect()
 }
 
 /// A run of more bounces than those up to which errors keep the accuracy. Their sum grows with the number of bounces.

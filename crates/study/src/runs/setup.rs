@@ -16,7 +16,7 @@ use formats::grid::GridRail;
 use formats::scene::Scene;
 use formats::scene::motion::{SimulationInput, simulation_input};
 use formats::scene::quantity::quantities;
-use foundations::{BuiltFoundation, ModeCache, SolvedModel};
+use foundations::{BuiltFoundation, ComputedModes, ModeCache, SolvedModel};
 use foundations::{SolvedStructure, solution_of};
 use results::cases::records_dofs;
 use results::columns::NamedColumns;
@@ -150,6 +150,7 @@ fn table(solved: &SolvedModel, count: usize) -> Result<SolvedModel, Error> {
         grid,
         girder: solved.girder.clone(),
         size: None,
+        modes: ComputedModes::default(),
     })
 }
 
