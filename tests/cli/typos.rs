@@ -23,7 +23,7 @@ const SHARE: f64 = 0.95;
 /// files.
 const SHARE_OF_FORMAT: f64 = 0.94;
 /// The same without names of the user's own: those below the keys [`OWN_NAMES`].
-const SHARE_WITHOUT_NAMES: f64 = 0.97;
+const SHARE_WITHOUT_NAMES: f64 = 0.96;
 /// Keys of inputs whose members the user names. Another name there is a mistake because another place of the file has
 /// the first one, which no schema can express.
 const OWN_NAMES: [&str; 6] = ["structures", "bodies", "wheels", "spans", "factors", "axes"];
