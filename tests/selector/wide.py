@@ -338,36 +338,55 @@ class Folder:
         return cpu, (rows[0], columns), json.loads((self.path / name / "summary.json").read_text())
 
 
+# Structures of the references and their accuracies, relative to the tolerance.
+REFERENCES = {
+    "usual": [({"foundation": "full", "elements": 24}, 1e-3), ({"foundation": "modal", "modes": 64}, 3e-3)],
+    "finer steps": [({"foundation": "modal", "modes": 64}, 1e-4), ({"foundation": "modal", "modes": 96}, 3e-5)],
+    "finer meshes": [({"foundation": "full", "elements": 64}, 1e-3), ({"foundation": "modal", "modes": 192}, 3e-4)],
+}
+
+
+class References:
+    """Runs of one scene on other foundations, by kind; those that are refused are left out."""
+
+    def __init__(self, folder, tolerance):
+        self.folder, self.tolerance, self.known = folder, tolerance, {}
+
+    def add(self, kind):
+        """Makes the references of a kind; returns their CPU seconds."""
+        runs = [self.folder.run("reference", accuracy * self.tolerance, **structure)
+                for structure, accuracy in REFERENCES[kind]]
+        structures = [structure for structure, _ in REFERENCES[kind]]
+        self.known[kind] = [(own, run[1]) for own, run in zip(structures, runs) if run[1]]
+        return sum(run[0] for run in runs)
+
+    def nearest(self, measure, bounces):
+        """The two references of different discretizations that are nearest to each other, after their difference."""
+        known = [reference for kind in self.known.values() for reference in kind]
+        pairs = [(judged(a, b, measure, bounces)[0], i, j) for i, (own, a) in enumerate(known)
+                 for j, (other, b) in enumerate(known[:i]) if other != own]
+        apart, i, j = min(pairs, default=(math.inf, 0, 0))
+        return apart, [known[i][1], known[j][1]] if pairs else []
+
+
 def examined(program, seed, index):
     """Both runs of one scene with "auto", as dictionaries."""
     spec, scene, tolerance = drawn(seed, index)
     bounces = remembered(scene)
     with tempfile.TemporaryDirectory() as path:
         folder = Folder(program, Path(path), spec, scene)
-        runs = [folder.run("mesh", 1e-3 * tolerance, foundation="full", elements=24),
-                folder.run("modes", 3e-3 * tolerance, foundation="modal", modes=64)]
-        meshes = ["24 elements", "64 modes", "64 modes", "96 modes", "64 elements", "192 modes"]
-        references, cost = [run[1] for run in runs], sum(run[0] for run in runs)
-
-        def nearest(measure):
-            """The two references of different discretizations that are nearest to each other, after their difference."""
-            known = [(mesh, reference) for mesh, reference in zip(meshes, references) if reference]
-            pairs = [(judged(a, b, measure, bounces)[0], i, j)
-                     for i, (mesh, a) in enumerate(known) for j, (other, b) in enumerate(known[:i]) if other != mesh]
-            apart, i, j = min(pairs, default=(math.inf, 0, 0))
-            return apart, [known[i][1], known[j][1]] if pairs else []
-
+        references = References(folder, tolerance)
+        cost = references.add("usual")
         for measure in ("extremes", "history"):
             out = {"scene": index, "measure": measure, "tolerance": tolerance}
             cpu, found, summary = folder.run("auto", foundation="auto", tolerance=tolerance, measure=measure)
             if found is None:
                 yield out | {"state": "refused", "why": summary}
                 continue
-            apart, pair = nearest(measure)
-            if apart > tolerance / 2 and len(references) == 2 and cost < LONG:
-                references += [folder.run("finer", 1e-4 * tolerance, foundation="modal", modes=64)[1],
-                               folder.run("finest", 3e-5 * tolerance, foundation="modal", modes=96)[1]]
-                apart, pair = nearest(measure)
+            apart, pair = references.nearest(measure, bounces)
+            if apart > tolerance / 2 and list(references.known) == ["usual"] and cost < LONG:
+                references.add("finer steps")
+                apart, pair = references.nearest(measure, bounces)
             if not pair:
                 yield out | {"state": "no reference"}
                 continue
@@ -380,14 +399,12 @@ def examined(program, seed, index):
             error = min(judged(found, reference, measure, bounces) for reference in pair)
             warned = any("estimated error" in warning or "not known" in warning for warning in summary.get("warnings", []))
             if error[0] > tolerance and not warned and cost < LONG:
-                while len(references) < 4:
-                    references.append(None)
-                if len(references) == 4:
-                    references += [folder.run("fine", 1e-3 * tolerance, foundation="full", elements=64)[1],
-                                   folder.run("many", 3e-4 * tolerance, foundation="modal", modes=192)[1]]
-                if all(references[4:]):
-                    apart, pair = judged(references[4], references[5], measure, bounces)[0], references[4:]
-                    error = min(judged(found, reference, measure, bounces) for reference in pair)
+                if "finer meshes" not in references.known:
+                    references.add("finer meshes")
+                finest = [history for _, history in references.known["finer meshes"]]
+                if len(finest) == 2:
+                    apart = judged(*finest, measure, bounces)[0]
+                    error = min(judged(found, reference, measure, bounces) for reference in finest)
             state = "within" if error[0] <= tolerance else "warned" if warned else "silent"
             yield out | {"state": state if apart <= tolerance / 2 else f"{state}, reference not converged",
                          "chosen": chosen, "estimate": choice["estimate"], "error": error, "references": apart,

@@ -50,6 +50,8 @@ pub(crate) struct Traits {
     pub is_vertical: bool,
     /// Whether every vertical law is linear.
     pub has_linear_laws: bool,
+    /// Whether a damper acts between at least one wheel and its rail, so that its penetration is a state.
+    pub has_memory: bool,
     /// Whether the law of at least one element depends on the heights of wheels.
     pub uses_heights: bool,
     /// Whether positions or rows change with the motion within a stage, so that its matrices depend on its solution.
@@ -281,6 +283,7 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
         has_parts: mechanics.foundations.iter().any(|foundation| foundation.parts.is_some()),
         is_vertical,
         has_linear_laws,
+        has_memory: laws().any(NormalLaw::has_memory),
         uses_heights,
         follows_motion,
         is_symmetric,

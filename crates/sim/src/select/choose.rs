@@ -366,21 +366,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let may_be_chosen =
                 |own: &Open, count: usize| is_within(own, count, factor) || is_last(own, count);
             if open.iter().zip(&counts).all(|(own, count)| may_be_chosen(own, *count)) {
-                // the errors of the steps of a run that only checks exceed what is to be found
-                if higher.accuracy > self.accuracy {
-                    higher = self.trial(&higher.fidelities, self.accuracy, true)?;
-                }
-                start = self.start_error(&open, &counts, &higher, strictest.measure, bounces);
-                let found = start.as_ref().map_or(0.0, |start| start.error);
-                if found > strictest.value {
-                    let same = vec![0; open.len()];
-                    let by_steps = self.start_error(&open, &same, &higher, strictest.measure, bounces);
-                    if by_steps.is_some_and(|by_steps| by_steps.error > BY_STEPS * found) {
-                        self.accuracy *= START_ACCURACY.0;
-                        higher = self.trial(&higher.fidelities, self.accuracy, true)?;
-                        start = start.map(|own| TailError { error: START_ACCURACY.1 * own.error, ..own });
-                    }
-                }
+                (higher, start) = self.check_start(&open, &counts, higher, strictest, bounces)?;
                 let found = start.as_ref().map_or(0.0, |start| start.error);
                 if found > strictest.value {
                     factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
@@ -402,6 +388,36 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
         Ok(lower)
+    }
+
+    /// Step 4 of the head of this module: the run `higher` with `counts` modes, repeated where its steps are too coarse, and
+    /// the error at its start.
+    fn check_start(
+        &mut self,
+        open: &[Open],
+        counts: &[usize],
+        mut higher: Trial,
+        Tolerance { value, measure }: Tolerance,
+        bounces: Bounces,
+    ) -> Result<(Trial, Option<TailError>), L::Error> {
+        // the errors of the steps of a run that only checks exceed what is to be found
+        if higher.accuracy > self.accuracy {
+            higher = self.trial(&higher.fidelities, self.accuracy, true)?;
+        }
+        let Some(start) = self.start_error(open, counts, &higher, measure, bounces) else {
+            return Ok((higher, None));
+        };
+        if start.error > value {
+            let same = vec![0; open.len()];
+            let by_steps = self.start_error(open, &same, &higher, measure, bounces);
+            if by_steps.is_some_and(|by_steps| by_steps.error > BY_STEPS * start.error) {
+                self.accuracy *= START_ACCURACY.0;
+                let finer = self.trial(&higher.fidelities, self.accuracy, true)?;
+                let error = START_ACCURACY.1 * start.error;
+                return Ok((finer, Some(TailError { error, ..start })));
+            }
+        }
+        Ok((higher, Some(start)))
     }
 
     /// Error at the start of the run `higher` with `counts` modes: the change of its quantities where its start is replaced

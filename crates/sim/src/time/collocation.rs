@@ -82,7 +82,7 @@ struct Responses {
 const STORED: usize = 12;
 
 /// Number of nodes up to which the polynomials through displacement, speed and acceleration at both ends of a step are of
-/// a higher order than those of the collocation.
+/// a higher order than the motion by the polynomials of the accelerations at the nodes.
 const FEW: usize = 3;
 
 /// Error of a penetration rate at the end of a step, per unit of the difference from its extrapolation.
@@ -443,25 +443,17 @@ impl Collocation {
 
     /// Sets the modes of `at` to their values at the fraction `share` of the step just taken from `from`. They are
     /// exact for the load polynomials of the step, because no interpolating polynomial can follow a mode with many
-    /// periods in a step. With more than [`FEW`] nodes the bodies follow the collocation polynomials as well, which are
-    /// then of a higher order than the polynomials through both ends of the step.
+    /// periods in a step. With more than [`FEW`] nodes the bodies move by these polynomials as well.
     pub fn interpolate(&self, from: &State, share: f64, at: &mut State) {
+        if self.count() > FEW {
+            self.interpolate_bodies(from, share, at);
+        }
         let h = self.responses[0].h;
-        let follows = |mode: &[f64; 2]| mode[0] > 0.0 || self.count() > FEW;
-        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| follows(mode)) {
-            let (q0, v0) = (from.q[r], from.v[r]);
-            if omega == 0.0 {
-                let mut sum = [q0 + share * h * v0, v0, 0.0];
-                for (b, load) in self.loads.whole.iter().enumerate() {
-                    let by = self.nodes.motion(b, share, h);
-                    sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += load[r] * by);
-                }
-                [at.q[r], at.v[r], at.a[r]] = sum;
-                continue;
-            }
+        for (r, &[omega, zeta]) in self.modes.iter().enumerate().filter(|(_, mode)| mode[0] > 0.0) {
             let mode = Propagator::new(omega, zeta, h);
             let [qq, qv, vq, vv] = mode.free(share);
             let powers = mode.forced(share);
+            let (q0, v0) = (from.q[r], from.v[r]);
             let [mut q, mut v, mut now] = [qq * q0 + qv * v0, vq * q0 + vv * v0, 0.0];
             for (b, load) in self.loads.whole.iter().enumerate() {
                 q += load[r] * self.nodes.load(b, &powers, 0);
@@ -470,6 +462,23 @@ impl Collocation {
             }
             (at.q[r], at.v[r]) = (q, v);
             at.a[r] = now - omega * (2.0 * zeta * v + omega * q);
+        }
+    }
+
+    /// Sets the degrees of freedom of bodies in `at` to the motion by the polynomials of their accelerations.
+    fn interpolate_bodies(&self, from: &State, share: f64, at: &mut State) {
+        let h = self.responses[0].h;
+        let bodies = || (0..self.modes.len()).filter(|&r| self.modes[r][0] == 0.0);
+        for r in bodies() {
+            [at.q[r], at.v[r], at.a[r]] = [from.q[r] + share * h * from.v[r], from.v[r], 0.0];
+        }
+        for (b, load) in self.loads.whole.iter().enumerate() {
+            let [by_q, by_v, by_a] = self.nodes.motion(b, share, h);
+            for r in bodies() {
+                at.q[r] += load[r] * by_q;
+                at.v[r] += load[r] * by_v;
+                at.a[r] += load[r] * by_a;
+            }
         }
     }
 

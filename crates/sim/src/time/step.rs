@@ -72,8 +72,7 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Creates steps from `start` by `method`, which must suit the scene.
     pub fn new(solver: &'b mut Solver<'a>, start: State, method: Method) -> Self {
         let system = solver.system();
-        let has_memory = (0..system.verticals()).any(|i| system.fixed[i].has_memory);
-        let integrator = match Nodes::new(method, has_memory) {
+        let integrator = match Nodes::new(method, system.traits.has_memory) {
             Some(nodes) => Integrator::Collocation(Box::new(Collocation::new(system, nodes, &start))),
             None => Integrator::Sdirk(Box::new(Sdirk::new(system, &start))),
         };

@@ -38,7 +38,6 @@ impl Method {
                 Dynamics::Matrices { .. } => false,
                 Dynamics::Modes { ratio, .. } => ratio.iter().all(|ratio| *ratio < 1.0),
             });
-        let remembers = (0..system.verticals()).any(|i| system.law(i).has_memory());
         let trouble = [
             (system.mechanics.moves_freely, "places along the rail that are prescribed"),
             (!system.traits.is_vertical, "vertical contacts alone"),
@@ -48,7 +47,10 @@ impl Method {
             (!system.mechanics.carried.is_empty(), "bodies that ride on the ground's rails"),
             (!system.mechanics.couplings.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),
-            (self != Method::Radau && remembers, "contacts without a damper between wheel and rail"),
+            (
+                self != Method::Radau && system.traits.has_memory,
+                "contacts without a damper between wheel and rail",
+            ),
         ];
         let found = trouble.into_iter().find(|(found, _)| *found).map(|(_, wanted)| wanted);
         match found.or_else(|| missing(system).filter(|_| self == Method::Series)) {
