@@ -141,15 +141,24 @@ impl FactoredFrame {
         at.iter().map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions))).collect()
     }
 
+    /// The forces of a uniform acceleration as a load on the scaled unknowns, without what acts on degrees of freedom that
+    /// nothing stiffens.
+    pub(crate) fn load_of_weight(&self, weight: &Weight) -> SparseLoad {
+        self.load_of(&weight.forces)
+    }
+
     /// Motions of the references of all bodies under forces M a.
     fn motions_under(&self, forces: &InertiaForces) -> Vec<Vector6> {
+        self.motions(&self.load_of(forces))
+    }
+
+    fn load_of(&self, forces: &InertiaForces) -> SparseLoad {
         let on_body = |(body, force): (usize, &Vector6)| {
             let mut load = Combination::default();
             (0..6).for_each(|k| load.add(6 * body + k, force[k]));
             self.scaled_where_stiffened(&load)
         };
-        let load: SparseLoad = forces.on_bodies.iter().enumerate().flat_map(on_body).collect();
-        self.motions(&load)
+        forces.on_bodies.iter().enumerate().flat_map(on_body).collect()
     }
 
     /// The forces M a for each of `all`; `motion` gives the acceleration of the reference of a body.

@@ -3,7 +3,7 @@
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
 //! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder_section`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
-//! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), places of
+//! (`frame`), of the `preload`, and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), places of
 //! solver errors (`locate`), values that are probably wrong (`plausibility`) and rails on ties ([`ties`]).
 
 mod block;
@@ -20,6 +20,7 @@ mod members;
 mod notes;
 mod outline;
 mod plausibility;
+mod preload;
 mod rails;
 mod raw;
 mod read;
@@ -44,6 +45,7 @@ pub use outline::{
     DrawnSection, MemberOutline, OutlineShape, OutlinedMember, SectionOutline, SectionPlates, SpecCraneRail,
     TaperedSection,
 };
+pub use preload::{SMALL_FACTOR, SpecPreload};
 pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};
 pub use read::{FORMAT, format, stem};
 pub use stress::{Detail, StressPoint};
