@@ -9,7 +9,7 @@ use super::given::{BodyLoads, Preload};
 use crate::assembly::Element;
 use crate::error::{EntryFault, Error, ModelEntry};
 use crate::influence::FactoredFrame;
-use crate::model::{ArmStiffness, MemberKind, Model, Rail};
+use crate::model::{ArmStiffness, Member, MemberKind, Model, Rail};
 
 /// Change of the axial forces, relative to the largest, at which they are those of the equilibrium.
 const UNCHANGED: f64 = 1e-10;
@@ -99,7 +99,8 @@ pub fn preloaded(m: &Model, rails: &[Rail], preload: &Preload) -> Result<Preload
         if let Some((member, own)) = turned.filter(|(_, own)| own.turned > MOST_TURNED) {
             return Err(Error::NoEquilibrium { member, turned: Some(own.turned) });
         }
-        check_cables(&model, preload)?;
+        check_tension(&model)?;
+        check_sag(&model, preload)?;
         let critical = Critical::new(&model)?.first()?;
         if let CriticalFactor::At(factor, mode) = &critical
             && *factor <= 1.0
@@ -147,6 +148,9 @@ fn buckled(model: &Model, error: Error) -> Error {
     if !is_singular {
         return error;
     }
+    if let Err(slack) = check_tension(model) {
+        return slack;
+    }
     match Critical::new(model).and_then(|critical| critical.first()) {
         Ok(CriticalFactor::At(factor, mode)) if factor <= 1.0 => Error::Buckled { factor, mode: mode.most },
         _ => error,
@@ -164,16 +168,24 @@ fn are_equal(a: &[ArmStiffness], b: &[ArmStiffness]) -> bool {
     largest == 0.0 || (a.len() == b.len() && a.iter().zip(b).all(equal))
 }
 
-/// Refuses cables that are slack, or that sag so much that they are no straight bars.
-fn check_cables(model: &Model, preload: &Preload) -> Result<(), Error> {
+/// Refuses cables that are slack.
+fn check_tension(model: &Model) -> Result<(), Error> {
+    let is_slack = |member: &Member| member.kind == MemberKind::Cable && member.tension <= 0.0;
+    match model.members.iter().position(is_slack) {
+        Some(index) => Err(Error::Invalid {
+            entry: ModelEntry::Member(index),
+            fault: EntryFault::Slack { tension: model.members[index].tension },
+        }),
+        None => Ok(()),
+    }
+}
+
+/// Refuses cables that sag so much that they are no straight bars.
+fn check_sag(model: &Model, preload: &Preload) -> Result<(), Error> {
     let gravity = nalgebra::Vector3::from(preload.acceleration);
     for (index, member) in model.members.iter().enumerate() {
         if member.kind != MemberKind::Cable {
             continue;
-        }
-        let invalid = |fault| Error::Invalid { entry: ModelEntry::Member(index), fault };
-        if member.tension <= 0.0 {
-            return Err(invalid(EntryFault::Slack { tension: member.tension }));
         }
         let element: Element = Element::new(model, index)?;
         let section = &model.sections[member.section];
@@ -183,7 +195,7 @@ fn check_cables(model: &Model, preload: &Preload) -> Result<(), Error> {
         let weight = section.mass * element.length * across;
         let sag = weight * weight * section.e * section.area / (12.0 * member.tension.powi(3));
         if sag > MOST_SAG {
-            return Err(invalid(EntryFault::Sag { sag }));
+            return Err(Error::Invalid { entry: ModelEntry::Member(index), fault: EntryFault::Sag { sag } });
         }
     }
     Ok(())
