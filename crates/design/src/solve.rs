@@ -99,7 +99,15 @@ pub fn solve_on(
             envelopes,
         });
     }
-    let warnings = warnings(design, &solved);
+    let mut warnings = warnings(design, &solved);
+    let between = structure.error_between_ends();
+    if between > NOTED_BETWEEN_ENDS {
+        warnings.push(format!(
+            "{}: between the ends of cells, moments under the preload may err by {between:.1e} of their size; more \
+             `cell_data.parts` lower this with their square",
+            design.spec_file
+        ));
+    }
     let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(located)?;
     let mut limits = check_limits(design, &solved);
     limits.extend(details.limits);
@@ -119,6 +127,9 @@ pub fn solve_on(
         error_bound,
     })
 }
+
+/// Error of moments between ends of members under a preload, relative, from which it is named.
+const NOTED_BETWEEN_ENDS: f64 = 1e-6;
 
 /// Reactions under each kind of load alone that the case has.
 fn by_load(

@@ -120,26 +120,26 @@ fn columns_buckle_at_their_published_loads() {
     let mut m = chain(&one, &[FIXED, FREE]);
     m.springs.push(GroundSpring { point: 1, dof: Dof::Uy, stiffness: 10.0 });
     close(critical(&m, 1.0), known, "spring across the tip");
-    // Two sections: tan(k1 l1) tan(k2 l2) = k1/k2; TG 2.14.
+    // Two sections, 1 being the upper one: tan(k1 l1) tan(k2 l2) = k1/k2; TG 2.14.
     let (lower, upper) = ([0.6, 3.0], [0.4, 1.0]);
     let stepped = |p: f64| {
         let [a, b] = [f64::sqrt(p / lower[1]), f64::sqrt(p / upper[1])];
-        (a * lower[0]).tan() * (b * upper[0]).tan() - a / b
+        (a * lower[0]).tan() * (b * upper[0]).tan() - b / a
     };
     close(
         critical(&chain(&[lower, upper], &[FIXED, FREE]), 1.0),
         root(stepped, [0.5, 7.0]),
         "stepped cantilever",
     );
-    // The same with forces at the step and at the top: tan(k1 l1) tan(k2 l2) = (k1/k2) (P1 + P2)/P1 with P1 at the top; TG 2.14.
+    // The same with forces at the step and at the top, 1 being the upper part: tan(k1 l1) tan(k2 l2) = (k1/k2) (P1 + P2)/P1; TG 2.14.
     let both = |p: f64| {
         let [a, b] = [f64::sqrt(3.0 * p / lower[1]), f64::sqrt(p / upper[1])];
-        (a * lower[0]).tan() * (b * upper[0]).tan() - a / b * 3.0
+        (a * lower[0]).tan() * (b * upper[0]).tan() - b / a * 3.0
     };
     let m = chain(&[lower, upper], &[FIXED, FREE]);
     close(
         critical_under(&m, &pushed(&[(1, 2.0 * 0.3), (2, 0.3)])) * 0.3,
-        root(both, [0.3, 3.0]),
+        root(both, [0.3, 6.0]),
         "two forces",
     );
 }

@@ -5,6 +5,7 @@ use fea::{Dof, Error, ModelEntry};
 use super::structure::{Form, Spec};
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Basis, Fault, Faults};
+use crate::text::number::{number, rounded};
 use crate::text::place::{Path, Step};
 use crate::text::source::Source;
 
@@ -55,9 +56,10 @@ impl Spec {
                 if *end == 0 { "a" } else { "b" }
             )),
             Error::Buckled { factor, mode } => SolveError::NoSolution(format!(
-                "{}: the structure buckles at {factor:.4} times its preload: {}  hint: the factor is that of axial forces \
+                "{}: the structure buckles at {} times its preload: {}  hint: the factor is that of axial forces \
                  alone",
                 source.name,
+                number(rounded(*factor, 4)),
                 self.buckling_words(mode)
             )),
             Error::Memory { quantity, bytes, most } => SolveError::NoSolution(format!(
