@@ -388,3 +388,38 @@ fn internal_forces_are_those_of_the_deflected_member() {
         assert!((reactions.value.sum() + 1.0).abs() < 1e-11);
     }
 }
+
+/// Closed form: under its own weight the pinned beam with P has at midspan (w L^2/8) 2 (sec u - 1)/u^2 with u = (pi/2) sqrt(P/P_E), from
+/// one member; Timoshenko and Gere (1961), section 1.4. Tension: the hyperbolic functions. Identity: one member and two agree elsewhere.
+#[test]
+fn own_weight_bends_the_loaded_member_as_published() {
+    use fea::Effect;
+    use splines::ForceComponent::{BendingZ, ShearY};
+    let (l, w) = (3.0, 0.7);
+    for share in [0.6, -1.5] {
+        let p = share * PI * PI / (l * l);
+        let u = 0.5 * PI * f64::abs(share).sqrt();
+        let known =
+            if share > 0.0 { 2.0 * (1.0 / u.cos() - 1.0) } else { 2.0 * (1.0 - 1.0 / u.cosh()) } / (u * u);
+        let values = [1, 2].map(|parts| {
+            let mut m = straight(l, parts, &[(0, PINNED), (parts, ROLLER)]);
+            m.sections[0].mass = w;
+            let state = preloaded(&m, &[], &at_points(&[(parts, [-p, 0.0, 0.0])])).expect("stable");
+            let frame = FactoredFrame::new(&state.model, &[]).expect("stable");
+            let at = |x: f64, component| {
+                let member = ((x * parts as f64) as usize).min(parts - 1);
+                Effect::InternalForce { member, place: x * parts as f64 - member as f64, component }
+            };
+            let effects = [at(0.5, BendingZ), at(0.3, BendingZ), at(0.3, ShearY)];
+            let weight = frame.weight(&state.model, [0.0, -1.0, 0.0]);
+            frame.effects_of_weight(&state.model, &weight, &effects).expect("sections")
+        });
+        let midspan = w * l * l / 8.0 * known;
+        for own in &values {
+            assert!((own[0] / midspan - 1.0).abs() < 1e-11, "{share}: {}, not {midspan}", own[0]);
+        }
+        for (one, two) in values[0].iter().zip(&values[1]) {
+            assert!((one / two - 1.0).abs() < 1e-10, "{share}: {one}, not {two}");
+        }
+    }
+}

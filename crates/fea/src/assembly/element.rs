@@ -1,6 +1,6 @@
 //! The straight uniform member: exact 12 x 12 stiffness, releases, local axes.
 
-use nalgebra::{Matrix3, RowSVector, SMatrix, Vector3};
+use nalgebra::{Matrix3, RowSVector, SMatrix, SVector, Vector3};
 use num_traits::Zero;
 use splines::{BeamColumn, Flexibility, ForceComponent};
 
@@ -246,8 +246,8 @@ impl Element {
         let tension = self.flexibility.tension;
         let (plane, factors) = component.under_tension().filter(|_| tension != 0.0)?;
         let own = &bending_planes(&self.flexibility)[plane];
-        let [mut deflection, slope] = if own.bending.is_finite() && own.shear.is_finite() {
-            BeamColumn::new(own.bending, own.shear, tension, self.length).section(place)
+        let [mut deflection, slope] = if let Some(column) = self.column(own) {
+            column.section(place)
         } else if self.is_string {
             let rate = 1.0 / self.length;
             [[1.0 - place, 0.0, place, 0.0], [-rate, 0.0, rate, 0.0]]
@@ -261,6 +261,43 @@ impl Element {
             row[at[k]] = tension * sign * (factors[0] * deflection[k] + factors[1] * slope[k]);
         }
         Some(row)
+    }
+
+    /// Turns the end forces of an inertia that is uniform over the member, rows of `forces`, into those under the axial force:
+    /// the moments at the clamped ends change by [`BeamColumn::uniform_end_moment`].
+    pub fn bend_uniform_load(&self, forces: &mut Matrix12) {
+        if self.flexibility.tension == 0.0 {
+            return;
+        }
+        for plane in bending_planes(&self.flexibility) {
+            let Some(column) = self.column(&plane) else { continue };
+            let factor = column.uniform_end_moment();
+            for row in [plane.rotation, plane.rotation + 6] {
+                forces.row_mut(row).iter_mut().for_each(|force| *force *= factor);
+            }
+        }
+    }
+
+    /// What the axial force adds to an internal force by the deflection of the clamped member under the inertia of a uniform
+    /// acceleration, whose local components are the first three of `acceleration`.
+    pub fn uniform_load_under_tension(
+        &self,
+        mass: f64,
+        acceleration: &SVector<f64, 12>,
+        section: &splines::InternalForce,
+    ) -> f64 {
+        let under = section.component.under_tension().filter(|_| self.flexibility.tension != 0.0);
+        let Some((plane, factors)) = under else { return 0.0 };
+        let own = &bending_planes(&self.flexibility)[plane];
+        let Some(column) = self.column(own) else { return 0.0 };
+        let [deflected, slope] = column.under_uniform_load(section.place);
+        mass * acceleration[own.deflection] * (factors[0] * deflected + factors[1] * slope)
+    }
+
+    /// The plane under the axial force; `None` where it has no bending stiffness.
+    fn column(&self, plane: &BendingPlane) -> Option<BeamColumn<f64>> {
+        (plane.bending.is_finite() && plane.shear.is_finite())
+            .then(|| BeamColumn::new(plane.bending, plane.shear, plane.tension, self.length))
     }
 
     /// Displacements of the flexible ends by those of the tips of the rigid offsets, without load.

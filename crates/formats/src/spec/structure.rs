@@ -53,6 +53,7 @@ pub struct Spec {
 
 /// The two forms of a spec.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "there are few specs, and most have the general form")]
 pub enum Form {
     /// A straight girder, continuous over its supports.
     Girder(Girder),

@@ -61,6 +61,8 @@ pub struct BeamColumn<T> {
     mu: T,
     /// (lambda l/2)^2.
     z: T,
+    /// F.
+    ratio: T,
     /// 1 + z F.
     symmetric: T,
     /// F c l^2/(c l^2 F + 4 g) and 4 g/(c l^2 F + 4 g): the shares of bending and shear where both ends turn alike.
@@ -95,6 +97,7 @@ impl<T: RealNumber> BeamColumn<T> {
             length,
             mu,
             z,
+            ratio,
             symmetric: one + z * ratio,
             shares,
             kappa,
@@ -215,6 +218,28 @@ impl<T: RealNumber> BeamColumn<T> {
             ]
         };
         [[v0, t0, by_force, by_moment], [v1, t1.map(|x| zero - x), seen(by_force), seen(by_moment)]]
+    }
+
+    /// Moment at the clamped ends under a uniform load, by that without axial force, q l^2/12: 3 F/mu.
+    #[must_use]
+    pub fn uniform_end_moment(&self) -> T {
+        T::from(3.0) * self.ratio / self.mu
+    }
+
+    /// Axial force times the deflection of the clamped member under a uniform load of intensity one, at the fraction `at` of the
+    /// length; and times its slope there.
+    ///
+    /// With s = 2 at - 1 the moment is l^2/(4 mu) (s^2 C2(z s^2) - C3(z))/C1(z); less its value at the end, and less the moment
+    /// of the loads alone, it is that of the axial force.
+    #[must_use]
+    pub fn under_uniform_load(&self, at: T) -> [T; 2] {
+        let [quarter, half, one] = [0.25, 0.5, 1.0].map(T::from);
+        let s = at + at - one;
+        let [_, c1, c2, _] = bent_powers(self.z * s * s);
+        let [_, all, _, c3] = bent_powers(self.z);
+        let l = self.length;
+        let moment = ((s * s * c2 - c3) / all - self.ratio) / self.mu;
+        [quarter * l * l * (moment - half * (s * s - one)), half * l * s * (c1 / (self.mu * all) - one)]
     }
 
     /// Deflection of the section at the fraction `at` of the length and its derivative by the place, by deflection and
