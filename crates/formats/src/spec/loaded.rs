@@ -87,7 +87,8 @@ impl Spec {
     }
 
     /// A member in the words of the file.
-    fn member_words(&self, member: usize) -> String {
+    #[must_use]
+    pub fn member_words(&self, member: usize) -> String {
         match &self.form {
             Form::Girder(_) => format!("span or overhang {}", member + 1),
             Form::Frame(frame) => match frame.cells.get(member) {
