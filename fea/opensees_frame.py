@@ -285,7 +285,12 @@ def solve(frame):
     versions = {"OpenSees": ops.version(), "numpy": np.__version__}
     about = ", PDelta about the preload" if frame.preload else ""
     tolerance = LOADED if frame.preload else None
-    return frame.answer(motion, versions, f"{beams}, rigidLink{about}", notes, tolerance)
+    if frame.preload:
+        notes.append("no couplings with the longitudinal direction: there it adds what a load's axial force does on the deflected shape")
+    answer = frame.answer(motion, versions, f"{beams}, rigidLink{about}", notes, tolerance)
+    if frame.preload:
+        answer["influence"] = {name: grid for name, grid in answer["influence"].items() if "_longitudinal" not in name}
+    return answer
 
 
 if __name__ == "__main__":

@@ -258,14 +258,16 @@ impl Structure {
     }
 
     /// By which part of a moment the moments between the ends of members may err, because an axial force N of a preload turns
-    /// with the deflection there: the largest N h^2/(2 EI) of the members of length h that carry rails. Zero without preload.
+    /// with the deflection there: the largest N h^2/(2 EI) of the members of length h that carry rails, for vertical bending
+    /// with the larger EI, for `lateral` forces as well with the smaller one. Zero without preload.
     #[must_use]
-    pub fn error_between_ends(&self) -> f64 {
+    pub fn error_between_ends(&self, lateral: bool) -> f64 {
         let of = |carrier: &Carrier| {
-            let section = &self.model.sections[self.model.members[carrier.member].section];
-            let seconds = [section.iy, section.iz].into_iter().filter(|second| *second > 0.0);
-            let softest = section.e * seconds.fold(f64::INFINITY, f64::min);
-            0.5 * self.model.members[carrier.member].tension.abs() * carrier.length * carrier.length / softest
+            let member = &self.model.members[carrier.member];
+            let section = &self.model.sections[member.section];
+            let least = if section.iy > 0.0 && section.iz > 0.0 { section.iy.min(section.iz) } else { 0.0 };
+            let second = if lateral && least > 0.0 { least } else { section.iy.max(section.iz) };
+            0.5 * member.tension.abs() * carrier.length * carrier.length / (section.e * second)
         };
         self.carriers.iter().map(of).fold(0.0, f64::max)
     }
