@@ -29,7 +29,7 @@ from frame_model import Refused
 # Stiffness of ties by that of their member.
 TIES = 1e4, 1e5
 # Size of the unit loads about a loaded state, by the largest force of the preload.
-STEP = 1e-4
+STEP = 1e-6
 # Stress of bars before the preload, by its largest force.
 HINT = 1e-6
 # Tolerance about a loaded state: axial forces at the chord of each part, order 2, at critical factors above two.
@@ -224,7 +224,12 @@ class Model:
             # So small that the state does not change.
             size = STEP * max(np.linalg.norm(force) for _, force, _ in frame.preload_forces())
         ops.integrator("LoadControl", 1.0)
-        ops.algorithm("Linear", "-factorOnce")
+        if frame.preload:
+            # The tangent of PDelta is not exact.
+            ops.test("FixedNumIter", 4)
+            ops.algorithm("Newton")
+        else:
+            ops.algorithm("Linear", "-factorOnce")
         ops.analysis("Static")
         motion = np.zeros((3 * len(frame.heads), len(frame.heads), 3))
         for head, direction, node, force in frame.unit_loads():
