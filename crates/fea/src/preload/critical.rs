@@ -13,10 +13,13 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::{DVector, SVector, Vector3};
 use splines::BeamColumn;
+use sprs::CsMat;
 
-use crate::assembly::{Bodies, Element, Numbering, ScaledStiffness, bending_planes, irregular_vector};
+use crate::assembly::{
+    Bodies, Element, Numbering, ScaledStiffness, bending_planes, irregular_vector, symmetric_product,
+};
 use crate::dof::Dof;
 use crate::error::{Buckling, EntryAttribute, Error};
 use crate::factor::{FactorError, IndefiniteFactor, allow_square};
@@ -28,6 +31,10 @@ pub const MOST_CRITICAL: f64 = 1e6;
 const LEAST: f64 = 1e-9;
 /// Width at which bisection ends, relative.
 const RESOLUTION: f64 = 1e-12;
+/// Width, relative, from which the bracket is narrowed by the mode.
+const COARSE: f64 = 0.02;
+/// How far beside a guess the count is asked for, by the width of the bracket.
+const BESIDE: f64 = 2e-3;
 /// Steps of inverse iteration for the mode.
 const MODE_STEPS: usize = 4;
 /// Component of a motion, relative to the largest, that counts as equal to it.
@@ -71,13 +78,28 @@ pub(super) struct Critical<'a> {
     numbering: Numbering,
 }
 
-/// Critical factors below some factor.
-#[derive(Clone, Copy, PartialEq, Eq)]
-struct Count {
-    /// All of them.
-    all: usize,
-    /// Those of members between clamped ends and of releases.
-    members: usize,
+/// A factor at which was counted.
+struct Trial {
+    alpha: f64,
+    /// Number of critical factors below it.
+    count: usize,
+    /// The scaled stiffness there and its factor, where there is one.
+    stiffness: Option<(CsMat<f64>, IndefiniteFactor)>,
+}
+
+/// Where the stiffness in the motion that resists least vanishes between two factors: `x` approaches this motion by inverse
+/// iteration at the upper one, and x^T (K + K_g) x is taken as a straight line. `None` where it does not change its sign.
+fn interpolated(low: &Trial, high: &mut Trial, x: &mut [f64]) -> Option<f64> {
+    let (below, _) = low.stiffness.as_ref()?;
+    let (above, factor) = high.stiffness.as_mut()?;
+    for _ in 0..MODE_STEPS {
+        factor.solve(x);
+        let size = x.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
+        x.iter_mut().for_each(|v| *v /= size);
+    }
+    let at = DVector::from_column_slice(x);
+    let [a, b] = [below, above].map(|k| symmetric_product(k, at.as_view()).dot(&at));
+    (a > 0.0 && b < 0.0).then(|| low.alpha + (high.alpha - low.alpha) * a / (a - b))
 }
 
 impl<'a> Critical<'a> {
@@ -102,8 +124,19 @@ impl<'a> Critical<'a> {
         m
     }
 
-    /// J(alpha); `None` where a pivot is exactly zero. A member whose shear stiffness is exceeded counts as buckled.
-    fn count(&self, alpha: f64) -> Result<Option<Count>, FactorError> {
+    /// The count at a factor. A member whose shear stiffness is exceeded counts as buckled; so does a structure in which a
+    /// pivot is exactly zero at the factor and beside it.
+    fn trial(&self, alpha: f64) -> Result<Trial, Error> {
+        for step in 0..4 {
+            let beside = alpha * (1.0 + f64::from(step) * 3.0 * f64::EPSILON);
+            if let Some(found) = self.trial_at(beside).map_err(|fault| self.too_large(fault))? {
+                return Ok(found);
+            }
+        }
+        Ok(Trial { alpha, count: 1, stiffness: None })
+    }
+
+    fn trial_at(&self, alpha: f64) -> Result<Option<Trial>, FactorError> {
         let m = self.scaled(alpha);
         let mut members = 0;
         for index in 0..m.members.len() {
@@ -113,13 +146,14 @@ impl<'a> Critical<'a> {
             }
         }
         if m.check().is_err() {
-            return Ok(Some(Count { all: members.max(1), members: members.max(1) }));
+            return Ok(Some(Trial { alpha, count: members.max(1), stiffness: None }));
         }
         let Ok(stiffness) = ScaledStiffness::<f64>::in_precision(&m, &self.numbering) else {
             return Ok(None);
         };
         let Some(factor) = IndefiniteFactor::new(&stiffness.upper)? else { return Ok(None) };
-        Ok(factor.negative_pivots().map(|pivots| Count { all: members + pivots, members }))
+        let Some(pivots) = factor.negative_pivots() else { return Ok(None) };
+        Ok(Some(Trial { alpha, count: members + pivots, stiffness: Some((stiffness.upper, factor)) }))
     }
 
     /// Number of critical factors of a member of the scaled model `m` between its clamped ends, and of its releases.
@@ -141,49 +175,65 @@ impl<'a> Critical<'a> {
         Some(released + clamped.sum::<usize>())
     }
 
-    /// The first critical factor.
+    /// The first critical factor: doubling until the count is not zero, bisection to a hundredth, then refinement.
     ///
     /// # Errors
     /// A factor that is too large.
     pub fn first(&self) -> Result<CriticalFactor, Error> {
-        let count = |alpha: f64| -> Result<usize, Error> {
-            // A factor at which a pivot is zero by chance is passed at its side.
-            for step in 0..4 {
-                let beside = alpha * (1.0 + f64::from(step) * 3.0 * f64::EPSILON);
-                if let Some(found) = self.count(beside).map_err(|fault| self.too_large(fault))? {
-                    return Ok(found.all);
+        let mut low = self.trial(1.0)?;
+        let mut high;
+        if low.count == 0 {
+            loop {
+                high = self.trial((2.0 * low.alpha).min(MOST_CRITICAL))?;
+                if high.count > 0 {
+                    break;
                 }
-            }
-            Ok(1)
-        };
-        let (mut low, mut high) = (1.0, 1.0);
-        if count(1.0)? == 0 {
-            while count(high)? == 0 {
-                if high >= MOST_CRITICAL {
+                if high.alpha >= MOST_CRITICAL {
                     return Ok(CriticalFactor::Above(MOST_CRITICAL));
                 }
                 low = high;
-                high = (2.0 * high).min(MOST_CRITICAL);
             }
         } else {
-            while low > LEAST && count(low)? > 0 {
+            high = low;
+            loop {
+                low = self.trial(0.5 * high.alpha)?;
+                if low.count == 0 || low.alpha < LEAST {
+                    break;
+                }
                 high = low;
-                low *= 0.5;
             }
         }
-        while high - low > RESOLUTION * high {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
+        let mut x = irregular_vector(self.numbering.column.len());
+        while high.alpha - low.alpha > RESOLUTION * high.alpha {
+            let width = high.alpha - low.alpha;
+            let guess =
+                if width < COARSE * high.alpha { interpolated(&low, &mut high, &mut x) } else { None };
+            if let Some(guess) = guess {
+                self.narrow(&mut low, &mut high, guess)?;
+                // The factor is beside the guess: on the other side of it, too, the bracket closes.
+                let step = if low.alpha >= guess { BESIDE * width } else { -BESIDE * width };
+                self.narrow(&mut low, &mut high, guess + step)?;
             }
-            if count(middle)? == 0 {
-                low = middle;
-            } else {
-                high = middle;
+            if high.alpha - low.alpha > 0.5 * width {
+                let middle = 0.5 * (low.alpha + high.alpha);
+                if !self.narrow(&mut low, &mut high, middle)? {
+                    break;
+                }
             }
         }
-        let factor = 0.5 * (low + high);
-        Ok(CriticalFactor::At(factor, self.mode(low, high)?))
+        let factor = 0.5 * (low.alpha + high.alpha);
+        Ok(CriticalFactor::At(factor, self.mode(low.alpha, high.alpha)?))
+    }
+
+    /// Counts at a factor inside the bracket, which becomes one of its ends; false where it is not inside.
+    fn narrow(&self, low: &mut Trial, high: &mut Trial, alpha: f64) -> Result<bool, Error> {
+        if !(alpha > low.alpha && alpha < high.alpha) {
+            return Ok(false);
+        }
+        let found = self.trial(alpha)?;
+        let end = if found.count == 0 { low } else { high };
+        *end = found;
+        Ok(true)
     }
 
     fn too_large(&self, fault: FactorError) -> Error {
