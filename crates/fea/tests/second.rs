@@ -423,3 +423,31 @@ fn own_weight_bends_the_loaded_member_as_published() {
         }
     }
 }
+
+/// Identity: for given axial forces one member and three agree within the sum of their certified bounds, up to near buckling.
+#[test]
+fn certificate_bounds_the_error_for_given_axial_forces() {
+    let l = 3.0;
+    let euler = PI * PI / (l * l);
+    for share in [-30.0, -1.0, 0.3, 0.9, 0.999] {
+        let grids = [1, 3].map(|parts| {
+            let mut m = straight(l, parts, &[(0, PINNED), (parts, ROLLER)]);
+            m.members.iter_mut().for_each(|member| member.tension = -share * euler);
+            let rail = rail(&m);
+            let frame = FactoredFrame::new(&m, &[rail]).expect("stable");
+            frame.grid(&[0.25, 0.7, 1.5, 2.9].map(vertical)).expect("on the rail")
+        });
+        let bound = grids[0].certificate.error_bound + grids[1].certificate.error_bound;
+        for i in 0..4 {
+            for j in 0..4 {
+                let [a, b] = [&grids[0], &grids[1]].map(|grid| grid.value[(i, j)]);
+                let size = (grids[0].value[(i, i)] * grids[0].value[(j, j)]).sqrt();
+                assert!(
+                    (a - b).abs() <= bound * size,
+                    "{share}: {:e} beyond {bound:e}",
+                    (a - b).abs() / size
+                );
+            }
+        }
+    }
+}
