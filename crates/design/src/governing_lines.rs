@@ -5,10 +5,10 @@ use formats::spec::SolveError;
 use formats::text::inputs::Inputs;
 use trains::{GirderResponse, Governing, InfluenceLine, SectionSide, SpanExtreme, Structure, TrainCase};
 
-use crate::solve_error::solve_error;
 use crate::loads::{LoadKind, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes};
 use crate::solve::reactions;
+use crate::solve_error::solve_error;
 use crate::tables::finish;
 use crate::words::{kind_word, plane_word, quantity_word, side_word};
 

@@ -12,11 +12,11 @@ use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
 use crate::combinations::groups_left_out;
 use crate::details::Details;
-use crate::solve_error::solve_error;
 use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
 use crate::rounding::Sizes;
+use crate::solve_error::solve_error;
 use crate::words::quantity_word;
 
 /// Parts of each span at whose ends envelopes are listed.

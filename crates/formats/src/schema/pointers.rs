@@ -46,7 +46,7 @@ fn rests<'s>(schema: &'s Value, root: &'s Value, within: &mut Vec<&'s str>) -> V
     if let Some(members) = schema["properties"].as_object() {
         // members with the same rest share it
         let mut keys: BTreeMap<String, Vec<&str>> = BTreeMap::new();
-        for (key, member) in members {
+        for (key, member) in members.iter().filter(|(key, _)| *key != "$schema") {
             keys.entry(union(rests(member, root, within))).or_default().push(key);
         }
         all.extend(keys.into_iter().map(|(rest, keys)| format!("/(?:{}){rest}", keys.join("|"))));
@@ -83,5 +83,36 @@ fn union(mut patterns: Vec<String>) -> String {
         [] => ANY.to_owned(),
         [one] => one.clone(),
         several => format!("(?:{})", several.join("|")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    #[test]
+    fn a_pattern_has_keys_indices_names_of_the_user_and_lists_of_lists() {
+        let schema = json!({
+            "properties": {
+                "$schema": { "type": "string" },
+                "end": { "anyOf": [{ "$ref": "#/$defs/End" }, { "type": "null" }] },
+                "bodies": { "additionalProperties": { "$ref": "#/$defs/Body" } },
+                "tree": { "$ref": "#/$defs/Tree" },
+                "compare": { "type": "array", "items": { "type": "string" } },
+            },
+            "$defs": {
+                "End": { "properties": { "time": { "type": ["number", "null"] } } },
+                "Body": { "properties": {
+                    "cg": { "type": ["array", "null"], "items": { "type": "number" } },
+                    "mass": { "type": "number" }, "weight": { "type": "number" },
+                } },
+                "Tree": { "items": { "$ref": "#/$defs/Tree" } },
+            },
+        });
+        assert_eq!(
+            pattern(&schema, &["compare"]),
+            "(?:/(?:bodies)/[^/]+(?:/(?:cg)/[0-9]+|/(?:mass|weight))|/(?:end)/(?:time)|/(?:tree)/[0-9]+(?:/[^/]+)*)"
+        );
     }
 }

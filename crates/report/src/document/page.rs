@@ -166,8 +166,7 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
             })
     };
     let aligned: Vec<bool> = (0..table.columns.len()).map(is_text_of_numbers).collect();
-    let numeric =
-        |i: usize| aligned[i] || table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
+    let numeric = |i: usize| aligned[i] || table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
     let is_stacked = table.columns.len() > NARROW;
     let is_short = table.rows.len() <= SHORT;
     Ok(html! {
@@ -216,8 +215,9 @@ fn is_roomy(table: &ReportTable) -> bool {
 
 /// Whether a text is a number as [`number`] writes it.
 fn is_numeral(text: &str) -> bool {
-    let is_of_number =
-        |c: char| c.is_ascii_digit() || ".\u{2212}\u{202f} \u{d7}\u{207b}\u{2070}\u{b9}\u{b2}\u{b3}".contains(c);
+    let is_of_number = |c: char| {
+        c.is_ascii_digit() || ".\u{2212}\u{202f} \u{d7}\u{207b}\u{2070}\u{b9}\u{b2}\u{b3}".contains(c)
+    };
     let is_raised = |c: char| ('\u{2074}'..='\u{2079}').contains(&c);
     text.starts_with(|c: char| c.is_ascii_digit() || c == '\u{2212}')
         && text.chars().all(|c| is_of_number(c) || is_raised(c))

@@ -159,7 +159,8 @@ function liveChart(box, number) {
   const legend = element("div", { className: "legend" });
   const keys = chart.series.map((series, index) => {
     const swatch = element("span", { className: "swatch" });
-    swatch.style.borderTop = `3px ${series.dash ? "dashed" : "solid"} ${series.colour}`;
+    if (series.apart) Object.assign(swatch.style, { width: "0.6rem", height: "0.6rem", borderRadius: "50%", background: series.colour });
+    else swatch.style.borderTop = `3px ${series.dash ? "dashed" : "solid"} ${series.colour}`;
     const key = element("button", { type: "button" }, swatch, series.label);
     key.addEventListener("click", () => toggle(index));
     legend.append(key);

@@ -117,8 +117,7 @@ fn largest_reactions(run: &LabelledRun, shown: &[&Column], word: &str, few: &str
 
 /// One reaction over time in every run.
 fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
-    let (mut chart, factor) =
-        over_time(scene, &format!("{} in all runs", column.name), column.dimension);
+    let (mut chart, factor) = over_time(scene, &format!("{} in all runs", column.name), column.dimension);
     for (index, other) in runs.iter().enumerate() {
         let points = other.record.points("time", &column.name);
         if points.is_empty() {

@@ -16,7 +16,8 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
     let rails = design.spec.rails();
     for (rail, spans) in rails.iter().zip(&design.spans) {
         let text: Vec<String> = spans.iter().map(|x| digits(*x, DIGITS)).collect();
-        section = section.fact(format!("{}: spans between", rail_phrase(&rail.name)), text.join(", "), &length);
+        section =
+            section.fact(format!("{}: spans between", rail_phrase(&rail.name)), text.join(", "), &length);
     }
     let gravity = design.dead.gravity;
     let weight = if gravity > 0.0 {

@@ -15,7 +15,6 @@ use formats::design::Design;
 use formats::units::Dimension;
 use trains::GirderResponse;
 
-
 /// The report of a design; `lines` are the influence lines of its governing values.
 #[must_use]
 pub fn design_report(design: &Design, result: &DesignResult, lines: &[GoverningLine]) -> Report {

@@ -12,10 +12,10 @@ mod view;
 
 use crate::document::animated::Animation;
 
-use crate::figures::error::FigureError;
-use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::Picture;
 use crate::figures::design::{digits, reading_unit};
+use crate::figures::error::FigureError;
+use crate::figures::run_figure::{LabelledRun, RunFigure};
 use draw::{PlanDrawing, WIDTH};
 use formats::scene::motion::SimulationInput;
 use formats::units::Dimension;
