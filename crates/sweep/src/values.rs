@@ -120,8 +120,8 @@ fn fatigue(outcome: &CaseResult, row: &mut RunRow) {
 }
 
 /// Fraction of the weight of all bodies that the rails on the ground carry at the start, below which something else carries
-/// a part of it.
-const CARRIED: f64 = 0.999;
+/// a part of it. Dampers between wheels and rails take some hundredths of it in the first row.
+const CARRIED: f64 = 0.9;
 
 /// Whether the rails on the ground carry all bodies at the start: not where a load stands on the floor, or a body falls.
 fn carries_all_at_start(scene: &Scene, outcome: &CaseResult) -> bool {
