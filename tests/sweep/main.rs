@@ -277,7 +277,7 @@ fn figures_have_values_of_codes_and_the_mean_of_damages_with_its_confidence() {
 /// The load of the crane of the runway stands on the floor at the start, and its rails carry a part of the weight: what
 /// they carry later is no multiple of it.
 #[test]
-fn dynamic_factors_are_those_of_rails_that_carry_everything_at_the_start() {
+fn dynamic_factors_are_those_of_rails_that_start_with_their_static_force() {
     let folder = folder(
         r#""scene": "crane.json", "axes": {"/end/time": [1, 2]}, "sampling": "grid", "results": ["ratios"]"#,
     );
