@@ -366,8 +366,10 @@ function fitted(box) {
     restore();
     if (box.clientWidth === 0 || box.clientWidth >= NARROW) return;
     box.classList.add("fitted");
-    const scale = svg.getBoundingClientRect().width / svg.viewBox.baseVal.width;
-    texts.forEach((text, index) => text.setAttribute("font-size", Math.max(Number(plain[index]), LETTERS / scale)));
+    texts.forEach((text, index) => {
+      const { a, b } = text.getScreenCTM();
+      text.setAttribute("font-size", Math.max(Number(plain[index]), LETTERS / Math.hypot(a, b)));
+    });
     const room = svg.getBoundingClientRect(), kept = [];
     let left = 0;
     for (const text of texts) {
@@ -375,7 +377,9 @@ function fitted(box) {
       const isOutside = own.left < room.left - 1 || own.right > room.right + 1;
       if (isOutside || kept.some((other) => covers(own, other))) { text.style.display = "none"; left++; } else kept.push(own);
     }
-    if (left > Math.max(FEW, CROWD * texts.length)) { box.classList.remove("fitted"); restore(); }
+    // a reading of a moving view without its value is none
+    const most = box.classList.contains("animation") ? FEW : Math.max(FEW, CROWD * texts.length);
+    if (left > most) { box.classList.remove("fitted"); restore(); }
   };
 }
 
