@@ -57,7 +57,7 @@ pub enum Command {
         after_help = "Example:\n  girderway deck examples/bogie/scene.json -o bogie.adm --form symmetrised --check"
     )]
     Deck(DeckArgs),
-    /// Turn a model of another program into a beam spec: NASTRAN bulk data or a gmsh mesh
+    /// Turn a model of another program into a beam spec: NASTRAN bulk data, a gmsh mesh or an Abaqus file
     #[command(
         after_help = "Example:\n  girderway import deck.bdf --length m --force N --up 0,0,1 --rail runway=12,23,30-35 -o spec.json"
     )]

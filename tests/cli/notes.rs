@@ -22,7 +22,12 @@ fn notes(parts: &str) -> Vec<String> {
     for note in &all {
         let is_own = |line: &str| line.starts_with("note: ") && line.ends_with(note);
         assert!(text(&run.stderr).lines().any(is_own), "{}", text(&run.stderr));
-        assert!(report.contains(note), "the report has the note {note}");
+        // keys stand between backticks in a note, in letters of their own on a page
+        let parts = note.split('`').enumerate();
+        let shown: String = parts
+            .map(|(i, part)| if i % 2 == 1 { format!("<code>{part}</code>") } else { part.to_owned() })
+            .collect();
+        assert!(report.contains(&shown), "the report has the note {note}");
     }
     assert!(!all.is_empty() || !report.contains("Note, "), "the report has no note of its own");
     all

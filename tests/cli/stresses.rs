@@ -188,7 +188,7 @@ fn what_stresses_of_a_run_lack_is_named() {
     let folder = ran(&spec, &scene(&json!({"lateral_section": "top flange"})));
     let row = only(&summary(&folder)).clone();
     assert!(row.get("utilisation").is_none() && row.get("within").is_none(), "{row}");
-    assert!(page(&folder).contains("the spec gives no yield strength `fy`"));
+    assert!(page(&folder).contains("the spec gives no yield strength <code>fy</code>"));
 
     let mut spec = beam();
     let girder = spec["girder"].as_object_mut().expect("an object");

@@ -133,3 +133,28 @@ fn wheels_off_their_rail_warn_with_the_time() {
     let all = warned_with(rigid, 1e6, 20.0, 5.0, false, r#", "start": {"y": 1}"#);
     assert_eq!(all, ["truck.wheel1 is off its rail at 11 of 11 output times, first at 0 s"]);
 }
+
+#[test]
+fn wheels_that_are_braked_alone_warn_with_what_applies_a_brake() {
+    let rigid = r#"{"spec": "girder.json", "foundation": "rigid"}"#;
+    let braked = |motion: &str| -> Vec<String> {
+        let folder = folder();
+        fs::write(folder.path().join("girder.json"), GIRDER).expect("written");
+        let scene = format!(
+            r#"{{"format": "girderway-scene/1", "units": {{"length": "ft", "force": "lbf", "time": "s"}}, "gravity": 32.174,
+            "structures": {{"bridge": {rigid}}}, "bodies": {{"car": {{"weight": 1e5, "dof": ["x", "y"], "x0": 10, "v0": 5}}}},
+            "wheels": {{"wheel": {{"radius": 1, "vertical": {{"k": 1e8, "c": 1e5}}, "friction": {{"mu": 0.2, "slip": 0.1}}, "braked": true}}}},
+            "trucks": [{{"name": "truck", "body": "car", "tree": [0], "wheel": "wheel"}}],
+            "motions": [{motion}], "end": {{"time": 0.01}}, "output": {{"dt": 0.001}}}}"#
+        );
+        fs::write(folder.path().join("scene.json"), scene).expect("written");
+        let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        text(&run.stderr).lines().filter(|line| line.contains("braked")).map(str::to_owned).collect()
+    };
+    let alone = braked("");
+    assert_eq!(alone.len(), 1, "{alone:?}");
+    assert!(alone[0].contains(r#"{"brake": "car"}"#), "{alone:?}");
+    assert!(!alone[0].contains("friction"), "the wheels have it: {alone:?}");
+    assert!(braked(r#"{"body": "car", "dof": "x", "kind": "free", "brake": 0.005}"#).is_empty());
+}

@@ -76,6 +76,8 @@ fn reports_are_whole_in_a_browser() {
             assert_eq!(found["failed"], json!([]), "{name} at {width}: scripts");
             assert_eq!(found["overlaps"], json!([]), "{name} at {width}: texts");
             assert_eq!(found["beyond"], json!([]), "{name} at {width}: wider than the page");
+            assert_eq!(found["sideways"], json!([]), "{name} at {width}: pictures that go on to the right");
+            assert_eq!(found["letters"], json!([]), "{name} at {width}: sizes of letters");
             assert_eq!(found["unlabelled"], 0, "{name} at {width}: pictures without a label");
             assert_eq!(found["faint"], json!([]), "{name} at {width}: contrast below 4.5");
             assert!(found["pictures"].as_u64().expect("a number") > 0);

@@ -273,3 +273,27 @@ fn figures_have_values_of_codes_and_the_mean_of_damages_with_its_confidence() {
             .all(|name| listed.contains(name.as_str()))
     );
 }
+
+/// The load of the crane of the runway stands on the floor at the start, and its rails carry a part of the weight: what
+/// they carry later is no multiple of it.
+#[test]
+fn dynamic_factors_are_those_of_rails_that_start_with_their_static_force() {
+    let folder = folder(
+        r#""scene": "crane.json", "axes": {"/end/time": [1, 2]}, "sampling": "grid", "results": ["ratios"]"#,
+    );
+    for name in ["crane.json", "girder.json", "bridge.json"] {
+        fs::copy(example("runway").join(name), folder.path().join(name)).expect("a copy");
+    }
+    make(&folder, &["sweep.json", "-o", "lifted"]);
+    let header = |name: &str| {
+        let text = String::from_utf8(read(&folder, name)).expect("text");
+        text.lines().next().unwrap_or_default().to_owned()
+    };
+    let lifted = header("lifted/results.csv");
+    assert!(lifted.contains("rail_factor") && !lifted.contains("dynamic factor"), "{lifted}");
+    let sweep = r#"{"format": "girderway-sweep/1", "scene": "scene.json", "axes": {"/end/time": [1, 2]}, "sampling": "grid", "results": ["ratios"]}"#;
+    write(&folder, "rolling.json", sweep);
+    make(&folder, &["rolling.json", "-o", "rolling"]);
+    let rolling = header("rolling/results.csv");
+    assert!(rolling.contains("girder.rail.dynamic factor"), "{rolling}");
+}

@@ -5,10 +5,10 @@ use formats::spec::SolveError;
 use formats::text::inputs::Inputs;
 use trains::{GirderResponse, Governing, InfluenceLine, SectionSide, SpanExtreme, Structure, TrainCase};
 
-use crate::error::located;
 use crate::loads::{LoadKind, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes};
 use crate::solve::reactions;
+use crate::solve_error::solve_error;
 use crate::tables::finish;
 use crate::words::{kind_word, plane_word, quantity_word, side_word};
 
@@ -111,15 +111,15 @@ pub fn governing_lines(
     inputs: &Inputs,
     result: &DesignResult,
 ) -> Result<Vec<GoverningLine>, SolveError> {
-    let located = |error: trains::Error| located(&error, design, inputs);
-    let (model, rails) = design.spec.model().map_err(|error| located(error.into()))?;
-    let structure = Structure::new(&model, &rails, false).map_err(located)?;
+    let in_files = |error: trains::Error| solve_error(&error, design, inputs);
+    let (model, rails) = design.spec.model().map_err(|error| in_files(error.into()))?;
+    let structure = Structure::new(&model, &rails, false).map_err(in_files)?;
     let mut out = Vec::new();
     for rail in 0..rails.len() {
         for (quantity, is_max) in SHOWN {
             let Some((case, found)) = governing_extreme(result, rail, quantity, is_max) else { continue };
             let g = &found.governing;
-            let lines = structure.girder_lines(rail, g.x, g.side, quantity).map_err(located)?;
+            let lines = structure.girder_lines(rail, g.x, g.side, quantity).map_err(in_files)?;
             let subject = LineSubject::Girder { rail, span: found.span, quantity };
             out.push(line(design, &structure, (subject, case, found.is_max), g, lines));
         }
@@ -131,7 +131,7 @@ pub fn governing_lines(
         if governing.value == 0.0 {
             continue;
         }
-        let lines = structure.effect_lines(&sums[index]).map_err(located)?;
+        let lines = structure.effect_lines(&sums[index]).map_err(in_files)?;
         let ReactionExtremes { name, .. } = found;
         let subject =
             LineSubject::Reaction { support: name.support.clone(), direction: name.direction.clone() };

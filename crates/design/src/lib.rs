@@ -4,10 +4,10 @@
 //! the positions that govern them, and reactions by load. [`envelope_csv`], [`reactions_csv`] and [`summary`] write
 //! the results as files.
 //!
-//! Wings, lowest first: words, error, loads, outcome, combinations, limits, rounding, placed, state_forces, fibres,
+//! Wings, lowest first: words, solve_error, loads, outcome, combinations, limits, rounding, placed, state_forces, fibres,
 //! girder_sections, stresses, wheel_stresses, end_stops, rail_pairs, details, solve, tables, governing_lines, state_json, detail_rows, summary
 //!
-//! 1. `words`, `error`: names of quantities, members for clauses; why a design has no results;
+//! 1. `words`, `solve_error`: names of quantities, members for clauses; errors with their place in the design's files;
 //! 2. `loads`, `outcome`: trains of a case with its factors; what a calculation gives;
 //! 3. `combinations`, `limits`: cases and limits of codes;
 //! 4. `rounding`: what is only rounding;
@@ -20,7 +20,6 @@ mod combinations;
 mod detail_rows;
 mod details;
 mod end_stops;
-mod error;
 mod fibres;
 mod girder_sections;
 mod governing_lines;
@@ -31,6 +30,7 @@ mod placed;
 mod rail_pairs;
 mod rounding;
 mod solve;
+mod solve_error;
 mod state_forces;
 mod state_json;
 mod stresses;

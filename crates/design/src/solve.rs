@@ -12,11 +12,11 @@ use trains::{DeadLoads, Governing, Request, Structure, TrainCase};
 
 use crate::combinations::groups_left_out;
 use crate::details::Details;
-use crate::error::located;
 use crate::limits::{check_limits, fatigue_loads, left_out};
 use crate::loads::{LoadKind, has, train_case};
 use crate::outcome::{DesignResult, ReactionExtremes, ReactionName, SolvedCase};
 use crate::rounding::Sizes;
+use crate::solve_error::solve_error;
 use crate::words::quantity_word;
 
 /// Parts of each span at whose ends envelopes are listed.
@@ -66,8 +66,8 @@ pub fn solve_on(
     design: &Design,
     inputs: &Inputs,
 ) -> Result<DesignResult, SolveError> {
-    let located = |error: trains::Error| located(&error, design, inputs);
-    let solved = structures.of(design).map_err(located)?;
+    let in_files = |error: trains::Error| solve_error(&error, design, inputs);
+    let solved = structures.of(design).map_err(in_files)?;
     let DesignStructure { model, rails, structure } = &*solved;
     let lateral = design.trains.iter().any(|train| train.has_lateral_forces());
     let between = structure.error_between_ends(lateral);
@@ -94,7 +94,7 @@ pub fn solve_on(
     let request = Request { spans: design.spans.clone(), places: places(design, structure), effects };
     let cases: Vec<TrainCase> =
         design.cases.iter().map(|case| train_case(design, case, LoadKind::All)).collect();
-    let found = trains::envelopes(structure, &dead, &cases, &request).map_err(located)?;
+    let found = trains::envelopes(structure, &dead, &cases, &request).map_err(in_files)?;
     let mut solved = Vec::new();
     let length =
         (0..structure.rail_count()).map(|rail| structure.range(rail)).map(|[a, b]| b - a).fold(0.0, f64::max);
@@ -105,7 +105,7 @@ pub fn solve_on(
         solved.push(SolvedCase {
             name: case.name.clone(),
             reactions: named(&names, all),
-            by_load: by_load(design, case, structure, &names, &reactions).map_err(located)?,
+            by_load: by_load(design, case, structure, &names, &reactions).map_err(in_files)?,
             sections,
             envelopes,
         });
@@ -118,7 +118,7 @@ pub fn solve_on(
             design.spec_file
         ));
     }
-    let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(located)?;
+    let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(in_files)?;
     let mut limits = check_limits(design, &solved);
     limits.extend(details.limits);
     let error_bound = structure.frame().certificate().error_bound;

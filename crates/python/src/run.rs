@@ -77,6 +77,20 @@ impl Run {
         })
     }
 
+    /// Calls `read` as [`Run::with_columns`] does, with the extremes of girders computed; the clock counts the time they take.
+    fn with_girders<R: Send>(
+        &self,
+        py: Python<'_>,
+        read: impl FnOnce(&SceneRun, StageClock) -> R + Send,
+    ) -> R {
+        self.with_columns(py, |run, mut clock| {
+            clock.resume();
+            run.compute_girders(None);
+            clock.prolong();
+            read(run, clock)
+        })
+    }
+
     /// Calls `read` with the run without the values of its columns.
     fn with_run<R: Send>(&self, py: Python<'_>, read: impl FnOnce(&SceneRun) -> R + Send) -> R {
         py.detach(|| read(&self.run.lock().unwrap_or_else(PoisonError::into_inner)))
@@ -125,10 +139,7 @@ impl Run {
 
     /// The contents of `summary.json`.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let summary = self.with_columns(py, |run, _| {
-            run.compute_girders(None);
-            run.summary(&run.comparison(None))
-        });
+        let summary = self.with_girders(py, |run, _| run.summary(&run.comparison(None)));
         python(py, &summary)
     }
 
@@ -145,8 +156,7 @@ impl Run {
 
     /// Warnings and notes, as the command line prints them.
     fn messages<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyList>> {
-        let messages = self.with_columns(py, |run, _| {
-            run.compute_girders(None);
+        let messages = self.with_girders(py, |run, _| {
             let all = warning::messages(&run.cases, &run.document);
             all.iter().map(ToString::to_string).collect::<Vec<_>>()
         });
@@ -155,12 +165,7 @@ impl Run {
 
     /// Writes the files of `girderway run` to a folder.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<PathBuf> {
-        let saved = self.with_columns(py, |run, mut clock| {
-            clock.resume();
-            run.compute_girders(None);
-            clock.prolong();
-            save_run(run, &path, force, None, clock)
-        });
+        let saved = self.with_girders(py, |run, clock| save_run(run, &path, force, None, clock));
         saved.map(|written| written.folder).map_err(|error| Refusal::from(error).exception(py))
     }
 }

@@ -33,7 +33,7 @@ pub mod figures;
 pub mod text;
 
 pub(crate) use document::code::coded;
-pub use document::number::number;
+pub use document::number::{cleared, is_rounding, number};
 pub use document::page::Report;
 pub use document::section::{Fact, Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
 pub use error::Error;

@@ -328,5 +328,25 @@ fn cells_of_wide_tables_name_their_columns() {
         .filter(|(name, _)| name == "div")
         .filter_map(|(_, attributes)| attributes.get("class").map(String::as_str))
         .collect();
-    assert_eq!(classes, ["scroll short", "scroll short", "scroll wide wider"]);
+    assert_eq!(classes, ["scroll short roomy", "scroll short roomy", "scroll roomy wide wider"]);
+}
+
+/// Columns of numbers are aligned, whether they are numbers or their texts; texts with words or units are not. Keys between
+/// backticks have letters of their own. A row that is wider than a page keeps its cells broken.
+#[test]
+fn numbers_are_aligned_and_keys_are_code() {
+    let row = |value: &str, x: &str| vec![TableCell::from(value), TableCell::from(x), TableCell::Empty];
+    let table = ReportTable {
+        caption: String::new(),
+        columns: ["value", "x", "none"].map(|name| TableColumn::new(name, "")).to_vec(),
+        rows: vec![row("12 kN", "\u{2212}3.5"), row("1 kN", "2 \u{d7} 10\u{207b}\u{b9}\u{b2}")],
+    };
+    let long = ReportTable { rows: vec![row(&"long ".repeat(60), "1")], ..table.clone() };
+    let section = ReportSection::new("x").paragraph("Set `fy` <1>.").table(table).table(long);
+    let report = Report { title: "t".into(), subtitle: String::new(), sections: vec![section] };
+    let page = report.html(None).expect("texts");
+    assert!(page.contains("Set <code>fy</code> &lt;1&gt;."), "keys are code");
+    assert_eq!(page.matches("<th scope=\"col\" class=\"number\">x</th>").count(), 2);
+    assert!(!page.contains("class=\"number\">12 kN") && !page.contains("class=\"number\">none"));
+    assert_eq!(page.matches("class=\"scroll short roomy\"").count(), 1, "the long one is not");
 }

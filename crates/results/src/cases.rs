@@ -26,7 +26,7 @@ use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 /// SimulationProgress of a simulation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SimulationProgress<'a> {
-    /// Fraction of all simulated time that is done, 0 to 1.
+    /// Fraction of all simulated time that is done, 0 to 1; that of a case begins again with each trial.
     Fraction(f64),
     /// A run with these foundations begins, as one of several from which "auto" chooses.
     Trial(&'a str),
@@ -100,15 +100,21 @@ pub fn simulate_while(
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
     let members = Arc::new(SolvedMembers::new(known));
     let outcomes = parallel_map(cases, options.threads, |index, case| {
-        let mut watch = |t: f64| {
-            // with "auto" a case is run several times, and its time starts again from zero in each run
-            done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+        let fraction = || {
             let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
             progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)))
         };
+        let mut watch = |t: f64| {
+            // extremes of girders may repeat the run, whose time starts again from zero
+            done[index].fetch_max((1000.0 * t / case.scene.end) as u64, Ordering::Relaxed);
+            fraction()
+        };
         let trial = |trial: &str| {
+            // with "auto" a case is run several times, and each run is a task of its own
+            done[index].store(0, Ordering::Relaxed);
             // the steps of the trial ask again whether to go on
             let _ = progress(SimulationProgress::Trial(trial));
+            let _ = fraction();
         };
         run_case(case, &members, options.girders, &trial, &mut watch)
     });

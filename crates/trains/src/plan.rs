@@ -10,6 +10,8 @@
 //! group is treated by itself. A train may follow several others that do not share rails with each other, and their running
 //! maxima are added; where one is followed by several, positions are counted backwards.
 
+use std::borrow::Cow;
+
 use crate::error::Error;
 use crate::pieces::ResponsePiece;
 use crate::running::{PiecewiseFunction, larger_of, running_maximum, sum_of};
@@ -59,6 +61,8 @@ pub(crate) struct Way {
     /// As a function of the position, and of the position counted backwards where an order needs it.
     function: PiecewiseFunction,
     mirrored: Option<PiecewiseFunction>,
+    /// What the response nowhere exceeds.
+    most: f64,
 }
 
 /// Value, and train, stance and position of each train of a group.
@@ -326,6 +330,10 @@ impl CasePlan {
     /// Takes the best positions in one order and in given ways if they are better.
     fn improve(&self, order: &Order, ways: &[&Way], best: &mut Option<Chain>) {
         let limit = best.as_ref().map_or(f64::NEG_INFINITY, |(value, _)| value + TIE * value.abs());
+        // trains that stood where each likes best would not reach more than the sum
+        if ways.iter().map(|way| way.most).sum::<f64>() <= limit {
+            return;
+        }
         if let Some(found) = self.chain(order, ways, limit) {
             *best = Some(found);
         }
@@ -348,7 +356,8 @@ impl CasePlan {
         let backwards = self.groups.iter().flat_map(|group| &group.orders).any(|order| order.mirrored);
         let way = |(_, stance, function): (bool, usize, PiecewiseFunction)| {
             let mirrored = backwards.then(|| function.mirrored());
-            Way { stance, function, mirrored }
+            let most = function.bound();
+            Way { stance, function, mirrored, most }
         };
         out.into_iter().map(way).filter(|way| !way.function.is_empty()).collect()
     }
@@ -357,12 +366,13 @@ impl CasePlan {
     /// position.
     fn chain(&self, order: &Order, ways: &[&Way], limit: f64) -> Option<Chain> {
         let stances: Vec<usize> = ways.iter().map(|way| way.stance).collect();
-        let mut sums: Vec<PiecewiseFunction> = Vec::with_capacity(ways.len());
+        let mut sums: Vec<Cow<'_, PiecewiseFunction>> = Vec::with_capacity(ways.len());
         for (at, way) in ways.iter().enumerate() {
             let own = if order.mirrored { way.mirrored.as_ref() } else { Some(&way.function) };
-            let mut sum = own.expect("a plan with mirrored orders mirrors every way").clone();
+            let mut sum = Cow::Borrowed(own.expect("a plan with mirrored orders mirrors every way"));
             for &j in &order.before[at] {
-                sum = sum_of(&sum, &running_maximum(&sums[j], self.step(order, &stances, j, at)))?;
+                let before = running_maximum(&sums[j], self.step(order, &stances, j, at));
+                sum = Cow::Owned(sum_of(&sum, &before)?);
             }
             sums.push(sum);
         }

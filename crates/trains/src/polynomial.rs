@@ -5,6 +5,9 @@ const MOST: usize = 6;
 /// Bisections after which a root is as accurate as doubles allow.
 const BISECTIONS: usize = 80;
 
+/// Steps of Newton's method without a bracket.
+const NEWTON: usize = 8;
+
 /// c0 + c1 t + ... of degree at most 6.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Polynomial {
@@ -136,6 +139,20 @@ impl Polynomial {
             let newton = t - value / slope.at(t);
             let next = if newton > a && newton < b { newton } else { 0.5 * (a + b) };
             if (next - t).abs() <= f64::EPSILON * t.abs() {
+                return next;
+            }
+            t = next;
+        }
+        t
+    }
+
+    /// Where some steps of Newton's method lead from a place: near a root, or anywhere.
+    pub fn root_from(&self, start: f64) -> f64 {
+        let slope = self.derivative();
+        let mut t = start;
+        for _ in 0..NEWTON {
+            let next = t - self.at(t) / slope.at(t);
+            if (next - t).abs() <= 1e-15 * t.abs() {
                 return next;
             }
             t = next;

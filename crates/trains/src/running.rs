@@ -6,6 +6,9 @@ use crate::polynomial::Polynomial;
 /// Distances of positions that count as rounding, relative to the positions.
 const ROUNDING: f64 = 1e-13;
 
+/// Half the width of the interval in which bisection follows Newton's method, relative to positions.
+const NARROW: f64 = 1e-13;
+
 /// A function that is cubic between increasing positions and may jump at them, where the larger of both limits counts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct PiecewiseFunction {
@@ -71,6 +74,11 @@ impl Part {
 }
 
 impl PiecewiseFunction {
+    /// A function without pieces, with memory for some.
+    fn with_room(pieces: usize) -> PiecewiseFunction {
+        PiecewiseFunction { pieces: Vec::with_capacity(pieces) }
+    }
+
     /// Adds a piece behind the others.
     pub fn push(&mut self, position: [f64; 2], cubic: Polynomial, stance: usize) {
         self.pieces.push(Part::new(position, cubic, stance));
@@ -85,6 +93,11 @@ impl PiecewiseFunction {
         let part = |piece: &ResponsePiece| Part::new(piece.position, piece.times(sign), stance);
         let kept = pieces.iter().filter(|piece| floor == f64::NEG_INFINITY || piece.bound(sign) >= floor);
         PiecewiseFunction { pieces: kept.map(part).collect() }
+    }
+
+    /// What the function nowhere exceeds: the largest of the bounds of its pieces.
+    pub fn bound(&self) -> f64 {
+        self.pieces.iter().map(|part| part.cubic.bound(part.length())).fold(f64::NEG_INFINITY, f64::max)
     }
 
     /// The largest value, at the first position that has it.
@@ -157,7 +170,7 @@ fn outside(f: &PiecewiseFunction, g: &PiecewiseFunction, out: &mut Vec<Part>) {
 
 /// The larger of two functions; where only one of them is defined, that one.
 pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> PiecewiseFunction {
-    let mut out = PiecewiseFunction::default();
+    let mut out = PiecewiseFunction::with_room(2 * (f.pieces.len() + g.pieces.len()));
     overlaps(f, g, |a, b| {
         let difference = a.cubic.plus(&b.cubic, -1.0);
         let roots = difference.roots(a.length());
@@ -182,7 +195,7 @@ pub(crate) fn larger_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Piecewi
 /// q -> max over p <= q - distance of f(p), for q from the first position of f on; where f is not defined, and beyond its
 /// last position up to infinity, it is constant.
 pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> PiecewiseFunction {
-    let mut out = PiecewiseFunction::default();
+    let mut out = PiecewiseFunction::with_room(3 * f.pieces.len() + 1);
     let mut most = f64::NEG_INFINITY;
     let mut source = Source::default();
     let mut add = |ends: [f64; 2], cubic: Polynomial, source: Source| {
@@ -222,10 +235,11 @@ pub(crate) fn running_maximum(f: &PiecewiseFunction, distance: f64) -> Piecewise
     out
 }
 
-/// Where an increasing stretch of a cubic reaches a level.
+/// Where an increasing stretch of a cubic reaches a level: the first number at which it does. Steps of Newton's method lead
+/// near it and bisection to the number itself.
 fn crossing(cubic: &Polynomial, level: f64, ends: &[f64]) -> f64 {
     let above = cubic.plus(&Polynomial::new(&[level]), -1.0);
-    let (mut a, mut b) = (ends[0], ends[1]);
+    let [mut a, mut b] = around(&above, [ends[0], ends[1]]);
     for _ in 0..100 {
         let middle = 0.5 * (a + b);
         if middle <= a || middle >= b {
@@ -236,10 +250,20 @@ fn crossing(cubic: &Polynomial, level: f64, ends: &[f64]) -> f64 {
     b
 }
 
+/// A narrow interval within `ends` at whose first end a function is negative and at whose last it is not, where `ends` have
+/// that property or nearly so.
+fn around(function: &Polynomial, ends: [f64; 2]) -> [f64; 2] {
+    let near = function.root_from(0.5 * (ends[0] + ends[1]));
+    let width = NARROW * (ends[1].abs() + ends[0].abs());
+    let narrow = [(near - width).max(ends[0]), (near + width).min(ends[1])];
+    let holds = narrow[0] < narrow[1] && function.at(narrow[0]) < 0.0 && function.at(narrow[1]) >= 0.0;
+    if holds { narrow } else { ends }
+}
+
 /// The sum of a function and a running maximum where both are defined, with the stances of the first; `None` where they
 /// nowhere are.
 pub(crate) fn sum_of(f: &PiecewiseFunction, g: &PiecewiseFunction) -> Option<PiecewiseFunction> {
-    let mut out = PiecewiseFunction::default();
+    let mut out = PiecewiseFunction::with_room(f.pieces.len() + g.pieces.len());
     overlaps(f, g, |a, b| {
         let sum = Part { cubic: a.cubic.plus(&b.cubic, 1.0), ..a };
         out.pieces.push(sum.with_source(b.sources[0]));

@@ -27,7 +27,8 @@ macro_rules! files {
 }
 
 const BOGIE: Files = files!("bogie": "scene.json", "spec.json", "printed.adm", "sweep.json");
-const GIRDERWAY: Files = files!("mill_girderway": "scene.json", "spec.json", "design.json");
+const GIRDERWAY: Files =
+    files!("mill_girderway": "scene.json", "spec.json", "design.json", "scatter.json", "sweep.json");
 const CRANE: Files = files!(
     "bridge_crane":
     "scene.json", "aisle.json", "girders.json", "emergency.json", "lifting.json", "drop.json", "buffer.json", "skew.json",

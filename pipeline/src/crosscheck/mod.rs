@@ -6,7 +6,6 @@
 pub mod environment;
 pub mod error;
 pub mod girder;
-pub mod grid;
 pub mod outcome;
 pub mod peer;
 pub mod plot;
@@ -15,9 +14,8 @@ pub mod run;
 pub use environment::Environment;
 pub use error::Error;
 pub use girder::PlainGirder;
-pub use grid::{PlainGrid, Station};
 pub use outcome::{BlockDifference, PeerComparison, PeerOutcome};
-pub use peer::{Peer, PeerAnswer, PeerMeasure};
+pub use peer::{Peer, PeerAnswer, PeerMeasure, PlainGrid, Station};
 pub use run::{again, ask, crosscheck, influence};
 
 #[cfg(test)]

@@ -1,7 +1,6 @@
 //! Results of comparisons with other codes.
 
-use super::grid::{PlainGrid, Station};
-use super::peer::{Peer, PeerMeasure};
+use super::peer::{Peer, PeerMeasure, PlainGrid, Station};
 use formats::grid::block::GridBlock;
 use serde_json::{Value, json};
 use std::fmt::Write as _;

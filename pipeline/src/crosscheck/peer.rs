@@ -2,7 +2,6 @@
 
 use super::environment::{Environment, tail};
 use super::error::Error;
-use super::grid::PlainGrid;
 use fea::BeamTheory;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -18,6 +17,12 @@ const SCRIPTS: [(&str, &str); 5] = [
     ("opensees_frame.py", include_str!("../../../fea/opensees_frame.py")),
     ("pynite_frame.py", include_str!("../../../fea/pynite_frame.py")),
 ];
+
+/// Square matrix of influence coefficients, as the other codes return them; rows are deflections, columns are loads.
+pub type PlainGrid = Vec<Vec<f64>>;
+
+/// Index of the rail and coordinate of a station.
+pub type Station = (usize, f64);
 
 /// An independent code that solves the same structure.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

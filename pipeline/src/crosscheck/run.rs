@@ -3,9 +3,8 @@
 use super::environment::Environment;
 use super::error::Error;
 use super::girder::PlainGirder;
-use super::grid::{PlainGrid, Station};
 use super::outcome::{BlockDifference, PeerOutcome};
-use super::peer::{FLOOR, Peer, PeerAnswer, PeerMeasure};
+use super::peer::{FLOOR, Peer, PeerAnswer, PeerMeasure, PlainGrid, Station};
 use formats::grid::block::GridBlock;
 use serde::Serialize;
 

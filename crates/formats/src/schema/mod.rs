@@ -3,6 +3,7 @@
 //! The schemas describe keys, types, keywords and ranges of single numbers. Dependencies between keys are checked by the
 //! readers only.
 
+mod pointers;
 mod restrictions;
 
 use std::borrow::Cow;
@@ -65,7 +66,16 @@ pub fn sweep() -> Value {
     let has = |key: &str| json!({ "properties": { key: { "type": "string" } }, "required": [key] });
     schema["oneOf"] = json!([has("scene"), has("design")]);
     schema["properties"]["axes"]["minProperties"] = json!(1);
-    schema["properties"]["axes"]["propertyNames"] = json!({ "pattern": "^([^#]*#)?/" });
+    // into the scene or design, or, behind the name of a file, into the spec or grid that it names
+    let of_file = [beam(), grid()].map(|of| pointers::pattern(&of, &[])).join("|");
+    let names = |input: &Value, left_out: &[&str]| {
+        let own = pointers::pattern(input, left_out);
+        json!({ "properties": { "axes": { "propertyNames": { "pattern": format!("^(?:{own}|[^#]+#(?:{of_file}))$") } } } })
+    };
+    schema["allOf"] = json!([
+        { "if": has("scene"), "then": names(&scene(), &["compare"]) },
+        { "if": has("design"), "then": names(&design(), &[]) },
+    ]);
     schema["properties"]["results"]["minItems"] = json!(1);
     schema["properties"]["results"]["uniqueItems"] = json!(true);
     let is_grid = json!({ "properties": { "sampling": { "const": "grid" } } });

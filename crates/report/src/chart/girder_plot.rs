@@ -23,6 +23,8 @@ const MARGIN: f64 = 46.0;
 const DRAWN_DEFLECTION: f64 = 0.07;
 /// Largest height of the frame, in pixels.
 const TALLEST: f64 = 4000.0;
+/// Distance of a label from the arrow of a load, in pixels.
+const ARROW: f64 = 6.0;
 /// Radius of the symbols of stations, in pixels.
 const RADIUS: f64 = 3.4;
 
@@ -202,7 +204,7 @@ impl GirderPlot {
         Ok(PlotArea { left: MARGIN, top, width: WIDTH - 2.0 * MARGIN, height, x, y, is_reversed: [false; 2] })
     }
 
-    /// Draws symbols of the stations, and their coordinates above them where labels do not overlap.
+    /// Draws symbols of the stations, and their coordinates above them where labels overlap neither each other nor loads.
     fn mark_stations(
         &self,
         area: &Area<'_>,
@@ -213,11 +215,13 @@ impl GirderPlot {
         view.draw_series(pairs(&self.stations).map(|at| Symbol::of_series(index, at, RADIUS * FINE)))?;
         let style = font(SMALL, INK, HPos::Center, VPos::Center);
         let mut free = f64::NEG_INFINITY;
+        let arrows: Vec<f64> = self.loads.iter().map(|load| frame.place(*load)[0]).collect();
         for station in &self.stations {
             let [x, y] = frame.place(*station);
             let text = short(station[0]);
             let half = 0.5 * text_width(&text, SMALL);
-            if x - half > free {
+            let is_under_arrow = arrows.iter().any(|arrow| (arrow - x).abs() < half + ARROW);
+            if x - half > free && !is_under_arrow {
                 sheet::text(area, &text, [x, y - 15.0], &style)?;
                 free = x + half + 6.0;
             }

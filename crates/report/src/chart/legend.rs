@@ -66,7 +66,7 @@ impl Legend {
                     line(area, &[[*x, *y], [x + SWATCH, *y]], stroke(colour, 2.0))
                 })?;
             }
-            if self.with_symbols || one.has_symbols() {
+            if self.with_symbols && one.may_have_symbols() || one.has_symbols() {
                 let middle = place([x + 0.5 * SWATCH, *y]);
                 group(area, &class, || Ok(area.draw(&Symbol::of_series(index, middle, RADIUS * FINE))?))?;
             }

@@ -214,7 +214,7 @@ impl Chart {
 
     /// Whether there are more than two curves, so that symbols are needed to distinguish them without colour.
     fn is_crowded(&self) -> bool {
-        self.series.iter().filter(|s| !s.has_symbols()).count() > 2
+        self.series.iter().filter(|s| s.may_have_symbols()).count() > 2
     }
 
     fn inside<'a>(&'a self, frame: &'a PlotArea) -> impl Iterator<Item = &'a SeriesMarker> {
@@ -280,7 +280,7 @@ impl Chart {
             }
             Ok(())
         })?;
-        if self.is_crowded() && !series.has_symbols() {
+        if self.is_crowded() && series.may_have_symbols() {
             let first = FIRST + APART * (index as f64 + 0.5) / self.series.len() as f64;
             clipped(area, &class, frame.around(margin), || {
                 let symbol = move |at: (i32, i32)| Symbol::of_series(index, at, RADIUS * FINE);

@@ -8,7 +8,7 @@ pub enum Style {
     Line,
     /// The same, dashed.
     Dashed,
-    /// The same, dashed and grey, for a limit of the other series.
+    /// The same, dashed and grey, for a limit or an axis of the other series.
     Limit,
     /// A symbol at each point.
     Points,
@@ -61,6 +61,11 @@ impl Series {
     /// Whether every point has a symbol.
     pub(super) fn has_symbols(&self) -> bool {
         matches!(self.style, Style::Points | Style::Marked)
+    }
+
+    /// Whether symbols on its line may tell it from other lines: not where every point has one, and not on a grey limit.
+    pub(super) fn may_have_symbols(&self) -> bool {
+        !self.has_symbols() && self.style != Style::Limit
     }
 
     /// Corners of the curve: those of the stairs for [`Style::Step`], the points otherwise.

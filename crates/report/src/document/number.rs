@@ -1,4 +1,25 @@
-//! Format of numbers in reports.
+//! Format of numbers in reports, and which of them are zero but for rounding.
+
+/// Fraction of the largest magnitude of its kind up to which a value is what rounding has left of zero. Tables have four
+/// digits, so that such a value acts on nothing that they show.
+const ROUNDING: f64 = 1e-9;
+
+/// Whether `value` is zero but for rounding beside `largest`, the largest magnitude of the values of its kind.
+///
+/// ```
+/// assert!(report::is_rounding(-1e-12, 200.0) && report::is_rounding(0.0, 0.0));
+/// assert!(!report::is_rounding(0.001, 200.0));
+/// ```
+#[must_use]
+pub fn is_rounding(value: f64, largest: f64) -> bool {
+    value.abs() <= ROUNDING * largest
+}
+
+/// `value`, or zero where it [is zero but for rounding](is_rounding) beside `largest`.
+#[must_use]
+pub fn cleared(value: f64, largest: f64) -> f64 {
+    if is_rounding(value, largest) { 0.0 } else { value }
+}
 
 /// `value` with at most `digits` significant digits (1 to 17), trailing zeros dropped.
 ///

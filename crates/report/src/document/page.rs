@@ -18,6 +18,10 @@ const DIGITS: usize = 4;
 const WHOLE_DIGITS: usize = 7;
 /// Largest number of rows of a table that is never divided between pages.
 const SHORT: usize = 24;
+/// Mean width of a letter, space beside the text of a cell, and width of a page, in pixels.
+const LETTER: f64 = 7.4;
+const BESIDE: f64 = 26.0;
+const ROOM: f64 = 1340.0;
 /// Numbers of columns above which letters are smaller and much smaller in print, and the number up to which a table stays a table on a
 /// narrow screen.
 const WIDE: usize = 9;
@@ -116,7 +120,7 @@ fn section(
     Ok(html! {
         section id=(format!("section-{}", index + 1)) .ends-page[section.ends_page] {
             h2 { (section.heading) }
-            @for text in &section.paragraphs { p { (text) } }
+            @for text in &section.paragraphs { p { (words(text)) } }
             @if !facts.is_empty() {
                 table.facts {
                     tbody {
@@ -152,12 +156,21 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
         }
         rows.push(texts);
     }
-    // headers of numeric columns are aligned with their numbers
-    let numeric = |i: usize| table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
+    // numbers and the headers of their columns are aligned; a text column is numeric where all its texts are numbers
+    let is_text_of_numbers = |i: usize| {
+        let mut texts = table.rows.iter().filter(|row| row[i] != TableCell::Empty).peekable();
+        texts.peek().is_some()
+            && texts.all(|row| match &row[i] {
+                TableCell::Text(text) => is_numeral(text),
+                _ => false,
+            })
+    };
+    let aligned: Vec<bool> = (0..table.columns.len()).map(is_text_of_numbers).collect();
+    let numeric = |i: usize| aligned[i] || table.rows.iter().any(|r| matches!(r[i], TableCell::Number(_)));
     let is_stacked = table.columns.len() > NARROW;
     let is_short = table.rows.len() <= SHORT;
     Ok(html! {
-        div.scroll .short[is_short] .wide[table.columns.len() > WIDE] .wider[table.columns.len() > WIDER] {
+        div.scroll .short[is_short] .roomy[is_roomy(table)] .wide[table.columns.len() > WIDE] .wider[table.columns.len() > WIDER] {
             table .stacked[is_stacked] .lead[is_stacked && table.columns[0].name.is_empty()] style=[is_stacked.then(|| column_names(&table.columns))] {
                 caption { b { "Table " (running) ". " } (table.caption) }
                 thead {
@@ -173,8 +186,8 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
                 tbody {
                     @for row in &rows {
                         tr {
-                            @for (number, text) in row {
-                                td class=[number.then_some("number")] { (text) }
+                            @for ((number, text), aligned) in row.iter().zip(&aligned) {
+                                td class=[(*number || *aligned).then_some("number")] { (text) }
                             }
                         }
                     }
@@ -182,6 +195,41 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
             }
         }
     })
+}
+
+/// Whether every text of a table has room in one line beside the others, on a page of full width.
+fn is_roomy(table: &ReportTable) -> bool {
+    let length = |text: &str| text.chars().count();
+    let of_cell = |cell: &TableCell| match cell {
+        TableCell::Empty => 0,
+        TableCell::Text(text) => length(text),
+        TableCell::Number(_) => DIGITS + 3,
+    };
+    let width = |i: usize, column: &TableColumn| {
+        let header = column.name.split(' ').map(length).max().unwrap_or_default();
+        let most = table.rows.iter().map(|row| of_cell(&row[i])).fold(header, usize::max);
+        LETTER * most as f64 + BESIDE
+    };
+    table.columns.iter().enumerate().map(|(i, column)| width(i, column)).sum::<f64>() < ROOM
+}
+
+/// Whether a text is a number as [`number`] writes it.
+fn is_numeral(text: &str) -> bool {
+    let is_of_number = |c: char| {
+        c.is_ascii_digit() || ".\u{2212}\u{202f} \u{d7}\u{207b}\u{2070}\u{b9}\u{b2}\u{b3}".contains(c)
+    };
+    let is_raised = |c: char| ('\u{2074}'..='\u{2079}').contains(&c);
+    text.starts_with(|c: char| c.is_ascii_digit() || c == '\u{2212}')
+        && text.chars().all(|c| is_of_number(c) || is_raised(c))
+}
+
+/// A text in which names of files and keys stand between backticks.
+fn words(text: &str) -> Markup {
+    html! {
+        @for (i, part) in text.split('`').enumerate() {
+            @if i % 2 == 1 { code { (part) } } @else { (part) }
+        }
+    }
 }
 
 fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Result<Markup, Error> {

@@ -159,7 +159,8 @@ function liveChart(box, number) {
   const legend = element("div", { className: "legend" });
   const keys = chart.series.map((series, index) => {
     const swatch = element("span", { className: "swatch" });
-    swatch.style.borderTop = `3px ${series.dash ? "dashed" : "solid"} ${series.colour}`;
+    if (series.apart) Object.assign(swatch.style, { width: "0.6rem", height: "0.6rem", borderRadius: "50%", background: series.colour });
+    else swatch.style.borderTop = `3px ${series.dash ? "dashed" : "solid"} ${series.colour}`;
     const key = element("button", { type: "button" }, swatch, series.label);
     key.addEventListener("click", () => toggle(index));
     legend.append(key);
@@ -348,16 +349,58 @@ function liveChart(box, number) {
   return show;
 }
 
+// A picture as wide as a narrow screen: letters as large as on a wide one where they have room; those that would cover others
+// are left out, except where a picture has many, which then goes on to the right.
+const LETTERS = 10, CROWD = 0.4, FEW = 2;
+function fitted(box) {
+  const svg = box.querySelector("svg"), texts = [...svg.querySelectorAll("text")];
+  const plain = texts.map((text) => text.getAttribute("font-size"));
+  const restore = () => texts.forEach((text, index) => {
+    if (plain[index] !== null) text.setAttribute("font-size", plain[index]);
+    text.style.display = "";
+  });
+  box.restoreLetters = restore;
+  const covers = (a, b) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > 1 && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > 0.25 * Math.min(a.height, b.height);
+  return () => {
+    box.classList.remove("fitted");
+    restore();
+    if (box.clientWidth === 0 || box.clientWidth >= NARROW) return;
+    box.classList.add("fitted");
+    texts.forEach((text, index) => {
+      const { a, b } = text.getScreenCTM();
+      text.setAttribute("font-size", Math.max(Number(plain[index]), LETTERS / Math.hypot(a, b)));
+    });
+    const room = svg.getBoundingClientRect(), kept = [];
+    let left = 0;
+    for (const text of texts) {
+      const own = text.getBoundingClientRect();
+      const isOutside = own.left < room.left - 1 || own.right > room.right + 1;
+      if (isOutside || kept.some((other) => covers(own, other))) { text.style.display = "none"; left++; } else kept.push(own);
+    }
+    // a reading of a moving view without its value is none
+    const most = box.classList.contains("animation") ? FEW : Math.max(FEW, CROWD * texts.length);
+    if (left > most) { box.classList.remove("fitted"); restore(); }
+  };
+}
+
 const charts = [];
 document.querySelectorAll("figure").forEach((figure, index) => {
   const box = figure.querySelector(".picture");
   if (box.classList.contains("chart")) charts.push(liveChart(box, index + 1));
   else if (!box.classList.contains("animation")) {
     const picture = element("button", { type: "button", textContent: "Picture (SVG)" });
-    picture.addEventListener("click", () => saveSvg(box.querySelector("svg"), `${NAME}-figure-${index + 1}.svg`));
+    picture.addEventListener("click", () => {
+      box.restoreLetters();
+      saveSvg(box.querySelector("svg"), `${NAME}-figure-${index + 1}.svg`);
+      charts.forEach((show) => show());
+    });
     box.after(element("div", { className: "tools" }, picture));
   }
+  if (!box.classList.contains("chart")) charts.push(fitted(box));
 });
+charts.forEach((show) => show());
+addEventListener("beforeprint", () => document.querySelectorAll(".fitted").forEach((box) => box.restoreLetters()));
+addEventListener("afterprint", () => charts.forEach((show) => show()));
 let waiting = 0;
 addEventListener("resize", () => {
   clearTimeout(waiting);

@@ -57,6 +57,11 @@ pub(crate) fn unit_of(units: Units, quantity: GirderResponse) -> (String, f64) {
     }
 }
 
+/// Points (x, y) with y in another unit.
+pub(crate) fn scaled(points: Vec<[f64; 2]>, factor: f64) -> Vec<[f64; 2]> {
+    points.into_iter().map(|[x, y]| [x, factor * y]).collect()
+}
+
 /// A value and its unit, which stay on one line.
 pub(crate) fn with_unit(value: &str, unit: &str) -> String {
     format!("{value}\u{a0}{}", unit.replace(' ', "\u{a0}"))
@@ -74,6 +79,29 @@ pub(crate) const fn side_phrase(side: SectionSide) -> &'static str {
         SectionSide::At => "",
         SectionSide::Behind => "just behind",
     }
+}
+
+/// A quantity without its plane, as sentences and axes name it.
+fn force_word(quantity: GirderResponse) -> &'static str {
+    match quantity {
+        GirderResponse::Normal => "normal force",
+        GirderResponse::VerticalShear | GirderResponse::LateralShear => "shear force",
+        other => quantity_word(other),
+    }
+}
+
+/// A quantity as sentences and tables name it, such as `vertical shear force`; normal forces and torsion have no plane.
+pub(crate) fn quantity_phrase(quantity: GirderResponse) -> String {
+    let word = force_word(quantity);
+    match quantity {
+        GirderResponse::Normal | GirderResponse::Torsion => word.to_owned(),
+        _ => format!("{} {word}", plane_word(quantity)),
+    }
+}
+
+/// A rail in a sentence: that of the short form has no name of its own.
+pub(crate) fn rail_phrase(name: &str) -> String {
+    if name == "rail" { "the rail".to_owned() } else { format!("rail {name}") }
 }
 
 /// Positions of the trains of a state, turned ones marked.
@@ -115,12 +143,11 @@ pub(crate) fn envelope_charts(
         if largest.iter().chain(&smallest).all(|point| point[1] == 0.0) {
             continue;
         }
-        let word = quantity_word(quantity);
-        let is_torsion = matches!(quantity, GirderResponse::Normal | GirderResponse::Torsion);
-        let name = if is_torsion { word.to_owned() } else { format!("{} {word}", plane_word(quantity)) };
-        let title = format!("Envelope of {name}, case {}, rail {}", case + 1, design.spec.rails()[rail].name);
+        let name = quantity_phrase(quantity);
+        let on = rail_phrase(&design.spec.rails()[rail].name);
+        let title = format!("Envelope of {name}, case {}, {on}", case + 1);
         let length = design.units.label(Dimension::LENGTH);
-        let mut y = ChartAxis::new(word, &unit);
+        let mut y = ChartAxis::new(force_word(quantity), &unit);
         // Sagging moments and deflections are drawn downwards, as engineers draw them.
         if matches!(quantity, GirderResponse::VerticalMoment | GirderResponse::VerticalDeflection) {
             y = y.downwards();

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::design::{deflection_unit, digits, reading_unit, unit_of};
+use super::design::{deflection_unit, digits, rail_phrase, reading_unit, unit_of};
 use super::rail_sketch::{FINE, INK, RailSketch, SECTION, WHEEL, WIDTH, placed_texts, write_text};
 use crate::chart::{Svg, stack};
 use ::design::{GoverningLine, LineSubject};
@@ -33,8 +33,8 @@ pub(crate) fn subject_words(design: &Design, line: &GoverningLine) -> String {
                 (_, true) => "largest deflection downwards",
                 (_, false) => "largest deflection upwards",
             };
-            let name = &design.spec.rails()[*rail].name;
-            format!("{word} under rail {name}, span {span}, x = {}", digits(line.governing.x, 4))
+            let name = rail_phrase(&design.spec.rails()[*rail].name);
+            format!("{word} under {name}, span {span}, x = {}", digits(line.governing.x, 4))
         }
         LineSubject::Reaction { support, .. } => {
             let word = if line.is_max { "largest" } else { "smallest" };

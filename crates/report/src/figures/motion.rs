@@ -1,7 +1,9 @@
 //! Charts of the motion: paths, positions and speeds of bodies, forces of wheels, sliding and rolling.
 
+use super::design::{column_unit, reading_unit, scaled};
 use super::run_figure::{LabelledRun, RunFigure};
 use crate::chart::{Chart, ChartAxis, Series, Style};
+use crate::is_rounding;
 use formats::scene::Body;
 use formats::scene::motion::{NamedWheel, SimulationInput};
 use formats::units::Dimension;
@@ -9,22 +11,28 @@ use formats::units::Dimension;
 /// Largest number of wheels in a chart of lateral forces or traction.
 const WHEELS: usize = 6;
 
+/// Largest number of wheels in the chart of vertical forces.
+const VERTICAL_WHEELS: usize = 8;
+
 /// Charts of the path of every body along its rail, with all runs in each chart.
 #[must_use]
 pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     let scene = runs[0].scene;
-    let unit = scene.units.label(Dimension::LENGTH);
+    let length = scene.units.label(Dimension::LENGTH);
     let mut figures = Vec::new();
     for body in scene.bodies.iter().filter(|body| !body.in_space) {
+        let values = runs.iter().flat_map(|run| run.record.part(&body.name, "deflection"));
+        let largest = values.fold(0.0_f64, |most, value| most.max(value.abs()));
+        let (unit, factor) = column_unit(scene.units, Dimension::LENGTH, largest);
         let mut chart = Chart::new(
             format!("Path of {}", body.name),
-            ChartAxis::new("position along the rail", &unit),
+            ChartAxis::new("position along the rail", &length),
             ChartAxis::new("deflection", &unit).downwards(),
         );
         for (index, run) in runs.iter().enumerate() {
             let points = run.record.points(&format!("{}.x", body.name), &format!("{}.deflection", body.name));
             let style = if index == 0 { Style::Line } else { Style::Dashed };
-            chart = chart.with(Series::new(&run.label, style, points));
+            chart = chart.with(Series::new(&run.label, style, scaled(points, factor)));
         }
         let caption =
             format!("Deflection of {} below the unloaded rail, over its position along the rail.", body.name);
@@ -73,58 +81,63 @@ pub fn travel(run: &LabelledRun, events: &[(f64, &str)]) -> Vec<RunFigure> {
 /// Charts of the wheel forces, and of sliding and rolling of the wheels that spin.
 #[must_use]
 pub fn wheels(run: &LabelledRun, input: &SimulationInput) -> Vec<RunFigure> {
-    let units = run.scene.units;
-    let time = || ChartAxis::new("time", "s");
-    let mut forces =
-        Chart::new("Wheel forces", time(), ChartAxis::new("vertical force", units.label(Dimension::FORCE)));
-    for (index, wheel) in input.wheels.iter().enumerate() {
-        let name = &wheel.name;
-        let style = Style::alternating(index);
-        forces =
-            forces.with(Series::new(name, style, run.record.points("time", &format!("{name}.vertical"))));
-    }
-    let caption = format!("Vertical force of each wheel on its rail ({}).", run.label);
-    let mut figures = vec![RunFigure::chart("wheel-forces", caption, forces)];
-    figures.extend(horizontal(run, input, "lateral", ["Lateral forces of the wheels", "lateral force"]));
-    figures.extend(horizontal(run, input, "traction", ["Traction of the wheels", "traction"]));
+    let mut figures = Vec::new();
+    figures.extend(forces(run, input, "vertical", ["Wheel forces", "vertical force"]));
+    figures.extend(forces(run, input, "lateral", ["Lateral forces of the wheels", "lateral force"]));
+    figures.extend(forces(run, input, "traction", ["Traction of the wheels", "traction"]));
     for wheel in input.wheels.iter().filter(|wheel| wheel.spins) {
         figures.extend(rolling(run, wheel));
     }
     figures
 }
 
-/// Chart of one horizontal force, the `part` of a wheel, for the wheels with the largest ones; `None` if all are
-/// zero.
-fn horizontal(
+/// Chart of one force, the `part` of a wheel, for the wheels with the largest ones; of wheels with equal forces, such as
+/// those under one equaliser, the first is drawn. `None` if a horizontal force is zero at all wheels.
+fn forces(
     run: &LabelledRun,
     input: &SimulationInput,
     part: &str,
     [title, quantity]: [&str; 2],
 ) -> Option<RunFigure> {
-    let largest = |wheel: &NamedWheel| {
-        run.record.part(&wheel.name, part).iter().fold(0.0_f64, |most, force| most.max(force.abs()))
-    };
-    let mut own: Vec<(usize, f64)> = input
-        .wheels
-        .iter()
-        .enumerate()
-        .map(|(w, wheel)| (w, largest(wheel)))
-        .filter(|(_, force)| *force > 0.0)
-        .collect();
-    own.sort_by(|a, b| b.1.total_cmp(&a.1));
-    let all = own.len();
-    own.truncate(WHEELS);
-    own.sort_by_key(|(w, _)| *w);
-    let axis = ChartAxis::new(quantity, run.scene.units.label(Dimension::FORCE));
-    let mut chart = Chart::new(title, ChartAxis::new("time", "s"), axis);
-    for (index, (w, _)) in own.iter().enumerate() {
-        let name = &input.wheels[*w].name;
-        let style = Style::alternating(index);
-        chart = chart.with(Series::new(name, style, run.record.points("time", &format!("{name}.{part}"))));
+    let values = |wheel: &NamedWheel| run.record.part(&wheel.name, part);
+    let largest =
+        |wheel: &NamedWheel| values(wheel).iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+    let is_vertical = part == "vertical";
+    let acting: Vec<&NamedWheel> =
+        input.wheels.iter().filter(|wheel| is_vertical || largest(wheel) > 0.0).collect();
+    let mut own: Vec<(usize, f64)> = Vec::new();
+    for (w, wheel) in acting.iter().enumerate() {
+        let most = largest(wheel);
+        let is_equal = |(other, _): &(usize, f64)| {
+            let pairs = values(acting[*other]).iter().zip(values(wheel));
+            pairs.into_iter().all(|(a, b)| is_rounding(a - b, most))
+        };
+        if !own.iter().any(is_equal) {
+            own.push((w, most));
+        }
     }
-    let few = if all > WHEELS { format!(", the {WHEELS} largest of {all}") } else { String::new() };
-    let caption = format!("{title} on their rails{few} ({}).", run.label);
-    (all > 0).then(|| RunFigure::chart(format!("wheel-{part}"), caption, chart))
+    let different = own.len();
+    let count = if is_vertical { VERTICAL_WHEELS } else { WHEELS };
+    own.sort_by(|a, b| b.1.total_cmp(&a.1));
+    own.truncate(count);
+    own.sort_by_key(|(w, _)| *w);
+    let (unit, factor) = reading_unit(run.scene.units, Dimension::FORCE);
+    let mut chart = Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(quantity, unit));
+    for (index, (w, _)) in own.iter().enumerate() {
+        let name = &acting[*w].name;
+        let style = Style::alternating(index);
+        let points = run.record.points("time", &format!("{name}.{part}"));
+        chart = chart.with(Series::new(name, style, scaled(points, factor)));
+    }
+    let few = match (different < acting.len(), different > count) {
+        (_, true) => format!(", the {count} largest of {}", acting.len()),
+        (true, false) => ", one of those with equal forces".to_owned(),
+        (false, false) => String::new(),
+    };
+    let what = if is_vertical { "Vertical forces of the wheels" } else { title };
+    let caption = format!("{what} on their rails{few} ({}).", run.label);
+    let name = if is_vertical { "wheel-forces".to_owned() } else { format!("wheel-{part}") };
+    (!acting.is_empty()).then(|| RunFigure::chart(name, caption, chart))
 }
 
 /// Charts of the speeds of hub and rim, and of the path of a point on the rim.

@@ -1,6 +1,7 @@
 //! Sums of wheel forces on each rail, compared between runs.
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
+use crate::figures::design::{reading_unit, scaled};
 use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::number;
 use formats::scene::Scene;
@@ -39,7 +40,7 @@ fn chart(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
     if runs.iter().all(|run| zero(run.record)) {
         return None;
     }
-    let unit = scene.units.label(Dimension::FORCE);
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     let title = format!("Sum of {word} wheel forces on {rail}");
     let mut chart =
         Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(format!("{word} force"), &unit));
@@ -47,13 +48,13 @@ fn chart(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
     let figures = comparison.of(column).unwrap_or_default();
     for (index, run) in runs.iter().enumerate() {
         let style = if index == 0 { Style::Line } else { Style::Dashed };
-        chart = chart.with(Series::new(&run.label, style, run.record.points("time", column)));
+        chart = chart.with(Series::new(&run.label, style, scaled(run.record.points("time", column), factor)));
         let Some(found) = figures.get(index).and_then(Option::as_ref) else { continue };
         if runs.len() > NOTED && index > 0 {
             continue;
         }
         chart = chart.mark(found.peak.time, format!("peak, {}", run.label));
-        notes.push(line(&run.label, found, &unit));
+        notes.push(line(&run.label, found, (&unit, factor)));
     }
     chart.note = notes.join(" ");
     let whose = if runs.len() > NOTED { ", here of the first run," } else { "" };
@@ -64,8 +65,8 @@ fn chart(scene: &Scene, column: &str, runs: &[LabelledRun], comparison: &RunComp
     Some(RunFigure::chart(format!("rail-{rail}-{word}"), caption, chart))
 }
 
-/// Text with the statistics of one run.
-fn line(label: &str, found: &ColumnStatistics, unit: &str) -> String {
+/// Text with the statistics of one run, in a unit with its factor.
+fn line(label: &str, found: &ColumnStatistics, (unit, factor): (&str, f64)) -> String {
     let text = |value: f64| number(value, 4).unwrap_or_default();
     let hertz = found.hertz().map_or_else(String::new, |hertz| format!(", {} Hz", text(hertz)));
     // a band of 5 % about a mean of zero has no width
@@ -73,10 +74,10 @@ fn line(label: &str, found: &ColumnStatistics, unit: &str) -> String {
     let times = if swings { format!(", {} excursions", found.excursions) } else { String::new() };
     format!(
         "{label}: mean {} {unit}, largest {} at {} s, smallest {} at {} s{times}{hertz}.",
-        text(found.settled),
-        text(found.peak.value),
+        text(factor * found.settled),
+        text(factor * found.peak.value),
         text(found.peak.time),
-        text(found.least.value),
+        text(factor * found.least.value),
         text(found.least.time),
     )
 }

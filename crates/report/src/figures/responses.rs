@@ -3,7 +3,9 @@
 use splines::{Axis as Direction, Probe};
 
 use crate::chart::{Chart, ChartAxis, Series, Style};
+use crate::figures::design::{column_unit, digits, reading_unit, scaled, with_unit};
 use crate::figures::run_figure::{LabelledRun, RunFigure};
+use crate::is_rounding;
 use formats::scene::columns::{Column, Direction as Toward, Kind};
 use formats::scene::{Origin, Scene};
 use formats::units::Dimension;
@@ -15,10 +17,10 @@ use trains::GirderResponse;
 const CURVES: usize = 8;
 /// Largest number of reactions of one direction that are compared between runs.
 const SHOWN: usize = 2;
-/// Fraction of the largest reaction below which a reaction is treated as rounding error.
-const NEGLIGIBLE: f64 = 1e-9;
 /// Fraction of the largest reaction of a direction below which a reaction is not compared between runs.
 const COMPARED: f64 = 1e-3;
+/// Significant digits of values in notes.
+const DIGITS: usize = 4;
 /// Number of points at which an influence line is evaluated.
 const SAMPLES: usize = 241;
 
@@ -76,7 +78,7 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
             .filter(|column| is_ground(column))
             .filter(|column| column.direction == Some(toward))
             .map(|column| (largest_magnitude(run.record.values(&column.name)), column))
-            .filter(|(magnitude, _)| *magnitude > NEGLIGIBLE * most)
+            .filter(|(magnitude, _)| !is_rounding(*magnitude, most))
             .collect();
         // largest first, in a stable order
         own.sort_by(|a, b| b.0.total_cmp(&a.0));
@@ -103,10 +105,11 @@ fn reactions(runs: &[LabelledRun], run: &LabelledRun, response: &Response) -> Ve
 /// The largest reactions of one direction over time.
 fn largest_reactions(run: &LabelledRun, shown: &[&Column], word: &str, few: &str) -> RunFigure {
     let title = format!("Reactions of the ground, {word}");
-    let mut chart = over_time(run.scene, &title, Dimension::FORCE);
+    let (mut chart, factor) = over_time(run.scene, &title, Dimension::FORCE);
     for (index, column) in shown.iter().enumerate() {
         let style = Style::alternating(index);
-        chart = chart.with(Series::new(&column.name, style, run.record.points("time", &column.name)));
+        let points = scaled(run.record.points("time", &column.name), factor);
+        chart = chart.with(Series::new(&column.name, style, points));
     }
     let caption = format!("Reactions over time, {word}{few} ({}); positive along their axes.", run.label);
     RunFigure::chart(format!("reactions-{word}"), caption, chart)
@@ -114,14 +117,14 @@ fn largest_reactions(run: &LabelledRun, shown: &[&Column], word: &str, few: &str
 
 /// One reaction over time in every run.
 fn compared(runs: &[LabelledRun], scene: &Scene, column: &Column) -> RunFigure {
-    let mut chart = over_time(scene, &format!("{} in all runs", column.name), column.dimension);
+    let (mut chart, factor) = over_time(scene, &format!("{} in all runs", column.name), column.dimension);
     for (index, other) in runs.iter().enumerate() {
         let points = other.record.points("time", &column.name);
         if points.is_empty() {
             continue;
         }
         let style = if index == 0 { Style::Line } else { Style::Dashed };
-        chart = chart.with(Series::new(&other.label, style, points));
+        chart = chart.with(Series::new(&other.label, style, scaled(points, factor)));
     }
     let caption = format!("The reaction {} over time in every run.", column.name);
     RunFigure::chart(format!("reaction-{}", column.name), caption, chart)
@@ -186,16 +189,17 @@ fn moment_envelope(
     supports: &[f64],
 ) -> RunFigure {
     let units = run.scene.units;
+    let (unit, factor) = reading_unit(units, Dimension::MOMENT);
     let ends = [largest.first(), largest.last()].map(|point| point.map_or([0.0; 2], |point| [point[0], 0.0]));
     let chart = Chart::new(
         format!("Bending moments under {rail}"),
         ChartAxis::new("position along the rail", units.label(Dimension::LENGTH)),
-        ChartAxis::new("moment, sagging positive", units.label(Dimension::MOMENT)).downwards(),
+        ChartAxis::new("moment, sagging positive", unit).downwards(),
     )
-    .with(Series::new("girder", Style::Dashed, ends.to_vec()))
-    .with(Series::new("largest", Style::Line, largest))
-    .with(Series::new("smallest", Style::Line, smallest))
-    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
+    .with(Series::new("largest", Style::Line, scaled(largest, factor)))
+    .with(Series::new("smallest", Style::Line, scaled(smallest, factor)))
+    .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()))
+    .with(Series::new("girder", Style::Limit, ends.to_vec()));
     let dead = if run.scene.output.dead_load { "with" } else { "without" };
     let caption = format!(
         "Envelope of the bending moments of the members under {rail} over the run, {dead} dead load ({}).",
@@ -224,19 +228,17 @@ fn influence(
         ChartAxis::new("position of the wheel along the rail", scene.units.label(Dimension::LENGTH)),
         ChartAxis::new("per unit wheel load", own).downwards(),
     )
-    .with(Series::new("girder", Style::Dashed, ends.to_vec()))
     .with(Series::new("influence line", Style::Line, points))
+    .with(Series::new("girder", Style::Limit, ends.to_vec()))
     .with(Series::new("supports", Style::Points, supports.iter().map(|x| [*x, 0.0]).collect()));
     let mut caption =
         format!("{} per unit load of a wheel on {rail}, over the position of the wheel.", column.name);
     if let Some(envelope) = response.envelopes.iter().find(|envelope| envelope.column == column.name) {
-        let unit = scene.units.label(column.dimension);
+        let most = envelope.max.value.abs().max(envelope.min.value.abs());
+        let (unit, factor) = column_unit(scene.units, column.dimension, most);
         let text = |extreme: &results::response::ColumnExtreme| {
-            format!(
-                "{} {unit} at t = {:.3} s",
-                crate::number(extreme.value, 5).unwrap_or_default(),
-                extreme.time
-            )
+            let value = with_unit(&digits(factor * extreme.value, DIGITS), &unit);
+            format!("{value} at t = {} s", digits(extreme.time, DIGITS))
         };
         chart.note = format!("In this run: max {}; min {}.", text(&envelope.max), text(&envelope.min));
         caption.push_str(" The extremes of the run are stated below the chart.");
@@ -244,10 +246,11 @@ fn influence(
     RunFigure::chart(format!("influence-{}-{rail}", column.name), caption, chart)
 }
 
-/// An empty chart over time.
-fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> Chart {
+/// An empty chart over time, and the factor of its values from the units of the scene.
+fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> (Chart, f64) {
     let what = if dimension == Dimension::MOMENT { "moment" } else { "force" };
-    Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(what, scene.units.label(dimension)))
+    let (unit, factor) = reading_unit(scene.units, dimension);
+    (Chart::new(title, ChartAxis::new("time", "s"), ChartAxis::new(what, unit)), factor)
 }
 
 fn largest_magnitude(values: &[f64]) -> f64 {

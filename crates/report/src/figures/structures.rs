@@ -48,8 +48,12 @@ pub fn influence(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<R
         figures.push(RunFigure::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
         let Some(surface) = &solved.surface else { continue };
         let Some([from, to]) = surface.range(0) else { continue };
-        let places: Vec<f64> =
-            (0..SAMPLES).map(|i| from + (to - from) * i as f64 / (SAMPLES - 1) as f64).collect();
+        let even = (0..SAMPLES).map(|i| from + (to - from) * i as f64 / (SAMPLES - 1) as f64);
+        // the surface is zero along supports, where its contours are to end
+        let mut places: Vec<f64> = even.chain(supports.iter().copied()).collect();
+        places.retain(|x| (from..=to).contains(x));
+        places.sort_by(f64::total_cmp);
+        places.dedup_by(|b, a| *b - *a <= 1e-9 * (to - from));
         let dense = dense(surface, axis, &places)?;
         let smooth = SurfacePlot {
             title: format!("{name}: {word} influence surface"),

@@ -7,8 +7,9 @@ use crate::chart::{Chart, ChartAxis, Series, Style};
 use crate::figures::design::digits;
 use crate::figures::run_figure::RunFigure;
 
-/// Results with figures.
+/// Results with figures, and most of them with values of codes or damages as long as others are left.
 const FIGURES: usize = 6;
+const OF_A_KIND: usize = 3;
 
 /// Fewest values of a lone axis of a grid that are joined by a line.
 const LINE: usize = 3;
@@ -140,20 +141,27 @@ impl<'t> SweptResult<'t> {
 
 /// The results of a sweep and their figures.
 pub struct SweepFigures<'t> {
-    pub(crate) results: Vec<SweptResult<'t>>,
+    /// The results that vary: those for which codes have values, damages, and the others.
+    pub(crate) varying: Vec<SweptResult<'t>>,
+    /// How many results do not vary.
+    pub(crate) constant: usize,
     /// The figures, in the order of the report.
     pub figures: Vec<RunFigure>,
 }
 
 impl<'t> SweepFigures<'t> {
-    /// The figures of the first results that vary: those for which codes have values, damages, and the others.
+    /// The figures of the first results that vary: three for which codes have values, three damages, and more where these
+    /// are fewer.
     #[must_use]
     pub fn new(info: &SweepInfo, table: &'t ResultTable) -> SweepFigures<'t> {
-        let mut results = SweptResult::all(info, table);
-        results.sort_by_key(SweptResult::order);
+        let all = SweptResult::all(info, table);
+        let count = all.len();
+        let mut varying: Vec<SweptResult<'t>> = all.into_iter().filter(SweptResult::varies).collect();
+        varying.sort_by_key(SweptResult::order);
+        let constant = count - varying.len();
         let is_line = info.axes.len() == 1 && info.sampling == "grid" && table.rows.len() >= LINE;
         let mut figures = Vec::new();
-        for (index, result) in results.iter().filter(|result| result.varies()).take(FIGURES).enumerate() {
+        for (index, result) in shown(&varying).into_iter().enumerate() {
             let mut add = |kind: &str, (chart, caption): (Chart, String)| {
                 figures.push(RunFigure::chart(format!("{kind}-{}", index + 1), caption, chart));
             };
@@ -169,8 +177,25 @@ impl<'t> SweepFigures<'t> {
                 add("dependence", chart);
             }
         }
-        SweepFigures { results, figures }
+        SweepFigures { varying, constant, figures }
     }
+}
+
+/// The results with figures, in their order: of each kind some, then what there is room for.
+fn shown<'a, 't>(varying: &'a [SweptResult<'t>]) -> Vec<&'a SweptResult<'t>> {
+    let mut rank = std::collections::BTreeMap::new();
+    let mut ordered: Vec<(bool, usize)> = Vec::with_capacity(varying.len());
+    for (index, result) in varying.iter().enumerate() {
+        let kind = if result.codes.is_empty() && result.is_damage() { 1 } else { result.order() };
+        let before = rank.entry(kind).or_insert(0_usize);
+        ordered.push((*before >= OF_A_KIND, index));
+        *before += 1;
+    }
+    ordered.sort_unstable();
+    ordered.truncate(FIGURES);
+    let mut chosen: Vec<usize> = ordered.into_iter().map(|(_, index)| index).collect();
+    chosen.sort_unstable();
+    chosen.into_iter().map(|index| &varying[index]).collect()
 }
 
 /// Beginnings of the names of the figures of a sweep.

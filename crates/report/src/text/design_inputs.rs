@@ -1,6 +1,6 @@
 //! The inputs of a design as given: spans, dead load, trains, cases.
 
-use crate::figures::design::digits;
+use crate::figures::design::{digits, rail_phrase};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 use formats::design::{Design, DesignTrain};
 use formats::units::Dimension;
@@ -16,7 +16,8 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
     let rails = design.spec.rails();
     for (rail, spans) in rails.iter().zip(&design.spans) {
         let text: Vec<String> = spans.iter().map(|x| digits(*x, DIGITS)).collect();
-        section = section.fact(format!("rail {}: spans between", rail.name), text.join(", "), &length);
+        section =
+            section.fact(format!("{}: spans between", rail_phrase(&rail.name)), text.join(", "), &length);
     }
     let gravity = design.dead.gravity;
     let weight = if gravity > 0.0 {
@@ -27,7 +28,7 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
     section = section.fact("weight of the structure", weight, "");
     for (rail, line) in rails.iter().zip(&design.dead.lines).filter(|(_, line)| **line != 0.0) {
         let unit = design.units.label(Dimension::STIFFNESS);
-        section = section.fact(format!("dead load along rail {}", rail.name), *line, unit);
+        section = section.fact(format!("dead load along {}", rail_phrase(&rail.name)), *line, unit);
     }
     for train in &design.trains {
         section = section.table(train_table(design, train, [&length, &force]));

@@ -1,7 +1,7 @@
 //! The report of a design: the verdict first, then envelopes, reactions and inputs.
 
 use crate::figures::design::{
-    deflection_unit, digits, envelope_charts, positions, side_phrase, unit_of, with_unit,
+    deflection_unit, digits, envelope_charts, positions, quantity_phrase, side_phrase, unit_of, with_unit,
 };
 use crate::figures::influence_lines::influence_figure;
 use crate::text::design_basis::basis;
@@ -9,14 +9,11 @@ use crate::text::design_codes::{codes, limits, sources};
 use crate::text::design_inputs::inputs;
 use crate::text::design_stresses::details;
 use crate::text::design_verdict::{DIGITS, verdict};
-use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
-use ::design::{DesignResult, GoverningLine, SolvedCase, load_word, plane_word, quantity_word};
+use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn, cleared, is_rounding};
+use ::design::{DesignResult, GoverningLine, SolvedCase, load_word, plane_word};
 use formats::design::Design;
 use formats::units::Dimension;
 use trains::GirderResponse;
-
-/// Values below this fraction of the largest of their kind are shown as zero.
-const ROUNDING: f64 = 1e-9;
 
 /// The report of a design; `lines` are the influence lines of its governing values.
 #[must_use]
@@ -139,17 +136,14 @@ fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
     };
     for found in all {
         let g = &found.governing;
-        if g.value.abs() <= ROUNDING * size(found.quantity) {
+        if is_rounding(g.value, size(found.quantity)) {
             continue;
         }
         let (unit, factor) = unit_of(design.units, found.quantity);
-        let word = quantity_word(found.quantity);
-        let is_plain = matches!(found.quantity, GirderResponse::Normal | GirderResponse::Torsion);
-        let name = if is_plain { word.to_owned() } else { format!("{} {word}", plane_word(found.quantity)) };
         table.rows.push(vec![
             TableCell::from(rails[found.rail].name.clone()),
             TableCell::from(found.span),
-            TableCell::from(name),
+            TableCell::from(quantity_phrase(found.quantity)),
             TableCell::from(if found.is_max { "largest" } else { "smallest" }),
             TableCell::from(with_unit(&digits(factor * g.value, DIGITS), &unit)),
             TableCell::from(digits(factor * g.dead, DIGITS)),
@@ -200,8 +194,7 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
         columns.push(TableColumn::new("all, largest", &unit));
         columns.push(TableColumn::new("smallest", &unit));
         let size = case.reactions.iter().flat_map(|r| &r.extremes).map(|g| g.value.abs()).fold(0.0, f64::max);
-        let shown =
-            |value: f64| if value.abs() <= ROUNDING * size { "0".to_owned() } else { digits(value, DIGITS) };
+        let shown = |value: f64| digits(cleared(value, size), DIGITS);
         let (mut rows, mut zero) = (Vec::new(), Vec::new());
         for (k, reaction) in case.reactions.iter().enumerate() {
             let mut row = vec![
@@ -211,7 +204,7 @@ fn reactions(design: &Design, result: &DesignResult) -> ReportSection {
             ];
             let values =
                 || case.by_load.iter().flat_map(|(_, all)| &all[k].extremes).chain(&reaction.extremes);
-            if values().all(|g| g.value.abs() <= ROUNDING * size && g.dead.abs() <= ROUNDING * size) {
+            if values().all(|g| is_rounding(g.value, size) && is_rounding(g.dead, size)) {
                 zero.push(format!("{} {}", reaction.name.support, reaction.name.direction));
                 continue;
             }

@@ -5,7 +5,7 @@ use formats::LateralSection;
 use formats::design::Design;
 use formats::units::{Dimension, Units};
 
-use crate::figures::design::{deflection_unit, digits, positions, reading_unit};
+use crate::figures::design::{deflection_unit, digits, positions, rail_phrase, reading_unit};
 use crate::{ReportSection, ReportTable, TableCell, TableColumn};
 
 /// Significant digits of values.
@@ -24,8 +24,11 @@ pub(super) fn utilisation(result: &DesignResult) -> Option<String> {
     let percent = 100.0 * worst.utilisation();
     let lateral = worst.lateral_section.map_or_else(String::new, |own| format!(", {}", own.phrase()));
     Some(format!(
-        "The largest utilisation of the yield strength is {percent:.0} %: {} in {}, case {}, rail {}{lateral}.",
-        worst.quantity, worst.section, worst.case, worst.rail
+        "The largest utilisation of the yield strength is {percent:.0} %: {} in {}, case {}, {}{lateral}.",
+        worst.quantity,
+        worst.section,
+        worst.case,
+        rail_phrase(&worst.rail)
     ))
 }
 

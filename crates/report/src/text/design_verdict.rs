@@ -1,6 +1,8 @@
 //! The first page of a design: what governs, whether limits are kept, and on what the results rest.
 
-use crate::figures::design::{deflection_unit, digits, positions, reading_unit, unit_of, with_unit};
+use crate::figures::design::{
+    deflection_unit, digits, positions, rail_phrase, reading_unit, unit_of, with_unit,
+};
 use crate::figures::influence_lines::subject_words;
 use crate::figures::rail_sketch::RailSketch;
 use crate::text::design_codes::limits;
@@ -98,10 +100,10 @@ fn sentence(result: &DesignResult) -> String {
     let failed = result.limits.iter().filter(|limit| !limit.within()).count();
     let most = worst_limits(result).into_iter().next().map_or_else(String::new, |check| {
         format!(
-            " The highest utilisation is {:.0} %: {} of rail {}, span {}, case {}.",
+            " The highest utilisation is {:.0} %: {} of {}, span {}, case {}.",
             100.0 * used(&check),
             check.quantity,
-            check.rail,
+            rail_phrase(&check.rail),
             check.span,
             check.case
         )

@@ -1,10 +1,9 @@
 //! Report content on the extremes of girders in the runs.
 
-use crate::figures::design::{digits, reading_unit, side_phrase, unit_of, with_unit};
+use crate::figures::design::{digits, quantity_phrase, reading_unit, side_phrase, unit_of, with_unit};
 use crate::figures::run_name::run_name;
 use crate::text::girder_stresses;
-use crate::{ReportSection, ReportTable, TableCell, TableColumn};
-use ::design::{plane_word, quantity_word};
+use crate::{ReportSection, ReportTable, TableCell, TableColumn, cleared};
 use formats::scene::{Document, Scene};
 use formats::units::Dimension;
 use results::case_result::CaseResult;
@@ -15,8 +14,6 @@ use trains::GirderResponse;
 const DIGITS: usize = 4;
 /// Largest number of rows of the table of all spans; summary.json has all.
 const ROWS: usize = 80;
-/// Fraction of the largest reaction of the same kind below which a reaction counts as rounding of zero.
-const ROUNDING: f64 = 1e-12;
 
 /// Which values stand in the first table, with their words.
 pub(super) const GOVERNING: [(GirderResponse, bool, &str); 9] = [
@@ -120,11 +117,8 @@ fn spans(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         rows: Vec::new(),
     };
     for found in all.iter().filter(|found| found.value != 0.0).take(ROWS) {
-        let word = quantity_word(found.quantity);
-        let is_plain = matches!(found.quantity, GirderResponse::Normal | GirderResponse::Torsion);
-        let name = if is_plain { word.to_owned() } else { format!("{} {word}", plane_word(found.quantity)) };
         let kind = if found.is_max { "largest" } else { "smallest" };
-        let mut row = vec![TableCell::from(name), TableCell::from(kind)];
+        let mut row = vec![TableCell::from(quantity_phrase(found.quantity)), TableCell::from(kind)];
         row.extend(cells(scene, found));
         table.rows.push(row);
     }
@@ -136,43 +130,40 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
     let all = &outcome.girders().reactions;
     let (unit, by_force) = reading_unit(scene.units, Dimension::FORCE);
     let (moment_unit, by_moment) = reading_unit(scene.units, Dimension::MOMENT);
-    let columns = vec![
+    let mut columns = vec![
         TableColumn::new("support", ""),
         TableColumn::new("direction", ""),
-        TableColumn::new("dead", &unit),
         TableColumn::new("largest", &unit),
         TableColumn::new("time", "s"),
         TableColumn::new("smallest", &unit),
         TableColumn::new("time", "s"),
     ];
-    // what is left of a zero after rounding, by the largest force and the largest moment
+    let has_dead = scene.output.dead_load;
+    if has_dead {
+        columns.insert(2, TableColumn::new("of dead load", &unit));
+    }
+    // forces and moments are of different kinds
     let is_moment = |found: &&GirderReaction| found.direction.to_string().starts_with('r');
     let most = |is_wanted: bool| {
         let sizes = all.iter().filter(|found| is_moment(found) == is_wanted).map(|found| found.value.abs());
-        ROUNDING * sizes.fold(0.0, f64::max)
+        sizes.fold(0.0, f64::max)
     };
-    let least = [most(false), most(true)];
-    let cleared = |found: &GirderReaction| {
-        let is_small = found.value.abs() <= least[usize::from(is_moment(&found))];
-        if is_small { 0.0 } else { found.value }
-    };
+    let largest_of = [most(false), most(true)];
+    let shown = |found: &GirderReaction| cleared(found.value, largest_of[usize::from(is_moment(&found))]);
     let (mut rows, mut zero) = (Vec::new(), Vec::new());
     for pair in all.chunks_exact(2) {
         let [largest, smallest] = [&pair[0], &pair[1]];
-        if cleared(largest) == 0.0 && cleared(smallest) == 0.0 {
+        if shown(largest) == 0.0 && shown(smallest) == 0.0 {
             zero.push(format!("{} {}", largest.support, largest.direction));
             continue;
         }
         let direction = largest.direction.to_string();
         let factor = if direction.starts_with('r') { by_moment } else { by_force };
-        let mut row = vec![
-            TableCell::from(largest.support.clone()),
-            TableCell::from(direction),
-            TableCell::from(digits(factor * largest.dead, DIGITS)),
-        ];
+        let mut row = vec![TableCell::from(largest.support.clone()), TableCell::from(direction)];
+        row.extend(has_dead.then(|| TableCell::from(digits(factor * largest.dead, DIGITS))));
         row.extend(
             pair.iter()
-                .flat_map(|own| [factor * cleared(own), own.time])
+                .flat_map(|own| [factor * shown(own), own.time])
                 .map(|n| TableCell::from(digits(n, DIGITS))),
         );
         rows.push(row);

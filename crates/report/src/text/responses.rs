@@ -1,7 +1,7 @@
 //! Report content on reactions, internal forces, deflections of rails and uplift of wheels.
 
 use crate::figures::design::{column_unit, deflection_unit};
-use crate::{ReportSection, ReportTable, TableCell, TableColumn};
+use crate::{ReportSection, ReportTable, TableCell, TableColumn, cleared, is_rounding};
 use formats::scene::Scene;
 use formats::scene::columns::Column;
 use formats::text::number::rounded;
@@ -11,10 +11,6 @@ use results::response::{ColumnEnvelope, ColumnStatistics, Response, RunCompariso
 
 /// Largest number of rows of a table; summary.json has all.
 const ROWS: usize = 60;
-/// Fraction of the largest value of its dimension below which a column counts as zero throughout.
-const ZERO: f64 = 1e-12;
-/// Fraction of the range of a column below which a value is considered as rounding error.
-const ROUNDING: f64 = 1e-12;
 
 /// The section on the first run.
 #[must_use]
@@ -81,14 +77,14 @@ pub fn comparison(
     let most = |figures: &[&ColumnStatistics]| {
         figures.iter().fold(0.0_f64, |most, found| most.max(size(found.peak.value, found.least.value)))
     };
-    // what is left of a zero after rounding, by the largest value of the same dimension in any run
+    // the largest value of the same dimension in any run
     let largest = |dimension: Dimension| {
         let same =
             comparison.columns().filter(|(name, _)| of(name).is_some_and(|own| own.dimension == dimension));
         same.map(|(_, figures)| most(&figures)).fold(0.0, f64::max)
     };
     let (zero, all): (Vec<_>, Vec<_>) = comparison.columns().partition(|(name, figures)| {
-        of(name).is_some_and(|column| most(figures) <= ZERO * largest(column.dimension))
+        of(name).is_some_and(|column| is_rounding(most(figures), largest(column.dimension)))
     });
     if all.is_empty() {
         return None;
@@ -185,14 +181,9 @@ fn zero_columns(response: &Response) -> Vec<&str> {
         same.map(|(e, (_, dead))| magnitude(e.max.value, e.min.value, *dead)).fold(0.0, f64::max)
     };
     let is_zero = |(e, (column, dead)): &(&ColumnEnvelope, (&Column, &f64))| {
-        magnitude(e.max.value, e.min.value, **dead) <= ZERO * largest(column.dimension)
+        is_rounding(magnitude(e.max.value, e.min.value, **dead), largest(column.dimension))
     };
     all().filter(is_zero).map(|(envelope, _)| envelope.column.as_str()).collect()
-}
-
-/// Returns the value, or zero if it is a rounding error relative to the range.
-fn cleared(value: f64, range: f64) -> f64 {
-    if value.abs() < ROUNDING * range { 0.0 } else { value }
 }
 
 /// The larger magnitude.

@@ -5,7 +5,7 @@ use crate::figures::responses::ground_reactions;
 use crate::figures::run_name::run_name;
 use crate::text::design_stresses::stress_unit;
 use crate::text::girders::{GOVERNING, largest};
-use crate::{ReportTable, TableCell, TableColumn};
+use crate::{ReportTable, TableCell, TableColumn, cleared, is_rounding};
 use fea::Dof;
 use formats::scene::columns::Direction;
 use formats::scene::{Document, Scene};
@@ -15,8 +15,6 @@ use trains::GirderResponse;
 
 /// Significant digits of values.
 const DIGITS: usize = 4;
-/// Values below this fraction of the largest of their kind are rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// A row of the governing values: words, unit and factor, value of the first run with its place, values of the others.
 struct GoverningRow {
@@ -54,9 +52,7 @@ impl GoverningRow {
     }
 
     fn cells(self) -> Vec<TableCell> {
-        let rounding = ROUNDING * self.size;
-        let text =
-            |value: f64| digits(if value.abs() < rounding { 0.0 } else { self.factor * value }, DIGITS);
+        let text = |value: f64| digits(self.factor * cleared(value, self.size), DIGITS);
         let low = self.others.iter().copied().reduce(f64::min);
         let high = self.others.iter().copied().reduce(f64::max);
         let others = match low.zip(high) {
@@ -191,7 +187,7 @@ fn wheel_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Vec<G
     ];
     let row = |(words, part, sign): (&str, &str, f64)| {
         let (value, wheel, row) = worst(first, part, sign)
-            .filter(|(value, ..)| part == "vertical" || value.abs() > ROUNDING * size)?;
+            .filter(|(value, ..)| part == "vertical" || !is_rounding(*value, size))?;
         let name = &first.input.wheels[wheel].name;
         let x = first.columns.part(name, "x").get(row).copied();
         let time = first.columns.values("time").get(row).copied().unwrap_or_default();
@@ -227,7 +223,7 @@ fn reaction_rows(scene: &Scene, first: &CaseResult, others: &[CaseResult]) -> Ve
     ];
     let row = |(words, direction, sign): (&str, Option<Direction>, f64)| {
         let (value, time, name) =
-            worst(first, direction, sign).filter(|(value, ..)| value.abs() > ROUNDING * size)?;
+            worst(first, direction, sign).filter(|(value, ..)| !is_rounding(*value, size))?;
         let same = others.iter().filter_map(|other| worst(other, direction, sign));
         Some(GoverningRow {
             others: same.map(|found| found.0).collect(),

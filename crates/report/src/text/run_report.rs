@@ -6,7 +6,7 @@ use crate::figures::run_name::{foundation_words, run_name};
 use crate::text::run_basis::basis;
 use crate::text::run_verdict::verdict;
 use crate::text::{codes, fatigue, girders, responses};
-use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn};
+use crate::{Report, ReportSection, ReportTable, TableCell, TableColumn, cleared};
 use formats::grid::coupling::Coupling;
 use formats::scene::{Analysis, Document, Scene};
 use formats::text::number::rounded;
@@ -163,7 +163,7 @@ fn structures(scene: &Scene, solved: &[Option<&SolvedModel>], choices: &[sim::Ch
         let choice = choices.iter().find(|choice| choice.structure == s);
         let word = choice.map_or_else(
             || foundation_words(structure.foundation.word()).to_owned(),
-            |c| foundations::fidelity_name(c.fidelity),
+            |c| run_name(&foundations::fidelity_name(c.fidelity)).to_owned(),
         );
         let name = &structure.name;
         section = section.fact(format!("{name}: foundation"), word, "").fact(
@@ -276,13 +276,11 @@ fn audit(document: &Document, outcomes: &[CaseResult]) -> ReportSection {
         let run = &outcome.run;
         if case.scene.analysis == Analysis::Dynamic && run.status.is_complete() {
             let exchanged = &run.audit.exchanged;
-            // what is left of a zero after rounding
-            let cleared =
-                |energy: f64| if energy.abs() < 1e-15 * run.audit.peak_stored { 0.0 } else { energy };
+            let lost = exchanged.net_loss() + exchanged.supplied();
             table.rows.push(vec![
                 TableCell::from(run_name(&outcome.label)),
                 TableCell::from(factor * run.audit.peak_stored),
-                TableCell::from(factor * cleared(exchanged.net_loss() + exchanged.supplied())),
+                TableCell::from(factor * cleared(lost, run.audit.peak_stored)),
                 TableCell::from(factor * exchanged.supplied()),
                 TableCell::from(rounded(run.audit.residual(), 2)),
                 TableCell::from(run.counts.steps as f64),

@@ -19,11 +19,11 @@ const FAILURES: usize = 10;
 /// The report of a sweep from its description, its table and its figures.
 #[must_use]
 pub fn sweep_report(info: &SweepInfo, table: &ResultTable, figures: SweepFigures<'_>) -> Report {
-    let SweepFigures { results, figures } = figures;
+    let SweepFigures { varying, constant, figures } = figures;
     let mut sections = vec![overview(info, table)];
-    sections.push(distributions(&results, figures));
-    sections.push(governing(info, &results));
-    sections.extend(dependence(table, &results));
+    sections.push(distributions(&varying, constant, figures));
+    sections.push(governing(info, &varying));
+    sections.extend(dependence(table, &varying));
     sections.extend(failures(table));
     sections.push(method(info));
     let what = if info.is_design { "design" } else { "scene" };
@@ -64,13 +64,11 @@ fn overview(info: &SweepInfo, table: &ResultTable) -> ReportSection {
 }
 
 /// Distributions of all results, and pictures of the first that vary.
-fn distributions(results: &[SweptResult<'_>], figures: Vec<RunFigure>) -> ReportSection {
+fn distributions(varying: &[SweptResult<'_>], constant: usize, figures: Vec<RunFigure>) -> ReportSection {
     let mut section = ReportSection::new("Distributions");
     for RunFigure { picture, caption, .. } in figures {
         section = section.figure(picture, caption);
     }
-    let varying: Vec<_> = results.iter().filter(|result| result.varies()).collect();
-    let constant = results.iter().filter(|result| !result.varies()).count();
     let columns = [
         "result",
         "unit",
@@ -83,7 +81,7 @@ fn distributions(results: &[SweptResult<'_>], figures: Vec<RunFigure>) -> Report
         "99 %",
         "largest",
     ];
-    let row = |result: &&SweptResult<'_>| {
+    let row = |result: &SweptResult<'_>| {
         let found = &result.statistics;
         let [_, q50, q95, q99] = found.quantiles;
         let mut row = vec![TableCell::from(result.name), TableCell::from(result.unit.clone())];
@@ -101,10 +99,9 @@ fn distributions(results: &[SweptResult<'_>], figures: Vec<RunFigure>) -> Report
 }
 
 /// The runs with the extremes of each result, and how to repeat them.
-fn governing(info: &SweepInfo, results: &[SweptResult<'_>]) -> ReportSection {
-    let varying: Vec<_> = results.iter().filter(|result| result.varies()).collect();
+fn governing(info: &SweepInfo, varying: &[SweptResult<'_>]) -> ReportSection {
     let example = varying.first().map_or(1, |result| result.statistics.most.1);
-    let row = |result: &&SweptResult<'_>| {
+    let row = |result: &SweptResult<'_>| {
         let found = &result.statistics;
         vec![
             TableCell::from(result.name),
@@ -130,9 +127,8 @@ fn governing(info: &SweepInfo, results: &[SweptResult<'_>]) -> ReportSection {
 }
 
 /// How much each axis has to do with each result; `None` with too few runs.
-fn dependence(table: &ResultTable, results: &[SweptResult<'_>]) -> Option<ReportSection> {
-    let known: Vec<_> =
-        results.iter().filter(|result| result.varies() && !result.sensitivities.is_empty()).collect();
+fn dependence(table: &ResultTable, varying: &[SweptResult<'_>]) -> Option<ReportSection> {
+    let known: Vec<_> = varying.iter().filter(|result| !result.sensitivities.is_empty()).collect();
     if known.is_empty() {
         return None;
     }

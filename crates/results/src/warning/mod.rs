@@ -50,7 +50,12 @@ pub fn case_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut all = Vec::new();
     for structure in &scene.structures {
         if let Origin::Spec { spec, .. } = &structure.origin {
-            all.extend(spec.notes.iter().map(|note| format!("{}: {note}", structure.name)));
+            // a girder that is the structure "girder" is named once
+            let own = format!("{}: ", structure.name);
+            all.extend(spec.notes.iter().map(|note| match note.strip_prefix(&own) {
+                Some(rest) => format!("{own}{rest}"),
+                None => format!("{own}{note}"),
+            }));
         }
     }
     all.extend(scope::accuracy_notes(scene, outcome));

@@ -51,6 +51,7 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
             scene,
         ));
     }
+    all.extend(idle_brakes(scene));
     all.extend(soft_wheels(scene, record));
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
@@ -79,6 +80,27 @@ fn implausible(
         let both = if own == in_si { own } else { format!("{own}, {in_si}") };
         format!("{what} is {both}: check its unit; {usual}")
     })
+}
+
+/// Wheel types that are `braked` alone, in a scene without brakes: neither driven, as the wheels of a crane are of which
+/// another scene brakes, nor with a brake of any body.
+fn idle_brakes(scene: &Scene) -> Option<String> {
+    if scene.bodies.iter().any(|body| body.brake.is_some()) {
+        return None;
+    }
+    let kind = scene.wheels.iter().find(|kind| kind.braked && !kind.driven)?;
+    let truck = scene.trucks.iter().find(|truck| scene.wheels[truck.wheel].name == kind.name);
+    let body = truck.map_or("...", |truck| &scene.bodies[truck.body].name);
+    let friction = match kind.friction {
+        Some(_) => "",
+        None => ", and the wheels \"friction\": {\"mu\": 0.2, \"slip\": ...}, a speed",
+    };
+    Some(format!(
+        "wheels \"{}\" are `braked`, but nothing applies a brake, so that they roll freely: give the motion of {body}, \
+         of kind \"free\" or \"drive\", its \"brake\", a time, or the scene an event that does {{\"brake\": \
+         \"{body}\"}}{friction}",
+        kind.name
+    ))
 }
 
 /// Wheels that sink deep into their rails at the start; the deepest is named.

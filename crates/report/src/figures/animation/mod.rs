@@ -12,9 +12,10 @@ mod view;
 
 use crate::document::animated::Animation;
 
+use crate::Picture;
+use crate::figures::design::{digits, reading_unit};
 use crate::figures::error::FigureError;
 use crate::figures::run_figure::{LabelledRun, RunFigure};
-use crate::{Picture, number};
 use draw::{PlanDrawing, WIDTH};
 use formats::scene::motion::SimulationInput;
 use formats::units::Dimension;
@@ -67,14 +68,14 @@ pub fn animation_figure(
     let mut drawing = PlanDrawing::new();
     let top = plan::draw(&view, &mut drawing, 46.0);
     let bottom = section::draw(&view, &mut drawing, top + 34.0);
-    let unit = scene.units.label(Dimension::FORCE);
+    let (unit, factor) = reading_unit(scene.units, Dimension::FORCE);
     let caption = format!(
         "The crane from above and along its runway at t = {:.2} s, when the vertical force of a wheel on the runway \
          is largest: {} {unit} ({}). Black bars: vertical forces of wheels on the runway; orange: their lateral \
          forces; blue: vertical forces of wheels on the bridge, at half the scale; lower view: sums for each rail. \
          The animation requires scripts.",
         time[view.rows[view.still]],
-        number(most, 4).unwrap_or_default(),
+        digits(factor * most, 4),
         run.label,
     );
     let times: Vec<f64> = view.rows.iter().map(|row| time[*row]).collect();

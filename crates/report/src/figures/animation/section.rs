@@ -2,6 +2,7 @@
 
 use super::draw::{DARK, GREY, INK, ORANGE, PlanDrawing, STEEL, WIDTH};
 use super::view::{AnimationView, BAR};
+use crate::figures::design::reading_unit;
 use formats::units::Dimension;
 
 /// Largest width and height of the view, pixels; the numbers are shown to its right.
@@ -154,7 +155,8 @@ fn numbers(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) {
         let values = view.run.record.values(name);
         (!values.is_empty()).then(|| view.rows.iter().map(|row| values[*row]).collect())
     };
-    let mut list = vec![("time".to_owned(), "time".to_owned(), "s".to_owned(), 2)];
+    let (force_unit, force_factor) = reading_unit(units, Dimension::FORCE);
+    let mut list = vec![("time".to_owned(), "time".to_owned(), ("s".to_owned(), 1.0), 2)];
     for body in &view.scene.bodies {
         let parts: &[(&str, Dimension)] = if body.in_space {
             &[("X", Dimension::LENGTH), ("Y", Dimension::LENGTH), ("Z", Dimension::LENGTH)]
@@ -165,7 +167,7 @@ fn numbers(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) {
             list.push((
                 format!("{}.{part}", body.name),
                 format!("{} {part}", body.name),
-                units.label(*dimension),
+                (units.label(*dimension), 1.0),
                 2,
             ));
         }
@@ -174,8 +176,8 @@ fn numbers(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) {
         list.push((
             format!("{}.tension", rope.name),
             format!("{} tension", rope.name),
-            units.label(Dimension::FORCE),
-            0,
+            (force_unit.clone(), force_factor),
+            1,
         ));
     }
     for (index, rail) in view.scene.rails.iter().enumerate() {
@@ -184,15 +186,16 @@ fn numbers(view: &AnimationView, drawing: &mut PlanDrawing, top: f64) {
                 list.push((
                     format!("{}.{part}", rail.name),
                     format!("{} {word}", rail.name),
-                    units.label(Dimension::FORCE),
-                    0,
+                    (force_unit.clone(), force_factor),
+                    1,
                 ));
             }
         }
     }
     let mut y = top + 12.0;
-    for (name, what, unit, digits) in list {
-        let Some(values) = column(&name) else { continue };
+    for (name, what, (unit, factor), digits) in list {
+        let Some(mut values) = column(&name) else { continue };
+        values.iter_mut().for_each(|value| *value *= factor);
         drawing.reading([WIDTH - 236.0, y], &what, &unit, digits, values, view.still);
         y += 19.0;
     }

@@ -5,6 +5,7 @@ use splines::{Axis, Compliance, Probe};
 use super::draw::{DARK, GREY, INK, ORANGE, PlanDrawing, SIDE, STEEL, WIDTH};
 use super::view::BAR;
 use crate::document::animated::Animation;
+use crate::figures::design::{digits, reading_unit};
 use crate::figures::error::FigureError;
 use crate::figures::run_figure::{LabelledRun, RunFigure};
 use crate::{Picture, number};
@@ -110,6 +111,7 @@ pub(super) fn side_view(
     let unit = scene.units.label(Dimension::LENGTH);
     drawing.scale_bar([SIDE, bottom - 6.0], WIDTH - 2.0 * SIDE, scale, &unit);
     let (svg, tracks) = drawing.finish(WIDTH, bottom + 12.0);
+    let (force_unit, force_factor) = reading_unit(scene.units, Dimension::FORCE);
     let factor = number(depth / scale, 2).unwrap_or_default();
     let caption = format!(
         "The wheels on their rails at t = {:.2} s, when a rail deflects most ({}). Orange: vertical forces, at most {} {}. \
@@ -117,8 +119,8 @@ pub(super) fn side_view(
          The animation requires scripts.",
         time[rows[still]],
         run.label,
-        number(largest, 4).unwrap_or_default(),
-        scene.units.label(Dimension::FORCE),
+        digits(force_factor * largest, 4),
+        force_unit,
     );
     let times: Vec<f64> = rows.iter().map(|row| time[*row]).collect();
     let animation = Animation { svg, still_time: times[still], times, tracks };

@@ -1,4 +1,4 @@
-//! Why a design has no results.
+//! Errors of the calculation as faults of the design's files, where a user can mend them.
 
 use formats::design::Design;
 use formats::spec::SolveError;
@@ -7,8 +7,9 @@ use formats::text::inputs::{Input, Inputs};
 use formats::text::place::{Path, Step};
 use splines::Axis;
 
-/// An error of the calculation in the terms of the design's files.
-pub(crate) fn located(error: &trains::Error, design: &Design, inputs: &Inputs) -> SolveError {
+/// The error of a design for an error of the calculation: a fault with its place in the design or its spec where one
+/// caused it, and no solution otherwise.
+pub(crate) fn solve_error(error: &trains::Error, design: &Design, inputs: &Inputs) -> SolveError {
     let path = |steps: &[(&str, usize)]| {
         let each = steps.iter().flat_map(|(key, index)| [Step::Key((*key).to_owned()), Step::Index(*index)]);
         Path(each.collect())
