@@ -23,7 +23,12 @@ QUANTITIES = {
     "lateral_longitudinal": (2, 0),
 }
 # Members without bending, and the local freedoms that they resist.
-BARS = {"truss": [0], "rod": [0, 3]}
+BARS = {"truss": [0], "rod": [0, 3], "cable": [0]}
+# Parts of a beam under a preload: other codes have cubic elements, whose error falls with the fourth power.
+PARTS = 16
+# Standard gravity, m/s2, and lengths in metres.
+GRAVITY = 9.80665
+METRES = {"m": 1.0, "mm": 1e-3, "ft": 0.3048, "in": 0.0254}
 # Size of a rotation's part in every member, relative to its largest, at which nothing resists the rotation.
 IDLE = 1e-9
 # Most stations: a member cut into many short ones costs digits and time.
@@ -71,6 +76,7 @@ def general(spec):
         "Iz": girder["I_vertical"],
         "Iy": girder.get("I_lateral", girder["I_vertical"]),
         "J": girder["J"] if torsion else girder["I_vertical"],
+        "mass": girder.get("mass_per_length", 0.0),
     }
     for here, there in [("kA_vertical", "Asy"), ("kA_lateral", "Asz")]:
         if here in girder:
@@ -78,6 +84,7 @@ def general(spec):
     cells = [[k, k + 1] for k in range(len(ends) - 1)]
     return {
         **{key: spec[key] for key in ("format", "name", "units", "theory") if key in spec},
+        **at_points(spec, ends),
         "up": [0.0, 1.0, 0.0],
         "points": [[x, 0.0, 0.0] for x in ends],
         "cells": [{"type": "line", "data": cells}],
@@ -95,6 +102,15 @@ def general(spec):
             }
         },
     }, known
+
+
+def at_points(spec, ends):
+    """The preload of a short form with its loads on points."""
+    if "preload" not in spec:
+        return {}
+    nearest = lambda x: min(range(len(ends)), key=lambda k: abs(ends[k] - x))  # noqa: E731
+    loads = [{"point": nearest(load["x"]), "force": load["force"]} for load in spec["preload"].get("loads", [])]
+    return {"preload": {**spec["preload"], "loads": loads}}
 
 
 def between(a, b, start, stop):
@@ -144,6 +160,7 @@ class Frame:
     springs           (node, freedom, stiffness)
     heads             (number of the station, node, axes of the rail): where loads act and deflections are read
     known             directions of the rail that may be compared
+    preload           whether the grids are those about the state of a preload
     """
 
     def __init__(self, spec, theory):
@@ -154,6 +171,7 @@ class Frame:
         self.sheared = theory == "timoshenko"
         self.position, self.body, self.root, self.members, self.notes = [], [], [], [], []
         self.place = {}
+        self.preload = "preload" in spec
         self.read_points()
         self.read_members()
         self.read_rails()
@@ -211,6 +229,7 @@ class Frame:
 
                 section = dict(self.spec["sections"][get("section", 0)])
                 section.update({k: materials[section["material"]].get(k, 0.0) for k in ("E", "G")})
+                section.setdefault("mass", section.get("A", 0.0) * materials[section["material"]].get("density", 0.0))
                 if not self.sheared:
                     section.pop("Asy", None)
                     section.pop("Asz", None)
@@ -234,6 +253,8 @@ class Frame:
                 parts = get("parts", None) or self.spec.get("parts", 1)
                 if other is None:
                     parts = parts if get("parts", None) else 1
+                if self.preload and kind not in BARS:
+                    parts = max(parts, PARTS)
                 if kind in BARS:
                     parts = 1
                 end = section if other is None else self.spec["sections"][other]
@@ -407,13 +428,37 @@ class Frame:
     def reach_of(self, node):
         return np.linalg.norm(self.position[node] - self.position[self.root[self.body[node]]])
 
+    def preload_forces(self):
+        """(node, global force, global moment) of the preload; the weight of a beam acts as its clamped ends would feel it."""
+        given = self.spec["preload"]
+        forces = []
+        for load in given.get("loads", []):
+            point = load["point"]
+            if isinstance(point, str):
+                point = self.spec["point_sets"][point][0]
+            forces.append((point, np.array(load["force"], dtype=float), np.zeros(3)))
+        if given.get("weight", False):
+            standard = GRAVITY / METRES[self.spec["units"]["length"]]
+            down = -given.get("gravity", standard) * unit(np.array(self.spec.get("up", [0.0, 1.0, 0.0]), dtype=float))
+            for member in self.members:
+                length = np.linalg.norm(self.position[member.nodes[1]] - self.position[member.nodes[0]])
+                line = member.section["mass"] * down
+                turn = np.cross(member.axes[0], line) * length**2 / 12.0 if member.kind == "beam" else np.zeros(3)
+                for node, sign in zip(member.nodes, (1.0, -1.0)):
+                    forces.append((node, 0.5 * length * line, sign * turn))
+            for mass in self.spec.get("masses", []):
+                if np.any(mass.get("offset", [0.0] * 3)):
+                    raise Refused("a mass with an offset is not loaded in other codes")
+                forces.append((mass["point"], mass["mass"] * down, np.zeros(3)))
+        return forces
+
     def unit_loads(self):
         """(head, direction, node, global force) of all 3 n unit loads; direction counts x, y, z of the rail."""
         for k, (_, node, axes) in enumerate(self.heads):
             for direction in range(3):
                 yield k, direction, node, axes[direction]
 
-    def answer(self, motion, versions, elements, notes=()):
+    def answer(self, motion, versions, elements, notes=(), tolerance=None):
         """What goes back: motion[(k, d), head] = displacement of a head, global 3, under unit load d at head k."""
         n = len(self.heads)
         axes = np.array([head[2] for head in self.heads])
@@ -423,13 +468,16 @@ class Frame:
                 loads = motion.reshape(n, 3, n, 3)[:, column]
                 grid = np.einsum("jik,ik->ij", loads, axes[:, row])
                 influence[name] = grid.tolist()
-        return {
+        answer = {
             "versions": versions,
             "elements": elements,
             "stations": [head[0] for head in self.heads],
             "influence": influence,
             "notes": [*self.notes, *notes],
         }
+        if tolerance is not None:
+            answer["tolerance"] = tolerance
+        return answer
 
 
 def reply(solve, question):

@@ -3,6 +3,7 @@
 
     beams       elasticBeamColumn; ElasticTimoshenkoBeam where they shear
     trusses     Truss with an elastic material
+    preload     PDelta transformation of beams cut into parts, corotTruss; unit loads are small steps from its state
     rods        twoNodeLink with E A / L and G J / L; springs about axes of rotation that nothing else resists
     rigid       rigidLink beam from the root of a body to each of its other nodes
     supports    fix;  springs  zeroLength to a fixed node
@@ -27,6 +28,12 @@ from frame_model import Refused
 
 # Stiffness of ties by that of their member.
 TIES = 1e4, 1e5
+# Size of the unit loads about a loaded state, by the largest force of the preload.
+STEP = 1e-6
+# Stress of bars before the preload, by its largest force.
+HINT = 1e-6
+# Tolerance about a loaded state: axial forces at the chord of each part, order 2, at critical factors above two.
+LOADED = 5e-3
 # Shear area, by area, of a beam that is rigid in shear in one direction alone.
 RIGID = 1e20
 LIBRARIES = ["libquadmath.so.0", "libgfortran.so.4", "libgomp.so.1", "libblas.so.3", "liblapack.so.3"]
@@ -168,12 +175,19 @@ class Model:
         a, b = self.end(member, 0), self.end(member, 1)
         self.elements += 1
         tag = self.elements
-        if member.kind == "truss":
+        if member.kind in ("truss", "cable"):
             self.materials += 1
             ops.uniaxialMaterial("Elastic", self.materials, float(s["E"]))
-            ops.element("Truss", tag, a, b, float(s["A"]), self.materials)
+            kind, material = "Truss", self.materials
+            if self.frame.preload:
+                # Without any tension the first step of a hanger would be that of a mechanism.
+                largest = max(np.linalg.norm(force) for _, force, _ in self.frame.preload_forces())
+                self.materials += 1
+                ops.uniaxialMaterial("InitStressMaterial", self.materials, material, float(HINT * largest / s["A"]))
+                kind, material = "corotTruss", self.materials
+            ops.element(kind, tag, a, b, float(s["A"]), material)
             return
-        ops.geomTransf("Linear", tag, *(float(v) for v in member.axes[2]))
+        ops.geomTransf("PDelta" if self.frame.preload else "Linear", tag, *(float(v) for v in member.axes[2]))
         numbers = [float(s[k]) for k in ("A", "E", "G", "J", "Iy", "Iz")]
         if "Asy" in s or "Asz" in s:
             area, e, g, j, iy, iz = numbers
@@ -204,20 +218,52 @@ class Model:
         ops.constraints("Transformation" if self.plain else "Lagrange")
         ops.numberer("RCM")
         ops.system("UmfPack")
-        ops.integrator("LoadControl", 1.0)
-        ops.algorithm("Linear", "-factorOnce")
         ops.timeSeries("Constant", 1)
+        base, size = self.load_first(), 1.0
+        if frame.preload:
+            # So small that the state does not change.
+            size = STEP * max(np.linalg.norm(force) for _, force, _ in frame.preload_forces())
+        ops.integrator("LoadControl", 1.0)
+        if frame.preload:
+            # The tangent of PDelta is not exact.
+            ops.test("FixedNumIter", 4)
+            ops.algorithm("Newton")
+        else:
+            ops.algorithm("Linear", "-factorOnce")
         ops.analysis("Static")
         motion = np.zeros((3 * len(frame.heads), len(frame.heads), 3))
         for head, direction, node, force in frame.unit_loads():
             ops.pattern("Plain", 1, 1)
-            ops.load(node + 1, *(float(f) for f in force), 0.0, 0.0, 0.0)
+            ops.load(node + 1, *(float(size * f) for f in force), 0.0, 0.0, 0.0)
             if ops.analyze(1) != 0:
                 raise Refused("OpenSees cannot solve the system")
             for k, (_, other, _) in enumerate(frame.heads):
-                motion[3 * head + direction, k] = [ops.nodeDisp(other + 1, d) for d in (1, 2, 3)]
+                moved = np.array([ops.nodeDisp(other + 1, d) for d in (1, 2, 3)])
+                motion[3 * head + direction, k] = (moved - base[k]) / size
             ops.remove("loadPattern", 1)
         return motion
+
+    def load_first(self):
+        """Displacements of the heads under the preload, which stays; zeros without one."""
+        ops, frame = self.ops, self.frame
+        if not frame.preload:
+            return np.zeros((len(frame.heads), 3))
+        ops.timeSeries("Linear", 2)
+        ops.pattern("Plain", 2, 2)
+        for node, force, moment in frame.preload_forces():
+            ops.load(node + 1, *(float(f) for f in [*force, *moment]))
+        ops.test("NormDispIncr", 1e-13, 50)
+        ops.algorithm("Newton")
+        ops.integrator("LoadControl", 1.0)
+        ops.analysis("Static")
+        if ops.analyze(1) != 0:
+            raise Refused("OpenSees finds no state under the preload")
+        ops.loadConst("-time", 0.0)
+        ops.wipeAnalysis()
+        ops.constraints("Transformation" if self.plain else "Lagrange")
+        ops.numberer("RCM")
+        ops.system("UmfPack")
+        return np.array([[ops.nodeDisp(node + 1, d) for d in (1, 2, 3)] for _, node, _ in frame.heads])
 
 
 def member_stiffness(member):
@@ -230,6 +276,8 @@ def member_stiffness(member):
 
 def solve(frame):
     ops = load()
+    if frame.preload and any(m.kind == "rod" for m in frame.members):
+        raise Refused("OpenSees has no rods under axial force")
     model = Model(ops, frame, TIES[0])
     motion, notes = model.solve(), []
     if model.ties:
@@ -240,7 +288,14 @@ def solve(frame):
     sheared = any("Asy" in m.section or "Asz" in m.section for m in frame.members)
     beams = "ElasticTimoshenkoBeam" if sheared else "elasticBeamColumn"
     versions = {"OpenSees": ops.version(), "numpy": np.__version__}
-    return frame.answer(motion, versions, f"{beams}, rigidLink", notes)
+    about = ", PDelta about the preload" if frame.preload else ""
+    tolerance = LOADED if frame.preload else None
+    if frame.preload:
+        notes.append("no couplings with the longitudinal direction: there it adds what a load's axial force does on the deflected shape")
+    answer = frame.answer(motion, versions, f"{beams}, rigidLink{about}", notes, tolerance)
+    if frame.preload:
+        answer["influence"] = {name: grid for name, grid in answer["influence"].items() if "_longitudinal" not in name}
+    return answer
 
 
 if __name__ == "__main__":

@@ -120,6 +120,11 @@ fn ties_gives_its_expected_numbers() {
 }
 
 #[test]
+fn monorail_gives_its_expected_numbers() {
+    check("monorail");
+}
+
+#[test]
 fn grids_of_the_mill_girderway_are_those_of_other_codes() {
     let example = root().join("examples/mill_girderway");
     let expected = json(&example.join("expected.json"));
@@ -161,7 +166,7 @@ fn every_example_is_checked() {
     for entry in std::fs::read_dir(root().join("examples")).expect("the examples") {
         let name = entry.expect("an entry").file_name().into_string().expect("a plain name");
         assert!(
-            ["bogie", "bridge_crane", "mill_girderway", "runway", "ties", "wheel", "yang_yau"]
+            ["bogie", "bridge_crane", "mill_girderway", "monorail", "runway", "ties", "wheel", "yang_yau"]
                 .contains(&name.as_str()),
             "examples/{name} has no test"
         );

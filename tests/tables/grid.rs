@@ -31,6 +31,7 @@ fn grid(rails: usize) -> StationGrid {
         ],
         certificate: None,
         effects: None,
+        critical: None,
         notes: Vec::new(),
     }
 }

@@ -126,6 +126,7 @@ fn rail_on_two_ties_over_a_girder_is_the_sum_of_its_parts() {
         notes: Vec::new(),
         outlines: Vec::new(),
         crane_rails: Vec::new(),
+        preload: None,
     };
     let (first, spacing) = (100.0, 420.0);
     let mut given = Ties { first: Some(first), k: 5e4, ..ties(spacing, 1.0) };

@@ -69,6 +69,17 @@ pub fn solve_on(
     let in_files = |error: trains::Error| solve_error(&error, design, inputs);
     let solved = structures.of(design).map_err(in_files)?;
     let DesignStructure { model, rails, structure } = &*solved;
+    let lateral = design.trains.iter().any(|train| train.has_lateral_forces());
+    let between = structure.error_between_ends(lateral);
+    if between > MOST_BETWEEN_ENDS {
+        let times = (between / MOST_BETWEEN_ENDS).sqrt().ceil();
+        return Err(SolveError::NoSolution(format!(
+            "{}: moments between the ends of its cells may err by {between:.1e} of their size under the preload, more than \
+             {MOST_BETWEEN_ENDS:e}  hint: cut the cells that carry rails into {times} times as many `cell_data.parts`, in \
+             the general form",
+            design.spec_file
+        )));
+    }
     let dead = DeadLoads { gravity: design.dead.gravity, lines: design.dead.lines.clone() };
     let (names, reactions) = reactions(design, model, structure);
     let sections = design.sections.iter().map(|section| {
@@ -99,7 +110,14 @@ pub fn solve_on(
             envelopes,
         });
     }
-    let warnings = warnings(design, &solved);
+    let mut warnings = warnings(design, &solved);
+    if between > NOTED_BETWEEN_ENDS {
+        warnings.push(format!(
+            "{}: between the ends of cells, moments under the preload may err by {between:.1e} of their size; more \
+             `cell_data.parts` lower this with their square",
+            design.spec_file
+        ));
+    }
     let details = Details::new(design, model, rails, &dead, &cases, &solved).map_err(in_files)?;
     let mut limits = check_limits(design, &solved);
     limits.extend(details.limits);
@@ -119,6 +137,11 @@ pub fn solve_on(
         error_bound,
     })
 }
+
+/// Error of moments between ends of members under a preload, relative, from which it is named.
+const NOTED_BETWEEN_ENDS: f64 = 1e-9;
+/// The same from which a design is refused.
+const MOST_BETWEEN_ENDS: f64 = 1e-3;
 
 /// Reactions under each kind of load alone that the case has.
 fn by_load(

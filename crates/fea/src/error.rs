@@ -59,6 +59,22 @@ pub enum Error {
         /// Degree of freedom of the point that moves most.
         dof: Dof,
     },
+    /// The structure buckles at or below its preload.
+    #[error("the structure buckles at {factor:.4} times its preload: {mode}")]
+    Buckled {
+        /// The critical factor, at most 1.
+        factor: f64,
+        /// The motion in which it buckles.
+        mode: Buckling,
+    },
+    /// The axial forces of the preload have no equilibrium with small motions.
+    #[error("{}", no_equilibrium(*member, *turned))]
+    NoEquilibrium {
+        /// The member that turns most, or has the largest axial force.
+        member: usize,
+        /// The angle by which it turns, radian; `None` where the forces do not settle.
+        turned: Option<f64>,
+    },
     /// The stiffness is not finite, or its factor exceeds the indices or the memory.
     #[error("the stiffness of {unknowns} degrees of freedom cannot be factored")]
     NotFactorable {
@@ -110,6 +126,43 @@ pub enum Error {
     Rail(#[from] splines::Error),
 }
 
+fn no_equilibrium(member: usize, turned: Option<f64>) -> String {
+    match turned {
+        Some(angle) => format!(
+            "under the preload member {member} turns by {angle:.2} rad: the shape of the structure under its load has to be \
+             given"
+        ),
+        None => format!(
+            "the axial forces of the preload do not settle (largest in member {member}): the shape of the structure under \
+             its load has to be given"
+        ),
+    }
+}
+
+/// A motion in which a structure buckles, by what moves most.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Buckling {
+    /// Point and degree of freedom that move most, weighted by stiffness.
+    pub point: usize,
+    /// See `point`.
+    pub dof: Dof,
+    /// The member whose axial force does most of the work.
+    pub member: usize,
+    /// Whether that member buckles between its ends, which stay at rest.
+    pub between_ends: bool,
+}
+
+impl fmt::Display for Buckling {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Buckling { point, dof, member, between_ends } = self;
+        if *between_ends {
+            write!(f, "member {member} buckles between its ends")
+        } else {
+            write!(f, "point {point} moves in {dof}, by the axial force of member {member}")
+        }
+    }
+}
+
 /// An entry, by its index in the model's or rail's list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ModelEntry {
@@ -146,6 +199,10 @@ pub enum ModelEntry {
     },
     /// An effect asked for, by its index in the list.
     Effect(usize),
+    /// A preload as a whole.
+    Preload,
+    /// A force of a preload: those on points first, then those on rails.
+    PreloadForce(usize),
     /// A station of a rail.
     Station {
         /// Which rail.
@@ -247,6 +304,30 @@ pub enum EntryFault {
         /// The station.
         value: f64,
     },
+    /// A force on a degree of freedom that nothing holds.
+    #[error("nothing holds the structure in {dof} there")]
+    NotHeld {
+        /// The degree of freedom.
+        dof: Dof,
+    },
+    /// A cable that is not in tension under the preload.
+    #[error("the cable is slack under the preload: its axial force is {tension}")]
+    Slack {
+        /// The axial force.
+        tension: f64,
+    },
+    /// A cable that sags.
+    #[error("the cable sags: (w L)^2 EA/(12 T^3) is {sag:.2e}, more than 0.01")]
+    Sag {
+        /// The measure of its sag.
+        sag: f64,
+    },
+    /// Compression beyond the shear stiffness of a member.
+    #[error("the axial force {tension} exceeds the shear stiffness")]
+    ShearCollapse {
+        /// The axial force.
+        tension: f64,
+    },
     /// A station that no segment covers.
     #[error("no segment covers x = {x}")]
     Uncovered {
@@ -288,6 +369,10 @@ pub enum EntryAttribute {
     Orientation,
     /// Stiffness of a spring.
     Stiffness,
+    /// Axial force of a member.
+    Tension,
+    /// Force.
+    Force,
     /// Spans.
     Spans,
     /// Segments.
@@ -318,6 +403,8 @@ impl fmt::Display for ModelEntry {
             ModelEntry::Girder => write!(f, "girder"),
             ModelEntry::Rail(k) => write!(f, "rail {k}"),
             ModelEntry::Effect(k) => write!(f, "effect {k}"),
+            ModelEntry::Preload => write!(f, "preload"),
+            ModelEntry::PreloadForce(k) => write!(f, "force {k} of the preload"),
             ModelEntry::Segment { rail, segment } => write!(f, "segment {segment} of rail {rail}"),
             ModelEntry::Station { rail, station } => write!(f, "station {station} of rail {rail}"),
         }
@@ -342,6 +429,8 @@ impl fmt::Display for EntryAttribute {
             EntryAttribute::Offset => "offset",
             EntryAttribute::Orientation => "orientation",
             EntryAttribute::Stiffness => "stiffness",
+            EntryAttribute::Tension => "axial force",
+            EntryAttribute::Force => "force",
             EntryAttribute::Spans => "spans",
             EntryAttribute::Segments => "segments",
             EntryAttribute::Station => "station",

@@ -36,7 +36,7 @@
 //! # Ok::<(), fea::Error>(())
 //! ```
 //!
-//! Wings, lowest first: dof, error, model, assembly, factor, influence, modes
+//! Wings, lowest first: dof, error, model, assembly, factor, influence, modes, preload
 //!
 //! A file of one imports nothing of a later one:
 //!
@@ -45,7 +45,8 @@
 //! 3. `assembly`: elements, rigid bodies, elimination order, scaled stiffness;
 //! 4. `factor`: sparse Cholesky in doubles and double-doubles, certificate, limits of memory;
 //! 5. `influence`: rails laid over members, grids, surfaces, reactions and internal forces;
-//! 6. `modes`: mass, natural modes, effects of inertia.
+//! 6. `modes`: mass, natural modes, effects of inertia;
+//! 7. `preload`: axial forces of a loaded state, critical factors, and what such a state leaves out.
 
 mod assembly;
 mod dof;
@@ -54,20 +55,25 @@ mod factor;
 mod influence;
 mod model;
 mod modes;
+mod preload;
 
 pub use dof::{Dof, DofSet};
-pub use error::{EntryAttribute, EntryFault, Error, ModelEntry};
+pub use error::{Buckling, EntryAttribute, EntryFault, Error, ModelEntry};
 pub use factor::{Certificate, MEMORY_LIMIT};
 pub use influence::{
     CertifiedSurface, DEFAULT_ACCURACY, Effect, FactoredFrame, InfluenceGrid, Reactions, Restraint, grid,
     point_compliance, surface,
 };
 pub use model::{
-    BeamTheory, CrossSection, Girder, GroundSpring, Member, MemberKind, Model, PointMass, Rail, RailSegment,
-    RigidLink, Support, Taper,
+    ArmStiffness, BeamTheory, CrossSection, Girder, GroundSpring, Member, MemberKind, Model, PointMass, Rail,
+    RailSegment, RigidLink, Support, Taper,
 };
 pub use modes::{
     ExcitingForces, MOST_DENSE_UNKNOWNS, Mode, Modes, RefinedModes, Weight, check_full_modes, excited_modes,
     full_modes, modes, refined_modes, rigid_mass,
+};
+pub use preload::{
+    BucklingMode, Caution, CautionKind, CriticalFactor, MOST_CRITICAL, Preload, PreloadedState, RailForce,
+    preloaded,
 };
 pub use splines::ForceComponent;

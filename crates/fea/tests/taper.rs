@@ -41,6 +41,7 @@ fn cantilever(parts: usize, theory: BeamTheory) -> (Model, Rail) {
         orientation: [0.0, 1.0, 0.0],
         offsets: [[0.0; 3], [-0.5, 0.0, 0.0]],
         releases: [[false; 6]; 2],
+        tension: 0.0,
     };
     let model = Model {
         points: vec![[0.0; 3], [LENGTH + 0.5, 0.0, 0.0]],

@@ -10,6 +10,9 @@ use crate::text::place::Place;
 
 crate::text::object::objects!(RawUnits);
 
+/// Standard acceleration of gravity, m/s2.
+pub const STANDARD_GRAVITY: f64 = 9.806_65;
+
 /// Unit of length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Length {

@@ -24,7 +24,7 @@
 //! assert!((influence.value[(0, 0)] - expected).abs() < 1e-12 * expected);
 //! ```
 //!
-//! Wings, lowest first: error, mount, mesh_modes, solved, influence, tables, built, modal, parts, build, check, select
+//! Wings, lowest first: error, mount, mesh_modes, solved, influence, tables, built, modal, parts, build, wheels_at_rest, check, select
 
 mod build;
 mod built;
@@ -38,6 +38,7 @@ mod parts;
 mod select;
 mod solved;
 mod tables;
+mod wheels_at_rest;
 
 pub use build::{build, full_mesh_foundation, rigid_parts_foundation};
 pub use built::{BuiltFoundation, MotionBasis, RigidParts};
@@ -55,3 +56,4 @@ pub use solved::{
     solve_specs, solve_to,
 };
 pub use tables::influence_blocks;
+pub use wheels_at_rest::with_wheels_at_rest;

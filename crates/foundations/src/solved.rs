@@ -62,7 +62,8 @@ pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
 pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = FactoredFrame::with_accuracy(&model, &rails, accuracy)?;
-    let mut grid = StationGrid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    let grid = StationGrid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    let mut grid = grid.with_critical_factor(spec)?;
     let dofs = 6 * frame.line()?.state_count();
     let surface = if dofs <= most {
         Some(frame.surface()?.surface)

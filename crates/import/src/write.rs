@@ -87,6 +87,7 @@ fn cell_data(structure: &ImportedStructure) -> Value {
         MemberKind::Beam => "beam",
         MemberKind::Truss => "truss",
         MemberKind::Rod => "rod",
+        MemberKind::Cable => "cable",
     };
     put(
         "kind",

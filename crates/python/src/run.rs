@@ -199,7 +199,7 @@ pub(crate) fn run(
         let source = scene.scene()?;
         let patch = patch.map(changes);
         let document = source.document(patch.as_ref(), comparisons)?;
-        results::before::check(&document)?;
+        let document = results::before::prepared(document)?;
         clock.lap("read");
         let structures = StructureCache::default().solve(&document)?;
         clock.lap("fea");

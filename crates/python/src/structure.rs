@@ -6,9 +6,9 @@ use std::sync::{Arc, OnceLock};
 
 use fea::RefinedModes;
 use formats::design::Design as DesignInput;
-use formats::grid::GridBlock;
 use formats::grid::file as grid_file;
 use formats::grid::modes_file::MESH_TOLERANCE;
+use formats::grid::{GridBlock, GridCritical};
 use formats::spec::{Spec, theory_word};
 use formats::tables::{self, TableFormat, TableSet};
 use formats::text::inputs::Inputs;
@@ -141,6 +141,15 @@ impl Structure {
     #[getter]
     fn error_bound(&self, py: Python<'_>) -> PyResult<Option<f64>> {
         Ok(self.solved(py)?.grid.certificate.map(|certificate| certificate.error_bound))
+    }
+
+    /// Critical factor on the preload, of axial forces alone; infinite where there is none up to 1e6, `None` without preload.
+    #[getter]
+    fn critical_factor(&self, py: Python<'_>) -> PyResult<Option<f64>> {
+        Ok(self.solved(py)?.grid.critical.map(|critical| match critical {
+            GridCritical::At(factor) => factor,
+            GridCritical::Above(_) => f64::INFINITY,
+        }))
     }
 
     /// Influence coefficients between places of two rails.

@@ -30,6 +30,16 @@ pub fn check(document: &Document) -> Result<(), Vec<Diagnostic>> {
     if wrong.is_empty() { Ok(()) } else { Err(wrong) }
 }
 
+/// A document that has been checked ([`check`]), with the wheels at rest in the preload of the structures that ask for them
+/// ([`foundations::with_wheels_at_rest`]).
+///
+/// # Errors
+/// As [`check`].
+pub fn prepared(document: Document) -> Result<Document, Vec<Diagnostic>> {
+    check(&document)?;
+    Ok(foundations::with_wheels_at_rest(document))
+}
+
 /// The fault of one case, at its place in the scene.
 fn fault(scene: &Scene) -> Option<Fault> {
     // trucks that cannot be simulated are left to the run

@@ -66,12 +66,12 @@ impl SceneRun {
         options: RunOptions,
         progress: &(dyn Fn(SimulationProgress<'_>) -> ControlFlow<()> + Sync),
     ) -> Result<SceneRun, Error> {
-        before::check(&document)?;
+        let document = before::prepared(document)?;
         let structures = cache.solve(&document)?;
         SceneRun::on(document, structures, options, progress)
     }
 
-    /// Runs the cases of a document that has been checked ([`before::check`]) on its solved structures.
+    /// Runs the cases of a document that has been prepared ([`before::prepared`]) on its solved structures.
     ///
     /// # Errors
     /// As [`SceneRun::of`].

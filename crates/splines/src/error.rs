@@ -68,8 +68,10 @@ pub enum Error {
         /// Index of the element.
         cell: usize,
     },
-    /// A flexibility that is negative or not a number.
-    #[error("rail element {cell} has a flexibility that is negative or not a number")]
+    /// A flexibility that is negative or not a number, or compression beyond the shear stiffness.
+    #[error(
+        "rail element {cell} has a flexibility that is negative or not a number, or compression beyond its shear stiffness"
+    )]
     ElementFlexibility {
         /// Index of the element.
         cell: usize,

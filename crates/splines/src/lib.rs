@@ -63,7 +63,8 @@ pub use error::Error;
 pub use probe::{Axis, Probe};
 pub use quality::{StationSearch, StationSet, fewest_stations};
 pub use rail::{
-    ElementFunctions, ElementMember, Flexibility, MemberMotion, RailElement, Rails, RoundingSizes, ShapeRow,
+    BeamColumn, ElementFunctions, ElementMember, Flexibility, MemberMotion, RailElement, Rails,
+    RoundingSizes, ShapeRow,
 };
 pub use surface::{
     Couplings, DisplacementLines, ElementResidual, ExactSurface, ForceComponent, InfluenceLines,

@@ -29,6 +29,7 @@ fn cell(rail: usize, ends: [usize; 2], offset: [f64; 3]) -> RailElement {
             bending_z: 1e-6,
             shear_y: 2e-6,
             shear_z: 1e-6,
+            tension: 0.0,
         },
         member: Some(ElementMember { id: 4, reversed: false }),
     }

@@ -31,6 +31,7 @@ fn rails(reversed: bool) -> Rails {
             bending_z: 0.4,
             shear_y: 1.9,
             shear_z: 1.1,
+            tension: 0.0,
         },
         member: Some(ElementMember { id: 7, reversed }),
     };

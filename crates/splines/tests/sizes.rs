@@ -57,6 +57,7 @@ fn sizes_at_midspan_have_their_closed_forms_with_shear_twist_and_arms() {
         bending_z: 0.3,
         shear_y: 0.11,
         shear_z: 0.23,
+        tension: 0.0,
     };
     let rails = rails(l, [0.0, h, 0.0], f);
     let force = |c: f64, g: f64| 5.0 * c * l.powi(3) / 192.0 + g * l / 4.0;
@@ -122,6 +123,7 @@ fn scaled(unit: f64) -> Rails {
             bending_z: 0.1 / (unit * unit),
             shear_y: 0.3,
             shear_z: 0.2,
+            tension: 0.0,
         },
         member: None,
     };

@@ -117,8 +117,15 @@ fn slope_is_the_derivative_of_the_surface() {
 #[test]
 fn clamped_element_has_its_closed_form_and_is_symmetric_to_the_last_bit() {
     let (l, c, g) = (20.0, 1.0 / EI, 4e-10);
-    let flexibility =
-        Flexibility { bending_z: c, shear_y: g, bending_y: 3.0 * c, torsion: 2e-10, axial: 1e-9, shear_z: g };
+    let flexibility = Flexibility {
+        bending_z: c,
+        shear_y: g,
+        bending_y: 3.0 * c,
+        torsion: 2e-10,
+        axial: 1e-9,
+        shear_z: g,
+        tension: 0.0,
+    };
     let line = Rails::new(chain(&[5.0, 25.0], [0.3, 3.0, -1.0], flexibility)).expect("valid");
     let straight = Rails::new(chain(&[5.0, 25.0], [0.0; 3], flexibility)).expect("valid");
     let middle = straight.clamped_green(0, 15.0, 15.0);
@@ -150,6 +157,7 @@ fn dividing_an_element_changes_nothing() {
         bending_z: 2.4e-11,
         shear_y: 2e-10,
         shear_z: 7e-10,
+        tension: 0.0,
     };
     let frame = tilted();
     let offset = [0.4, 3.1, -1.2];

@@ -7,7 +7,10 @@
 //! elsewhere. Limits from either side count: a wheel just before and just behind a section are two states, never their
 //! mean.
 //!
-//! Everything is of first order. Units are consistent; the crate knows none.
+//! Everything is linear: of first order, or about the state of a preload whose axial forces are in the members of the
+//! model. There influence lines are cubic to 1e-9 in short parts; moments between the ends of members leave out what
+//! the axial force adds by the deflection from their chord ([`Structure::error_between_ends`]). Units are consistent;
+//! the crate knows none.
 //!
 //! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, joining, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!

@@ -10,6 +10,11 @@ use crate::error::Error;
 use crate::line::{LineCell, Lines, Stretch, cubics};
 use crate::train::{COMPONENTS, axis};
 
+/// Error of influence lines of members under axial force, relative to a deflection, that is negligible.
+const BENT_ERROR: f64 = 1e-9;
+/// Most parts into which the influence lines along one member are split for it.
+const MOST_BENT_PARTS: f64 = 256.0;
+
 /// Number of quantities of a section: [`GirderResponse::ALL`].
 pub(crate) const QUANTITIES: usize = 6;
 
@@ -252,6 +257,21 @@ impl Structure {
         self.rails.len()
     }
 
+    /// By which part of a moment the moments between the ends of members may err, because an axial force N of a preload turns
+    /// with the deflection there: the largest N h^2/(2 EI) of the members of length h that carry rails, for vertical bending
+    /// with the larger EI, for `lateral` forces as well with the smaller one. Zero without preload.
+    #[must_use]
+    pub fn error_between_ends(&self, lateral: bool) -> f64 {
+        let of = |carrier: &Carrier| {
+            let member = &self.model.members[carrier.member];
+            let section = &self.model.sections[member.section];
+            let least = if section.iy > 0.0 && section.iz > 0.0 { section.iy.min(section.iz) } else { 0.0 };
+            let second = if lateral && least > 0.0 { least } else { section.iy.max(section.iz) };
+            0.5 * member.tension.abs() * carrier.length * carrier.length / (section.e * second)
+        };
+        self.carriers.iter().map(of).fold(0.0, f64::max)
+    }
+
     /// The structural solver with the factored stiffness.
     #[must_use]
     pub fn frame(&self) -> &FactoredFrame {
@@ -346,7 +366,9 @@ impl Structure {
             let components: Vec<usize> =
                 (0..COMPONENTS).filter(|&k| used[k] && self.resists(index, k)).collect();
             for stretch in &rail.stretches {
-                for x in parts(stretch.x, split(stretch), self.slack()) {
+                let mut places = split(stretch);
+                places.extend(self.bent_places(stretch)?);
+                for x in parts(stretch.x, places, self.slack()) {
                     let empty =
                         LineCell { x, element: Some(stretch.element), cubics: [[[0.0; 4]; N]; COMPONENTS] };
                     out.iter_mut().for_each(|lines| lines.rails[index].push(empty.clone()));
@@ -369,6 +391,25 @@ impl Structure {
             }
         }
         Ok(out)
+    }
+
+    /// Coordinates at which a stretch is split because an axial force bends the cubics of its influence lines: between them a
+    /// cubic through four points errs by at most about 1e-9 of a deflection.
+    ///
+    /// The fourth derivative of a deflection w of wavelength 2 l is lambda^2 (pi/l)^2 w, and the cubic through four points of a
+    /// part of length l/m errs by (l/m)^4/1944 times it.
+    fn bent_places(&self, stretch: &Stretch) -> Result<Vec<f64>, Error> {
+        let element = &self.frame.line()?.elements()[stretch.element];
+        let f = &element.flexibility;
+        if f.tension == 0.0 || element.ends[0] == element.ends[1] {
+            return Ok(Vec::new());
+        }
+        let softest = [f.bending_y, f.bending_z].into_iter().filter(|c| c.is_finite()).fold(0.0, f64::max);
+        let square = f.tension.abs() * softest * element.length * element.length;
+        let pi = std::f64::consts::PI;
+        let count = (square * pi * pi / (1944.0 * BENT_ERROR)).powf(0.25).ceil().clamp(1.0, MOST_BENT_PARTS);
+        let [from, to] = stretch.x;
+        Ok((1..count as usize).map(|k| from + (to - from) * k as f64 / count).collect())
     }
 
     /// Influence lines of the six quantities of a section just inside the first end of each of the carriers.

@@ -54,6 +54,10 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
             result.absent.push((peer, why));
             continue;
         }
+        if check.spec.preload.is_some() && !peer.takes_preload() {
+            result.absent.push((peer, "it has no axial forces of a preload".to_owned()));
+            continue;
+        }
         bar.name(&format!("comparing with {}", peer.name()));
         match check.compare(peer, &progress)? {
             Ok(outcome) => result.outcomes.push(outcome),

@@ -42,7 +42,8 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     }
     let only =
         Document { cases: document.cases[..1].to_vec(), inputs: document.inputs.clone(), changes: None };
-    results::before::check(&only)?;
+    let only = results::before::prepared(only)?;
+    let scene = only.scene();
     let known = solve_all(&document, &distinct_specs(&only), &progress)?;
     let form = args.form.map(DeckForm::from).unwrap_or_else(|| {
         DeckForm::of_readings(scene.structures.iter().map(|structure| structure.interpolation))

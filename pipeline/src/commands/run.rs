@@ -64,7 +64,7 @@ fn whole(
     structures: Source,
 ) -> Result<Exit, Failure> {
     let progress = Progress::new(global);
-    before::check(&document)?;
+    let document = before::prepared(document)?;
     progress.warn_of_commas(&document.inputs);
     check_names(&document, path)?;
     let folder = OutputFolder::open(path, name, force, &planned_files(name, &document))?;

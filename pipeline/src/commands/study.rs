@@ -35,6 +35,7 @@ pub fn run(args: &Arguments, global: Global) -> Result<Exit, Failure> {
     };
     document.cases = vec![case(&document, args)?];
     results::before::check(&chosen)?;
+    let document = foundations::with_wheels_at_rest(document);
     let scene = document.scene().clone();
     let folder = || PathBuf::from("girderway-out").join(format!("{name}-study"));
     let path = args.output.clone().unwrap_or_else(folder);

@@ -91,6 +91,12 @@ impl Peer {
         }
     }
 
+    /// Whether it compares structures about the state of a preload.
+    #[must_use]
+    pub const fn takes_preload(self) -> bool {
+        matches!(self, Peer::OpenSees | Peer::PyNite)
+    }
+
     /// Scale relative to which its differences are measured.
     #[must_use]
     pub const fn measure(self) -> PeerMeasure {

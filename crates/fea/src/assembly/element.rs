@@ -1,8 +1,8 @@
 //! The straight uniform member: exact 12 x 12 stiffness, releases, local axes.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, RowSVector, SMatrix, SVector, Vector3};
 use num_traits::Zero;
-use splines::Flexibility;
+use splines::{BeamColumn, Flexibility, ForceComponent};
 
 use crate::assembly::precision::{Extended, Real, exact_sum};
 use crate::dof::{Dof, DofSet};
@@ -37,6 +37,8 @@ pub(crate) struct Element<T: Real = f64> {
     /// Length of the flexible part.
     pub length: T,
     pub flexibility: Flexibility,
+    /// Whether it resists transverse displacements of its ends as a string, by its axial force alone.
+    pub is_string: bool,
     /// Local stiffness between the tips of the rigid offsets, releases condensed.
     pub stiffness: Matrix12<T>,
     /// Diagonal of the stiffness before releases: the scale of its rounding.
@@ -118,6 +120,8 @@ pub(crate) struct Released<T: Real = f64> {
     pub compliance: Matrix12<T>,
     /// Largest ratio of a diagonal entry before the releases to its pivot: what rounding grows by.
     pub growth: f64,
+    /// Number of negative pivots: compression has buckled the member between its ends.
+    pub negative: usize,
 }
 
 /// One of the two planes in which a member bends: local x-y or x-z.
@@ -132,6 +136,8 @@ pub(crate) struct BendingPlane {
     pub bending: f64,
     /// 1/GAs.
     pub shear: f64,
+    /// Axial force, positive in tension.
+    pub tension: f64,
 }
 
 impl BendingPlane {
@@ -143,9 +149,24 @@ impl BendingPlane {
 
 /// The local x-y plane, in which Iz bends, then the x-z plane, in which Iy bends.
 pub(crate) fn bending_planes(f: &Flexibility) -> [BendingPlane; 2] {
+    let tension = f.tension;
     [
-        BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: f.bending_z, shear: f.shear_y },
-        BendingPlane { deflection: 2, rotation: 4, sign: -1.0, bending: f.bending_y, shear: f.shear_z },
+        BendingPlane {
+            deflection: 1,
+            rotation: 5,
+            sign: 1.0,
+            bending: f.bending_z,
+            shear: f.shear_y,
+            tension,
+        },
+        BendingPlane {
+            deflection: 2,
+            rotation: 4,
+            sign: -1.0,
+            bending: f.bending_y,
+            shear: f.shear_z,
+            tension,
+        },
     ]
 }
 
@@ -171,11 +192,24 @@ impl<T: Real> Element<T> {
         let mut flexibility = m.sections[member.section].flexibility(m.theory);
         match member.kind {
             MemberKind::Beam => {}
-            MemberKind::Truss => flexibility = without_bending(f64::INFINITY, flexibility),
+            MemberKind::Truss | MemberKind::Cable => {
+                flexibility = without_bending(f64::INFINITY, flexibility);
+            }
             MemberKind::Rod => flexibility = without_bending(flexibility.torsion, flexibility),
         }
+        flexibility.tension = member.tension;
         let mut stiffness: Matrix12<T> = stiffness(&flexibility, length);
-        let unreleased_diagonal = std::array::from_fn(|k| stiffness[(k, k)].double());
+        if member.kind != MemberKind::Beam {
+            add_string(&mut stiffness, T::from(member.tension) / length);
+        }
+        // What was added up, where an axial force takes stiffness away.
+        let string = 2.0 * (member.tension / length.double()).abs();
+        let arm = string * length.double() * length.double();
+        let added = [string, string, string, 0.0, arm, arm];
+        let unreleased_diagonal = std::array::from_fn(|k| {
+            let own = stiffness[(k, k)].double().abs();
+            if own == 0.0 { 0.0 } else { own + added[k % 6] }
+        });
         let released = release(&mut stiffness, &member.releases).map_err(|k| Error::Released {
             member: index,
             end: k / 6,
@@ -189,6 +223,7 @@ impl<T: Real> Element<T> {
             axes_error,
             length,
             flexibility,
+            is_string: member.kind != MemberKind::Beam,
             stiffness,
             unreleased_diagonal,
             release_growth: released.as_ref().map_or(1.0, |released| released.growth),
@@ -203,6 +238,68 @@ impl<T: Real> Element<T> {
 }
 
 impl Element {
+    /// What the axial force adds to an internal force at the fraction `place` of the length, by the displacements of the
+    /// flexible ends, local axes; `None` where it adds nothing.
+    ///
+    /// It is N times the deflection from the first end, or its slope ([`ForceComponent::under_tension`]).
+    pub fn tension_row(&self, place: f64, component: ForceComponent) -> Option<RowSVector<f64, 12>> {
+        let tension = self.flexibility.tension;
+        let (plane, factors) = component.under_tension().filter(|_| tension != 0.0)?;
+        let own = &bending_planes(&self.flexibility)[plane];
+        let [mut deflection, slope] = if let Some(column) = self.column(own) {
+            column.section(place)
+        } else if self.is_string {
+            let rate = 1.0 / self.length;
+            [[1.0 - place, 0.0, place, 0.0], [-rate, 0.0, rate, 0.0]]
+        } else {
+            return None;
+        };
+        deflection[0] -= 1.0;
+        let at = [own.deflection, own.rotation, own.deflection + 6, own.rotation + 6];
+        let mut row = RowSVector::<f64, 12>::zeros();
+        for (k, sign) in [1.0, own.sign, 1.0, own.sign].into_iter().enumerate() {
+            row[at[k]] = tension * sign * (factors[0] * deflection[k] + factors[1] * slope[k]);
+        }
+        Some(row)
+    }
+
+    /// Turns the end forces of an inertia that is uniform over the member, rows of `forces`, into those under the axial force:
+    /// the moments at the clamped ends change by [`BeamColumn::uniform_end_moment`].
+    pub fn bend_uniform_load(&self, forces: &mut Matrix12) {
+        if self.flexibility.tension == 0.0 {
+            return;
+        }
+        for plane in bending_planes(&self.flexibility) {
+            let Some(column) = self.column(&plane) else { continue };
+            let factor = column.uniform_end_moment();
+            for row in [plane.rotation, plane.rotation + 6] {
+                forces.row_mut(row).iter_mut().for_each(|force| *force *= factor);
+            }
+        }
+    }
+
+    /// What the axial force adds to an internal force by the deflection of the clamped member under the inertia of a uniform
+    /// acceleration, whose local components are the first three of `acceleration`.
+    pub fn uniform_load_under_tension(
+        &self,
+        mass: f64,
+        acceleration: &SVector<f64, 12>,
+        section: &splines::InternalForce,
+    ) -> f64 {
+        let under = section.component.under_tension().filter(|_| self.flexibility.tension != 0.0);
+        let Some((plane, factors)) = under else { return 0.0 };
+        let own = &bending_planes(&self.flexibility)[plane];
+        let Some(column) = self.column(own) else { return 0.0 };
+        let [deflected, slope] = column.under_uniform_load(section.place);
+        mass * acceleration[own.deflection] * (factors[0] * deflected + factors[1] * slope)
+    }
+
+    /// The plane under the axial force; `None` where it has no bending stiffness.
+    fn column(&self, plane: &BendingPlane) -> Option<BeamColumn<f64>> {
+        (plane.bending.is_finite() && plane.shear.is_finite())
+            .then(|| BeamColumn::new(plane.bending, plane.shear, plane.tension, self.length))
+    }
+
     /// Displacements of the flexible ends by those of the tips of the rigid offsets, without load.
     pub fn recovery(&self) -> Matrix12 {
         self.released.as_ref().map_or(Matrix12::identity(), |released| released.recovery)
@@ -312,6 +409,16 @@ fn without_bending(torsion: f64, f: Flexibility) -> Flexibility {
     Flexibility { axial: f.axial, torsion, bending_y: none, bending_z: none, ..Flexibility::default() }
 }
 
+/// Adds the resistance of a string, the axial force divided by the length, against transverse displacements of the ends.
+fn add_string<T: Real>(k: &mut Matrix12<T>, string: T) {
+    for at in [1, 2] {
+        k[(at, at)] += string;
+        k[(at + 6, at + 6)] += string;
+        k[(at, at + 6)] -= string;
+        k[(at + 6, at)] -= string;
+    }
+}
+
 /// Exact stiffness of a uniform member in local axes, degrees of freedom ux uy uz rx ry rz at each end.
 ///
 /// Change of length and twist: EA/L and GJ/L. In each plane of bending, with phi = 12 EI / (G As L^2) and
@@ -343,12 +450,30 @@ fn stiffness<T: Real>(f: &Flexibility, length: T) -> Matrix12<T> {
 /// 4 x 4 stiffness of one plane: deflection and rotation of the first end, then of the second.
 fn bending_stiffness<T: Real>(plane: &BendingPlane, length: T) -> [[T; 4]; 4] {
     let number = T::from;
+    if plane.tension != 0.0 && plane.bending.is_finite() && plane.shear.is_finite() {
+        return stability_stiffness(plane, length);
+    }
     let square = length * length;
     let ei = inverse(plane.bending, T::one());
     let phi = number(12.0) * ei * number(plane.shear) / square;
     let r = ei / (square * length * (T::one() + phi));
     let (a, b) = (number(12.0) * r, number(plane.sign * 6.0) * length * r);
     let (c, d) = ((number(4.0) + phi) * square * r, (number(2.0) - phi) * square * r);
+    [[a, b, -a, b], [b, c, -b, d], [-a, -b, a, -b], [b, d, -b, c]]
+}
+
+/// The same under an axial force N, from the stiffness of both ends against opposite and against equal rotations, s and t
+/// ([`BeamColumn`]): 2 t/L^2 + N/L, t/L, (t + s)/2 and (t - s)/2.
+///
+/// # Source
+/// Timoshenko and Gere, Theory of Elastic Stability (1961), section 1.10.
+fn stability_stiffness<T: Real>(plane: &BendingPlane, length: T) -> [[T; 4]; 4] {
+    let column = BeamColumn::new(plane.bending, plane.shear, plane.tension, length);
+    let [opposite, equal] = column.rotational_stiffness();
+    let half = T::from(0.5);
+    let a = (equal + equal) / (length * length) + column.chord_stiffness();
+    let b = T::from(plane.sign) * equal / length;
+    let (c, d) = (half * (equal + opposite), half * (equal - opposite));
     [[a, b, -a, b], [b, c, -b, d], [-a, -b, a, -b], [b, d, -b, c]]
 }
 
@@ -367,35 +492,32 @@ fn release<T: Real>(
     if !ends.contains(&true) {
         return Ok(None);
     }
-    condense(stiffness, releases)
-        .map(|(recovery, compliance, growth)| Some(Box::new(Released { ends, recovery, compliance, growth })))
+    condense(stiffness, releases).map(|condensed| Some(Box::new(Released { ends, ..condensed })))
 }
 
 /// Static condensation of the released degrees of freedom r of a member, one after the other:
 ///
 /// K' = K_oo - K_or K_rr^-1 K_ro,   u_r = -K_rr^-1 K_ro u_o + K_rr^-1 f_r
 ///
-/// Replaces `k` by K'. Returns the recovery matrix (all displacements of the flexible ends by those of the
-/// tips of the rigid offsets), K_rr^-1, and the largest ratio of a diagonal entry to its pivot. A released degree of
-/// freedom for which the section has no stiffness stays at rest.
-fn condense<T: Real>(
-    k: &mut Matrix12<T>,
-    releases: &[DofSet; 2],
-) -> Result<(Matrix12<T>, Matrix12<T>, f64), usize> {
+/// Replaces `k` by K' and returns what becomes of the released degrees of freedom. One for which the section has no
+/// stiffness stays at rest.
+fn condense<T: Real>(k: &mut Matrix12<T>, releases: &[DofSet; 2]) -> Result<Released<T>, usize> {
     let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)].double());
     let mut recovery = Matrix12::identity();
     let mut compliance = Matrix12::zeros();
     let mut growth = 1.0_f64;
+    let mut negative = 0;
     for r in (0..12).filter(|&r| releases[r / 6][r % 6]) {
         let pivot = k[(r, r)];
         if before[r] == 0.0 {
             recovery.row_mut(r).fill(T::zero());
             continue;
         }
-        if pivot.double() <= LEAST_RELEASE_PIVOT * before[r] {
+        if pivot.double().abs() <= LEAST_RELEASE_PIVOT * before[r].abs() {
             return Err(r);
         }
-        growth = growth.max(before[r] / pivot.double());
+        growth = growth.max((before[r] / pivot.double()).abs());
+        negative += usize::from(pivot < T::zero());
         let mut row = -k.row(r) / pivot;
         row[r] = T::zero();
         let column = k.column(r).into_owned();
@@ -410,12 +532,12 @@ fn condense<T: Real>(
     }
     // A diagonal entry that is only rounding is an exact zero: the releases have removed the stiffness.
     for i in 0..12 {
-        if k[(i, i)].double() <= CANCELLED * T::ROUNDING * before[i] {
+        if k[(i, i)].double().abs() <= CANCELLED * T::ROUNDING * before[i].abs() {
             k.row_mut(i).fill(T::zero());
             k.column_mut(i).fill(T::zero());
         }
     }
     // Symmetric to the last bit, whatever the order of the products above.
     *k = (*k + k.transpose()) * T::from(0.5);
-    Ok((recovery, compliance, growth))
+    Ok(Released { ends: [false; 2], recovery, compliance, growth, negative })
 }

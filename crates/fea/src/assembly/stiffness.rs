@@ -4,13 +4,13 @@ use nalgebra::{Matrix3, SMatrix, Vector3};
 use sprs::CsMat;
 
 use crate::assembly::bodies::{Bodies, Body};
-use crate::assembly::element::{Element, Matrix12, diagonal_blocks};
+use crate::assembly::element::{Element, Matrix6, Matrix12, diagonal_blocks};
 use crate::assembly::ordering::{Graph, order};
 use crate::assembly::precision::{Extended, Real};
 use crate::assembly::sparse::{Triplets, column_norm};
 use crate::assembly::turning::{TurnedAxes, unstiffened_axes};
 use crate::error::Error;
-use crate::model::{GroundSpring, Model};
+use crate::model::{ArmStiffness, GroundSpring, Model};
 
 /// Size of an entry of a transformation, in roundings of the magnitudes behind it, at which it counts as zero.
 const CANCELLED: f64 = 8.0;
@@ -126,6 +126,8 @@ struct Contributions<T: Real> {
     members: Vec<([usize; 2], Matrix12<T>)>,
     /// Body, displacement of the spring by its six columns, stiffness.
     springs: Vec<(usize, [T; 6], T)>,
+    /// Body, and the stiffness of its rigid arms over its six columns.
+    arms: Vec<(usize, Matrix6<T>)>,
     /// Diagonal of the sum, by column.
     diagonal: Vec<f64>,
     /// Magnitudes that each diagonal entry was formed from.
@@ -138,11 +140,13 @@ impl<T: Real> Contributions<T> {
         let mut out = Contributions {
             members: Vec::with_capacity(elements.len()),
             springs: Vec::with_capacity(m.springs.len()),
+            arms: Vec::with_capacity(m.arms.len()),
             diagonal: vec![0.0; columns],
             bulk: vec![0.0; columns],
         };
         elements.iter().for_each(|element| out.add_member(element, bodies));
         m.springs.iter().for_each(|spring| out.add_spring(spring, bodies));
+        m.arms.iter().for_each(|arm| out.add_arm(arm, bodies));
         out
     }
 
@@ -187,6 +191,22 @@ impl<T: Real> Contributions<T> {
         self.springs.push((body, row, stiffness));
     }
 
+    fn add_arm(&mut self, arm: &ArmStiffness, bodies: &Bodies<T>) {
+        let body = bodies.of_point[arm.point];
+        let turning = bodies.list[body].basis.fixed_rows::<3>(3).into_owned();
+        let given = Matrix3::from_fn(|i, j| T::from(arm.stiffness[i][j]));
+        let all = turning.transpose() * given * turning;
+        // Symmetric to the last bit, whatever the order of the products above.
+        let all = (all + all.transpose()) * T::from(0.5);
+        let size = turning.map(|x| x.double().abs());
+        let bulk = size.transpose() * given.map(|x| x.double().abs()) * size;
+        for k in 0..6 {
+            self.diagonal[6 * body + k] += all[(k, k)].double();
+            self.bulk[6 * body + k] += bulk[(k, k)];
+        }
+        self.arms.push((body, all));
+    }
+
     /// Adds up the upper triangle of S K S.
     fn sum(&self, numbering: &Numbering) -> CsMat<T> {
         let Numbering { unknown, scale, .. } = numbering;
@@ -219,6 +239,13 @@ impl<T: Real> Contributions<T> {
                 }
             }
         }
+        for (body, stiffness) in &self.arms {
+            for i in 0..6 {
+                for j in (0..6).filter(|&j| stiffness[(i, j)] != T::zero()) {
+                    add(6 * body + i, 6 * body + j, stiffness[(i, j)]);
+                }
+            }
+        }
         triplets.sum()
     }
 
@@ -245,7 +272,7 @@ impl<T: Real> Contributions<T> {
     }
 
     fn cancellation(&self, numbering: &Numbering) -> f64 {
-        numbering.column.iter().map(|&c| self.bulk[c] / self.diagonal[c]).fold(1.0, f64::max)
+        numbering.column.iter().map(|&c| self.bulk[c] / self.diagonal[c].abs()).fold(1.0, f64::max)
     }
 
     fn stiffness(&self, numbering: Numbering) -> ScaledStiffness<T> {
@@ -259,15 +286,35 @@ impl ScaledStiffness {
     /// out: nothing stiffens it. So is a rotation about any other axis about which nothing stiffens a body: its
     /// rotational columns are turned.
     ///
+    /// Under a preload a column stays that is stiffened without it, or by it: only one that is neither is left out. About
+    /// which axes nothing stiffens a body is asked without the preload, of bodies without arms.
+    ///
     /// # Errors
     /// As [`Element::all`].
     pub fn new(m: &Model, elements: &[Element], bodies: &mut Bodies) -> Result<ScaledStiffness, Error> {
         let mut parts = Contributions::new(m, elements, bodies);
-        let turned = turned_axes(m, elements, bodies, &parts)?;
+        let unloaded = if m.is_preloaded() { Some(m.unloaded()) } else { None };
+        let own = unloaded.as_ref().map(Element::all).transpose()?;
+        let mut elastic =
+            unloaded.as_ref().zip(own.as_ref()).map(|(m, own)| Contributions::new(m, own, bodies));
+        let turned = match (&unloaded, &own, &elastic) {
+            (Some(unloaded), Some(own), Some(elastic)) => {
+                let armed = |body: usize| m.arms.iter().any(|arm| bodies.of_point[arm.point] == body);
+                let mut turned = turned_axes(unloaded, own, bodies, elastic)?;
+                turned.retain(|axes| !armed(axes.body));
+                turned
+            }
+            _ => turned_axes(m, elements, bodies, &parts)?,
+        };
         if !turned.is_empty() {
             bodies.turn(&turned);
             parts = Contributions::new(m, elements, bodies);
+            elastic = unloaded.as_ref().zip(own.as_ref()).map(|(m, own)| Contributions::new(m, own, bodies));
         }
+        let is_stiffened = |column: usize| {
+            parts.diagonal[column] > 0.0
+                || elastic.as_ref().is_some_and(|elastic| elastic.diagonal[column] > 0.0)
+        };
         let edges: Vec<[usize; 2]> = parts.members.iter().map(|part| part.0).collect();
         let at: Vec<[f64; 3]> = bodies.list.iter().map(|body| m.points[body.reference]).collect();
         let mut unknown = vec![None; parts.diagonal.len()];
@@ -275,7 +322,7 @@ impl ScaledStiffness {
         let (order, operations) = order(&Graph::new(at.len(), &edges), &at);
         for body in order {
             let Body { free, unstiffened, .. } = &bodies.list[body];
-            let stiffened = |&k: &usize| free[k] && !unstiffened[k] && parts.diagonal[6 * body + k] > 0.0;
+            let stiffened = |&k: &usize| free[k] && !unstiffened[k] && is_stiffened(6 * body + k);
             for k in (0..6).filter(stiffened) {
                 unknown[6 * body + k] = Some(column.len());
                 column.push(6 * body + k);
@@ -359,9 +406,9 @@ fn turned_axes(
     Ok(turned)
 }
 
-/// The power of two nearest to 1/sqrt(x).
+/// The power of two nearest to 1/sqrt(|x|).
 fn scale_of(x: f64) -> f64 {
     // A power of two scales without rounding; the clamp keeps the scaled entries finite.
-    let exponent = (-0.5 * x.log2()).round().clamp(-500.0, 500.0);
+    let exponent = (-0.5 * x.abs().log2()).round().clamp(-500.0, 500.0);
     f64::powi(2.0, exponent as i32)
 }

@@ -6,18 +6,20 @@
 //! the accuracy asked for, stiffness and factor are formed again in double-doubles; where that does not help
 //! either, the frame is refused with the name of its weakest degree of freedom.
 //!
-//! Order of the files: `memory`, `product`, `cholesky`, `forward`, `certificate`, `solver`.
+//! Order of the files: `memory`, `product`, `cholesky`, `indefinite`, `forward`, `certificate`, `solver`.
 
 mod certificate;
 mod cholesky;
 mod forward;
+mod indefinite;
 mod memory;
 mod product;
 mod solver;
 
 pub use certificate::Certificate;
-pub(crate) use cholesky::{Analysis, Factor, FactorError, analyse, for_each_entry};
+pub(crate) use cholesky::{Factor, FactorError};
 pub(crate) use forward::{ForwardSolution, SparseLoad, dot_products};
+pub(crate) use indefinite::{IndefiniteFactor, negative_eigenvalues};
 pub use memory::MEMORY_LIMIT;
 pub(crate) use memory::allow_square;
 pub(crate) use product::multiply;

@@ -2,13 +2,13 @@
 
 use std::sync::{Arc, OnceLock};
 
-use nalgebra::{SVector, Vector3};
+use nalgebra::{Matrix3, SVector, Vector3};
 use splines::{Axis, Probe, Rails};
 
-use crate::assembly::{Bodies, Combination, Element, Extended, ScaledStiffness};
+use crate::assembly::{Bodies, Combination, Element, Extended, Real, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
 use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
-use crate::influence::layout::{ExactLayout, Layout};
+use crate::influence::layout::{ExactLayout, Layout, StateRows};
 use crate::influence::load::RailLoads;
 use crate::model::{Model, Rail};
 
@@ -169,6 +169,25 @@ impl FactoredFrame {
     /// The model that the frame was made of.
     pub(super) fn model(&self) -> &Model {
         &self.model
+    }
+
+    /// The axes of a rail as rows x, up and z, global.
+    pub(crate) fn rail_axes(&self, rail: usize) -> Matrix3<f64> {
+        let elements = self.line.iter().flat_map(|line| line.elements());
+        let state = elements.filter(|element| element.rail == rail).map(|element| element.ends[0]).next();
+        state.map_or_else(Matrix3::identity, |state| self.exact.states[state].rail().axes.map(Real::double))
+    }
+
+    /// The body of a state of the rails, and the arm from its reference to the state, global.
+    pub(crate) fn state_arm(&self, state: usize) -> (usize, Vector3<f64>) {
+        let (point, offset) = match &self.exact.states[state] {
+            StateRows::Tip { point, offset, .. } => (*point, *offset),
+            StateRows::Released { member, end, .. } => {
+                let element = &self.elements[*member];
+                (element.points[*end], element.offsets[*end])
+            }
+        };
+        (self.bodies.of_point[point], self.bodies.arms[point].map(Real::double) + offset)
     }
 
     /// What the evaluation in double-doubles needs, once it has been asked for.

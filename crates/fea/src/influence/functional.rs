@@ -1,6 +1,6 @@
 //! Effects of loads as linear functions of the motions of the bodies and of the loads.
 
-use nalgebra::{DMatrix, Matrix6, RowSVector, Vector3};
+use nalgebra::{DMatrix, Matrix3, Matrix6, RowSVector, Vector3};
 use splines::{ForceComponent, InternalForce};
 
 use crate::assembly::{Combination, Element, transformation};
@@ -114,11 +114,19 @@ impl FactoredFrame {
         let balance = RowSVector::from(component.balance(place * element.length));
         let mut strain = Combination::default();
         let pair = self.bodies.pair(element.points);
+        let under_tension = element.tension_row(place, component);
         if pair[0] != pair[1] {
-            let row = balance * element.stiffness.fixed_rows::<6>(0) * transformation(element, &self.bodies);
+            let mut row =
+                balance * element.stiffness.fixed_rows::<6>(0) * transformation(element, &self.bodies);
+            if let Some(deflected) = &under_tension {
+                row += deflected * element.recovery() * transformation(element, &self.bodies);
+            }
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
         }
-        let ends: RowSVector<f64, 12> = -balance * element.recovery().fixed_columns::<6>(0).transpose();
+        let mut ends: RowSVector<f64, 12> = -balance * element.recovery().fixed_columns::<6>(0).transpose();
+        if let (Some(deflected), Some(released)) = (&under_tension, &element.released) {
+            ends += deflected * released.compliance;
+        }
         let section = InternalForce { member, place, component, ends: ends.transpose().into() };
         Functional { strain, direct: Combination::default(), section: Some(section) }
     }
@@ -154,6 +162,11 @@ impl FactoredFrame {
             let end = usize::from(pair[1] == body);
             let row = distribution * b.fixed_columns::<6>(6 * end).transpose() * element.stiffness * b;
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
+        }
+        for arm in m.arms.iter().filter(|arm| self.bodies.of_point[arm.point] == body) {
+            let stiffness = Matrix3::from_fn(|i, j| arm.stiffness[i][j]);
+            let row = distribution.fixed_columns::<3>(3) * stiffness;
+            (0..3).for_each(|k| strain.add(6 * body + 3 + k, row[k]));
         }
         for spring in m.springs.iter().filter(|spring| self.bodies.of_point[spring.point] == body) {
             let row = self.motion_row(spring.point, spring.dof);

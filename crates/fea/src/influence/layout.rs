@@ -53,6 +53,15 @@ pub(crate) enum StateRows {
     Released { member: usize, end: usize, rail: Triad },
 }
 
+impl StateRows {
+    /// Axes of the rail.
+    pub fn rail(&self) -> &Triad {
+        match self {
+            StateRows::Tip { rail, .. } | StateRows::Released { rail, .. } => rail,
+        }
+    }
+}
+
 impl ExactLayout {
     /// By how much the coordinates of the ends of an element change when they are rounded to doubles.
     pub fn rounding(&self, element: usize) -> [f64; 2] {

@@ -68,6 +68,7 @@ impl CrossSection {
             bending_z: reciprocal(self.e * self.iz),
             shear_y: shear(self.shear_y),
             shear_z: shear(self.shear_z),
+            tension: 0.0,
         }
     }
 

@@ -15,6 +15,8 @@ pub enum MemberKind {
     /// Its change of length and its twist; its ends transmit no bending moment. The mass moves with the straight line
     /// between the ends and has no inertia in twist.
     Rod,
+    /// Its change of length alone, as long as it is in tension; only its area counts.
+    Cable,
 }
 
 /// A straight uniform member between two points, with rigid offsets and releases.
@@ -44,6 +46,10 @@ pub struct Member {
     pub offsets: [[f64; 3]; 2],
     /// Local degrees of freedom released at each end, between the rigid offset and the flexible part.
     pub releases: [DofSet; 2],
+    /// Axial force about which the motions of the member are small, positive in tension; 0 without preload. It is that of
+    /// an equilibrium of the whole structure ([`crate::preloaded`]): forces on some members alone give motions that no
+    /// structure has.
+    pub tension: f64,
 }
 
 impl Member {
@@ -57,6 +63,7 @@ impl Member {
             orientation,
             offsets: [[0.0; 3]; 2],
             releases: [[false; 6]; 2],
+            tension: 0.0,
         }
     }
 }
@@ -79,6 +86,18 @@ pub struct GroundSpring {
     pub dof: Dof,
     /// Force per length, or moment per radian; not negative.
     pub stiffness: f64,
+}
+
+/// What the forces of a preload on rigid arms add to the stiffness against rotation of the body that the arms belong to.
+///
+/// A force F at the tip of an arm r that turns by theta does the work F . (theta x (theta x r))/2 of second order, so that
+/// it resists with the stiffness (F . r) I - (F r^T + r F^T)/2, force length, global.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ArmStiffness {
+    /// Index of a point of the body.
+    pub point: usize,
+    /// Moment about each global axis per radian about each, symmetric; it need not be positive.
+    pub stiffness: [[f64; 3]; 3],
 }
 
 /// A rigid connection of two points.
@@ -140,6 +159,8 @@ pub struct Model {
     pub links: Vec<RigidLink>,
     /// Rigid masses; statics does not use them.
     pub masses: Vec<PointMass>,
+    /// Stiffness of rigid arms under the forces of a preload; none without preload.
+    pub arms: Vec<ArmStiffness>,
     /// The global direction up, any length. Only rails use it.
     pub up: [f64; 3],
     /// Beam theory of all members.
@@ -174,6 +195,11 @@ impl Model {
                 .and_then(|()| not_negative(EntryAttribute::Stiffness, spring.stiffness))
                 .map_err(at(ModelEntry::Spring(k)))?;
         }
+        for arm in &self.arms {
+            let point = at(ModelEntry::Point(arm.point));
+            known(arm.point).map_err(point)?;
+            finite(EntryAttribute::Stiffness, arm.stiffness.as_flattened()).map_err(point)?;
+        }
         for (k, link) in self.links.iter().enumerate() {
             known(link.from).and_then(|()| known(link.to)).map_err(at(ModelEntry::Link(k)))?;
         }
@@ -189,6 +215,20 @@ impl Model {
         Ok(())
     }
 
+    /// The model without preload.
+    #[must_use]
+    pub(crate) fn unloaded(&self) -> Model {
+        let mut out = self.clone();
+        out.members.iter_mut().for_each(|member| member.tension = 0.0);
+        out.arms.clear();
+        out
+    }
+
+    /// Whether its stiffness is that about a loaded state.
+    pub(crate) fn is_preloaded(&self) -> bool {
+        !self.arms.is_empty() || self.members.iter().any(|member| member.tension != 0.0)
+    }
+
     fn check_member(&self, member: &Member) -> Result<(), EntryFault> {
         for point in member.points {
             if point >= self.points.len() {
@@ -199,6 +239,17 @@ impl Model {
             return Err(EntryFault::NoSection { section: member.section });
         }
         finite(EntryAttribute::Orientation, &member.orientation)?;
+        finite(EntryAttribute::Tension, &[member.tension])?;
+        let collapses = |area: Option<f64>| {
+            let section = &self.sections[member.section];
+            area.is_some_and(|area| {
+                self.theory == BeamTheory::Timoshenko && -member.tension >= section.g * area
+            })
+        };
+        let section = &self.sections[member.section];
+        if member.kind == MemberKind::Beam && (collapses(section.shear_y) || collapses(section.shear_z)) {
+            return Err(EntryFault::ShearCollapse { tension: member.tension });
+        }
         member.offsets.iter().try_for_each(|offset| finite(EntryAttribute::Offset, offset))
     }
 }

@@ -168,7 +168,7 @@ mod tests {
     use super::*;
 
     const PLANE: BendingPlane =
-        BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: 0.3, shear: 0.7 };
+        BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: 0.3, shear: 0.7, tension: 0.0 };
     const LENGTH: f64 = 1.7;
 
     fn value(polynomial: &[f64], s: f64) -> f64 {

@@ -40,6 +40,8 @@ struct InertiaForces {
     on_bodies: Vec<Vector6>,
     end_accelerations: Vec<Vector12>,
     between: Vec<[[f64; BETWEEN]; 2]>,
+    /// Whether the acceleration is the same everywhere.
+    is_uniform: bool,
 }
 
 impl FactoredFrame {
@@ -49,7 +51,7 @@ impl FactoredFrame {
         let reference = |body: usize| self.bodies.list[body].reference;
         let [a, b, c] = acceleration;
         let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
-        let mut forces = self.inertia_forces(m, &[motion], |motion, body| {
+        let mut forces = self.inertia_forces(m, &[motion], true, |motion, body| {
             arm(&Vector3::from(m.points[reference(body)])) * motion
         });
         Weight { forces: forces.swap_remove(0) }
@@ -107,7 +109,8 @@ impl FactoredFrame {
     ) -> Result<DMatrix<f64>, Error> {
         let functionals = self.functionals(m, effects)?;
         let reference = |body: usize| self.bodies.list[body].reference;
-        let mut shapes = self.inertia_forces(m, modes, |mode, body| mode.points[reference(body)].into());
+        let mut shapes =
+            self.inertia_forces(m, modes, false, |mode, body| mode.points[reference(body)].into());
         let between = self.add_interior_motions(m, modes, &mut shapes);
         let mut out = DMatrix::zeros(effects.len(), modes.len());
         if functionals.len() <= shapes.len() {
@@ -141,15 +144,24 @@ impl FactoredFrame {
         at.iter().map(|&probe| Ok(self.row(probe)?.0.evaluate(&motions))).collect()
     }
 
+    /// The forces of a uniform acceleration as a load on the scaled unknowns, without what acts on degrees of freedom that
+    /// nothing stiffens.
+    pub(crate) fn load_of_weight(&self, weight: &Weight) -> SparseLoad {
+        self.load_of(&weight.forces)
+    }
+
     /// Motions of the references of all bodies under forces M a.
     fn motions_under(&self, forces: &InertiaForces) -> Vec<Vector6> {
+        self.motions(&self.load_of(forces))
+    }
+
+    fn load_of(&self, forces: &InertiaForces) -> SparseLoad {
         let on_body = |(body, force): (usize, &Vector6)| {
             let mut load = Combination::default();
             (0..6).for_each(|k| load.add(6 * body + k, force[k]));
             self.scaled_where_stiffened(&load)
         };
-        let load: SparseLoad = forces.on_bodies.iter().enumerate().flat_map(on_body).collect();
-        self.motions(&load)
+        forces.on_bodies.iter().enumerate().flat_map(on_body).collect()
     }
 
     /// The forces M a for each of `all`; `motion` gives the acceleration of the reference of a body.
@@ -157,6 +169,7 @@ impl FactoredFrame {
         &self,
         m: &Model,
         all: &[T],
+        is_uniform: bool,
         motion: impl Fn(&T, usize) -> Vector6,
     ) -> Vec<InertiaForces> {
         let bodies = self.bodies.list.len();
@@ -166,6 +179,7 @@ impl FactoredFrame {
             on_bodies: vec![SVector::zeros(); bodies],
             end_accelerations: vec![Vector12::zeros(); self.elements.len()],
             between: vec![[[0.0; BETWEEN]; 2]; self.elements.len()],
+            is_uniform,
         };
         let mut out: Vec<InertiaForces> = all.iter().map(|_| zero()).collect();
         for (index, (element, member)) in self.elements.iter().zip(&m.members).enumerate() {
@@ -176,7 +190,11 @@ impl FactoredFrame {
             let pair = self.bodies.pair(element.points);
             let b = transformation(element, &self.bodies);
             let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
-            let mass = ends.transpose() * unreleased_mass(element, section, m.theory, member.kind);
+            let mut own = unreleased_mass(element, section, m.theory, member.kind);
+            if is_uniform {
+                element.bend_uniform_load(&mut own);
+            }
+            let mass = ends.transpose() * own;
             for (forces, motions) in out.iter_mut().zip(&motions) {
                 forces.add_member(index, pair, &ends, &mass, motions);
             }
@@ -260,7 +278,13 @@ impl FactoredFrame {
         }
         let distributed =
             DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
-        let mut fixed = unreleased_mass(element, cross_section, m.theory, member.kind) * ends;
+        let mut own = unreleased_mass(element, cross_section, m.theory, member.kind);
+        let mut turned = 0.0;
+        if forces.is_uniform {
+            element.bend_uniform_load(&mut own);
+            turned = element.uniform_load_under_tension(cross_section.mass, ends, section);
+        }
+        let mut fixed = own * ends;
         let moved = [0, 1].map(|plane| {
             let own = motions.and_then(|motions| motions[plane].as_ref())?;
             (between[plane] != [0.0; BETWEEN]).then_some((own, &between[plane]))
@@ -272,6 +296,7 @@ impl FactoredFrame {
         let end_forces: f64 = section.ends.iter().zip(fixed.iter()).map(|(a, b)| a * b).sum();
         let to = section.place * element.length;
         end_forces
+            + turned
             + GAUSS
                 .iter()
                 .map(|[place, weight]| {

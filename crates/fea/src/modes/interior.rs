@@ -87,7 +87,13 @@ impl InteriorMotion {
                 * (density * integral_of_product(&shape, &deflection)
                     + rotary * integral_of_product(&turn, &rotation));
         }
-        let stiffness = plane.bending * length.powi(5) / 720.0 + plane.shear * length.powi(3) / 12.0;
+        let (c, g) = (plane.bending, plane.shear);
+        let mut stiffness = c * length.powi(5) / 720.0 + g * length.powi(3) / 12.0;
+        if plane.tension != 0.0 {
+            // The axial force times the integral of the square of the slope.
+            let slopes = c * c * length.powi(7) / 30_240.0 + c * g * length.powi(5) / 360.0;
+            stiffness += plane.tension * (slopes + g * g * length.powi(3) / 12.0);
+        }
         InteriorMotion { member, plane: index, stiffness, mass, coupling }
     }
 

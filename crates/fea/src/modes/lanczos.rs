@@ -5,9 +5,8 @@ use nalgebra::{DMatrix, DVector};
 use sprs::CsMat;
 
 use crate::assembly::symmetric_product;
-use crate::factor::{Factor, FactorError, Solver};
+use crate::factor::{Factor, FactorError, Solver, negative_eigenvalues};
 use crate::modes::block;
-use crate::modes::count::negative_eigenvalues;
 use crate::modes::decoupled::Part;
 
 /// Number of vectors in a block.

@@ -7,12 +7,11 @@
 //! search to the unknowns that given forces can move, and `interior` lets Timoshenko members deflect between nodes
 //! under their own inertia.
 //!
-//! Order of the files: `shapes`, `interior`, `inertia_motions`, `mass`, `count`, `decoupled`, `block`, `lanczos`,
+//! Order of the files: `shapes`, `interior`, `inertia_motions`, `mass`, `decoupled`, `block`, `lanczos`,
 //! `mode`, `all`, `lowest`, `inertial`, `iterated`, `refined`.
 
 mod all;
 mod block;
-mod count;
 mod decoupled;
 mod inertia_motions;
 mod inertial;

@@ -133,6 +133,7 @@ pub fn mill(theory: BeamTheory) -> (Model, Rail) {
                 orientation: vector(data("orientation")),
                 offsets: [vector(data("offset_a")), vector(data("offset_b"))],
                 releases: [set(data("release_a")), set(data("release_b"))],
+                tension: 0.0,
             });
         }
     }

@@ -19,14 +19,11 @@ use crate::text::inputs::Inputs;
 use crate::text::names::{check_name, names, resolve};
 use crate::text::place::Place;
 use crate::text::source::Source;
-use crate::units::{Dimension, Scale, Units};
+use crate::units::{Dimension, STANDARD_GRAVITY, Scale, Units};
 use crate::vector::length;
 
 /// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-design/1";
-
-/// Standard acceleration of gravity, m/s2.
-const STANDARD_GRAVITY: f64 = 9.806_65;
 
 /// Names of loads that every case may factor, beside those of parts of vertical forces.
 const LOADS: [&str; 8] =

@@ -12,7 +12,7 @@ use splines::ExactSurface;
 use super::block::GridBlock;
 use super::coupling::{Coupling, RawCoupling};
 use super::effects_file::{self, RawEffects};
-use super::influence::{GridRail, StationGrid};
+use super::influence::{GridCritical, GridRail, StationGrid};
 use super::modes_file::RawModes;
 use super::surface_file::{self, RawSurface};
 use crate::spec::THEORIES;
@@ -53,6 +53,15 @@ pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
             "precision": precision,
         });
         head.insert("certificate".into(), object);
+    }
+    match grid.critical {
+        Some(GridCritical::At(factor)) => {
+            head.insert("critical_factor".into(), json!(factor));
+        }
+        Some(GridCritical::Above(most)) => {
+            head.insert("critical_factor".into(), json!({ "above": most }));
+        }
+        None => {}
     }
     if let Some(coupling) = Coupling::of(grid) {
         head.insert("coupling".into(), coupling.json());
@@ -103,6 +112,9 @@ pub(crate) struct RawGrid {
     rails: Option<Vec<RawRail>>,
     /// Bound of the error from rounding.
     certificate: Option<RawCertificate>,
+    /// Smallest factor on the preload at which the stiffness is singular, of axial forces alone; lateral-torsional buckling is
+    /// not included. Absent without preload.
+    critical_factor: Option<RawCritical>,
     /// Size of the coupling of directions, for information: it follows from the grids.
     #[serde(rename = "coupling")]
     _coupling: Option<RawCoupling>,
@@ -140,6 +152,19 @@ struct RawCertificate {
     /// Precision in which the stiffness matrix was formed and factored.
     #[serde(default)]
     precision: Precision,
+}
+
+/// A critical factor, or an object with the factor `above` which there is one at most.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(untagged, expecting = "a number, or an object with `above`")]
+enum RawCritical {
+    /// The factor.
+    At(f64),
+    /// There is none up to a factor.
+    Above {
+        /// That factor.
+        above: f64,
+    },
 }
 
 /// Precision in which the stiffness matrix is formed and factored.
@@ -240,6 +265,10 @@ fn check(raw: &RawGrid, source: &Source, faults: &mut Faults) -> Option<StationG
         blocks,
         certificate,
         effects,
+        critical: raw.critical_factor.map(|given| match given {
+            RawCritical::At(factor) => GridCritical::At(factor),
+            RawCritical::Above { above } => GridCritical::Above(above),
+        }),
         notes: raw.notes.clone(),
     })
 }
@@ -318,6 +347,7 @@ mod tests {
             blocks: vec![(GridBlock::Vertical, block.clone()), (GridBlock::VerticalLateral, block * 2.0)],
             certificate: Some(Certificate { condition: 12.5, error_bound: 1.0 / 7.0, extended: true }),
             effects: None,
+            critical: None,
             notes: vec!["no longitudinal grids".to_owned()],
         }
     }

@@ -1,6 +1,6 @@
 //! Influence coefficients of a structure between its stations.
 
-use fea::{Certificate, FactoredFrame, Model};
+use fea::{Certificate, CriticalFactor, FactoredFrame, Model};
 use nalgebra::DMatrix;
 use splines::{Axis, Probe};
 
@@ -54,8 +54,19 @@ pub struct StationGrid {
     pub certificate: Option<Certificate>,
     /// Reactions and internal forces per unit load, if known.
     pub effects: Option<Effects>,
+    /// The smallest factor on the preload of the structure at which its stiffness is singular; `None` without preload.
+    pub critical: Option<GridCritical>,
     /// Remarks for the user, such as the reason why a block is missing.
     pub notes: Vec<String>,
+}
+
+/// The critical factor of a preload: of axial forces alone, without lateral-torsional buckling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum GridCritical {
+    /// The factor.
+    At(f64),
+    /// None up to this one.
+    Above(f64),
 }
 
 /// A rail of a grid.
@@ -116,8 +127,31 @@ impl StationGrid {
             blocks,
             certificate: Some(solved.certificate),
             effects: None,
+            critical: None,
             notes,
         })
+    }
+
+    /// Adds the critical factor of the preload of `spec`, with a note of its mode.
+    ///
+    /// # Errors
+    /// As [`Spec::preloaded`].
+    pub fn with_critical_factor(mut self, spec: &Spec) -> Result<StationGrid, fea::Error> {
+        let Some(state) = spec.preloaded()? else { return Ok(self) };
+        let reach =
+            "about the state of the preload; axial forces alone, lateral-torsional buckling not included";
+        let (critical, note) = match &state.critical {
+            CriticalFactor::At(factor, mode) => {
+                let mode = spec.buckling_words(&mode.most);
+                (GridCritical::At(*factor), format!("critical factor {factor:.6}: {mode} ({reach})"))
+            }
+            CriticalFactor::Above(most) => {
+                (GridCritical::Above(*most), format!("no critical factor up to {most:e} ({reach})"))
+            }
+        };
+        self.critical = Some(critical);
+        self.notes.push(note);
+        Ok(self)
     }
 
     /// Adds the influence lines of reactions and internal forces, computed from the frame and its model.

@@ -15,4 +15,4 @@ pub mod modes_file;
 pub mod surface_file;
 
 pub use block::{GridBlock, axes};
-pub use influence::{GridRail, StationGrid};
+pub use influence::{GridCritical, GridRail, StationGrid};

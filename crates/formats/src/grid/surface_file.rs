@@ -48,6 +48,8 @@ struct RawCell {
     offset: [f64; 3],
     /// 1/EA, 1/GJ, 1/EIy, 1/EIz, 1/(G Asy) and 1/(G Asz); null where nothing resists.
     flexibility: [Option<f64>; 6],
+    /// Axial force about which the element is linear, positive in tension; by default 0.
+    tension: Option<f64>,
     /// Number that is equal for all elements on one member.
     member: Option<usize>,
     /// Whether the member runs opposite to the rail.
@@ -74,6 +76,9 @@ pub(crate) fn to_json(surface: &ExactSurface) -> Value {
                 "offset": cell.offset,
                 "flexibility": [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
             });
+            if f.tension != 0.0 {
+                object["tension"] = json!(f.tension);
+            }
             if *rest != [0.0; 2] {
                 object["x_rest"] = json!(rest);
             }
@@ -108,7 +113,15 @@ impl RawSurface {
                     length: raw.length,
                     frame: raw.frame,
                     offset: raw.offset,
-                    flexibility: Flexibility { axial, torsion, bending_y, bending_z, shear_y, shear_z },
+                    flexibility: Flexibility {
+                        axial,
+                        torsion,
+                        bending_y,
+                        bending_z,
+                        shear_y,
+                        shear_z,
+                        tension: raw.tension.unwrap_or_default(),
+                    },
                     member: raw.member.map(|member| ElementMember { id: member, reversed: raw.reversed }),
                 }
             })

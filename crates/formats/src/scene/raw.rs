@@ -145,6 +145,9 @@ pub(crate) struct RawStructure {
     pub irregularities: Vec<RawIrregularity>,
     /// Whether friction, drives and brakes load the structure along its rails; by default false.
     pub longitudinal: Option<bool>,
+    /// Whether the wheels at rest at the start are part of the preload of the spec; by default false. The state under them is
+    /// that of the whole run.
+    pub preload: Option<bool>,
     /// Name of the body that carries the structure; by default the ground carries it.
     pub on: Option<String>,
     /// Vector from the origin of that body to the origin of the spec, length; by default zero.

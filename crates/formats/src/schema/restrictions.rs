@@ -69,7 +69,7 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Girder", "density", Positive),
     ("Girder", "fy", Positive),
     ("Block", "type", Words(&["line"])),
-    ("CellData", "kind", Blocks(&["beam", "truss", "rod"])),
+    ("CellData", "kind", Blocks(&["beam", "truss", "rod", "cable"])),
     ("Section", "A", Positive),
     ("Section", "Iy", Positive),
     ("Section", "Iz", Positive),

@@ -4,11 +4,12 @@ use fea::{BeamTheory, Dof, GroundSpring, Member, Model, PointMass, RailSegment, 
 
 use super::cuts::{self, Cut};
 use super::outline::MemberOutline;
+use super::preload::{self, SpecPreload};
 use super::raw::RawSpec;
 use super::references::{Points, dofs, index_below};
 use super::shape::ShapeTaper;
 use super::stress::{self, StressPoint};
-use super::structure::FrameSpec;
+use super::structure::{FrameSpec, has_mass};
 use super::words::DOF_WORDS;
 use super::{crane_rail, members, rails, sections};
 use crate::check::Check;
@@ -20,7 +21,7 @@ use crate::vector::length;
 /// Default upward direction.
 const UP: [f64; 3] = [0.0, 1.0, 0.0];
 
-/// Reads the general form: the structure, and the sections whose internal forces are requested.
+/// Reads the general form: the structure, the sections whose internal forces are requested, and the preload.
 ///
 /// All parts are read even if an earlier one has faults, so that every fault is reported at once. Checks that require
 /// valid members (extent of rails, completeness of sections, tapers) are skipped if a member has a fault.
@@ -29,7 +30,7 @@ pub(super) fn read(
     theory: BeamTheory,
     root: &Place<'_>,
     check: &mut Check<'_>,
-) -> (FrameSpec, Vec<Cut>) {
+) -> (FrameSpec, Vec<Cut>, Option<SpecPreload>) {
     let mut model = Model { theory, up: raw.up.unwrap_or(UP), ..Model::default() };
     if length(model.up) == 0.0 {
         check.faults.add(Fault::new(&root.key("up"), "must not be zero"));
@@ -54,6 +55,7 @@ pub(super) fn read(
     read_springs(raw, root, &known, &mut model, check);
     read_links(raw, root, &known, &mut model, check);
     read_masses(raw, root, &known, &mut model, check);
+    let preload = preload::read(raw, root, None, &known, has_mass(&model), check);
     let (rails, ranges) = rails::read(raw, root, &model, &cells, check);
     let points = stress::of_sections(raw, root, check);
     // a tapered cell has no section of the file between its ends, and therefore no stress points
@@ -79,12 +81,14 @@ pub(super) fn read(
     };
     let (mut frame, cuts) = if cells.complete {
         let shapes = shapes(raw, &frame.model, &cells.tapers, check);
-        in_parts(frame, cuts, &cells.tapers, &shapes)
+        let cut = |preload: &SpecPreload| preload::cut_for_weight(&frame.model, &cells.tapers, preload);
+        let tapers = preload.as_ref().map_or_else(|| cells.tapers.clone(), cut);
+        in_parts(frame, cuts, &tapers, &shapes)
     } else {
         (frame, cuts)
     };
     crane_rail::add(raw, root, &mut frame, check);
-    (frame, cuts)
+    (frame, cuts, preload)
 }
 
 /// The section of the file that each member has, before crane rails change it.

@@ -5,6 +5,7 @@ use fea::{Dof, Error, ModelEntry};
 use super::structure::{Form, Spec};
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Basis, Fault, Faults};
+use crate::text::number::{number, rounded};
 use crate::text::place::{Path, Step};
 use crate::text::source::Source;
 
@@ -37,7 +38,7 @@ impl Spec {
             Error::Mechanism { point, dof } => SolveError::NoSolution(format!(
                 "{}: mechanism: {} is not restrained in {dof} ({})",
                 source.name,
-                self.point(*point),
+                self.point_words(*point),
                 meaning(*dof)
             )),
             Error::IllConditioned { condition, bound, asked, point, dof } => SolveError::NoSolution(format!(
@@ -45,7 +46,7 @@ impl Spec {
                      {asked:.1e}; the worst degree of freedom is {dof} of {} ({})  hint: lengthen or join the \
                      shortest members, or request less with --accuracy",
                 source.name,
-                self.point(*point),
+                self.point_words(*point),
                 meaning(*dof)
             )),
             Error::Released { member, end, dof } => SolveError::NoSolution(format!(
@@ -53,6 +54,13 @@ impl Spec {
                 source.name,
                 self.path(ModelEntry::Member(*member)),
                 if *end == 0 { "a" } else { "b" }
+            )),
+            Error::Buckled { factor, mode } => SolveError::NoSolution(format!(
+                "{}: the structure buckles at {} times its preload: {}  hint: the factor is that of axial forces \
+                 alone",
+                source.name,
+                number(rounded(*factor, 4)),
+                self.buckling_words(mode)
             )),
             Error::Memory { quantity, bytes, most } => SolveError::NoSolution(format!(
                 "{}: the {quantity} would need {:.1} GB of memory, more than the permitted {:.1} GB  hint: {}",
@@ -62,6 +70,7 @@ impl Spec {
                 "shorten the rails to the travel of the wheels, or use fewer members"
             )),
             Error::NotFactorable { .. }
+            | Error::NoEquilibrium { .. }
             | Error::NoRails
             | Error::Rail(_)
             | Error::NoMass
@@ -84,6 +93,10 @@ impl Spec {
             }
             (Form::Girder(_), ModelEntry::Station { station, .. }) => list("stations", station),
             (_, ModelEntry::Effect(index)) => list("effects", index),
+            (_, ModelEntry::Preload) => Path(vec![key("preload")]),
+            (_, ModelEntry::PreloadForce(index)) => {
+                Path(vec![key("preload"), key("loads"), Step::Index(index)])
+            }
             (Form::Girder(_), _) => Path(vec![key("girder")]),
             (Form::Frame(_), ModelEntry::Up) => Path(vec![key("up")]),
             (Form::Frame(_), ModelEntry::Point(index)) => list("points", index),
@@ -126,7 +139,7 @@ impl Spec {
     }
 
     /// Description of a point in messages: index, set and coordinates, or for a girder its coordinate.
-    fn point(&self, index: usize) -> String {
+    pub(super) fn point_words(&self, index: usize) -> String {
         let unit = self.units.length.word();
         match &self.form {
             Form::Girder(girder) => match girder.model_and_rail() {

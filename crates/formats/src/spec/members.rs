@@ -138,7 +138,12 @@ impl<'r> Columns<'r> {
         for (end, point) in points.into_iter().enumerate() {
             ends_exist &= index_below(point, model.points.len(), "points", &cell.index(end), check);
         }
-        let kinds = [("beam", MemberKind::Beam), ("truss", MemberKind::Truss), ("rod", MemberKind::Rod)];
+        let kinds = [
+            ("beam", MemberKind::Beam),
+            ("truss", MemberKind::Truss),
+            ("rod", MemberKind::Rod),
+            ("cable", MemberKind::Cable),
+        ];
         let kind = self
             .kind
             .get(block, index)
@@ -159,7 +164,7 @@ impl<'r> Columns<'r> {
         if kind == MemberKind::Beam && length(along) > 0.0 && parallel(orientation, along) {
             self.refuse_orientation(here, (orientation, along), cell, &data, check);
         }
-        Some(Member { points, kind, section: section?, orientation, offsets, releases })
+        Some(Member { points, kind, section: section?, orientation, offsets, releases, tension: 0.0 })
     }
 
     /// The section of a cell. It may be left out if the spec has only one section; otherwise a missing section is

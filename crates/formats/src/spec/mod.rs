@@ -3,7 +3,7 @@
 //! The modules from low to high are the content of the file (`raw`, with the items of `block`); its references and
 //! arrays (`references`, `column`); its parts (`rolled` sections by name, `sections` with `shape` and [`cross_section`],
 //! `tapers`, `members`, `rails`, `crane_rail`, `stress`, `outline`, `cuts`, `girder_section`, `girder`, `notes`); the checked [`Spec`] (`structure`); the readers of the general form
-//! (`frame`) and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), places of
+//! (`frame`), of the `preload`, and of specs (`read`); and results derived from a spec: names of supported points (`grounds`), spans of rails (`spans`), the state of a preload (`loaded`), places of
 //! solver errors (`locate`), values that are probably wrong (`plausibility`) and rails on ties ([`ties`]).
 
 mod block;
@@ -15,11 +15,13 @@ mod frame;
 mod girder;
 mod girder_section;
 mod grounds;
+mod loaded;
 mod locate;
 mod members;
 mod notes;
 mod outline;
 mod plausibility;
+mod preload;
 mod rails;
 mod raw;
 mod read;
@@ -39,11 +41,13 @@ mod words;
 pub(crate) use block::{Block, Reference};
 pub use cuts::{Cut, CutPlace};
 pub use grounds::SupportedPoint;
+pub use loaded::SMALL_FACTOR;
 pub use locate::SolveError;
 pub use outline::{
     DrawnSection, MemberOutline, OutlineShape, OutlinedMember, SectionOutline, SectionPlates, SpecCraneRail,
     TaperedSection,
 };
+pub use preload::SpecPreload;
 pub(crate) use raw::{RawDetail, RawSectionShape, RawShape, RawSpec};
 pub use read::{FORMAT, format, stem};
 pub use stress::{Detail, StressPoint};

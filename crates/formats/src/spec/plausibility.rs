@@ -69,6 +69,7 @@ impl Spec {
         let mut strengths: Vec<f64> = self.outlines.iter().filter_map(|one| one.yield_strength).collect();
         strengths.dedup();
         all.extend(strengths.into_iter().filter_map(|fy| strength(fy, self.units, scale)));
+        all.extend(self.preload_warnings());
         all
     }
 

@@ -26,7 +26,9 @@ crate::text::object::objects!(
     RawMass,
     RawRail,
     RawSegment,
-    RawCut
+    RawCut,
+    RawPreload,
+    RawPreloadLoad
 );
 
 /// A beam spec: a structure and its rails, in the short form with `girder` or in the general form with `points`
@@ -77,6 +79,32 @@ pub(crate) struct RawSpec {
     pub parts: Option<usize>,
     /// Sections of members at which internal forces are evaluated.
     pub effects: Option<Vec<RawCut>>,
+    /// Forces under which the structure is at rest: everything is computed about this state, of second order.
+    pub preload: Option<RawPreload>,
+}
+
+/// Forces under which the structure is at rest.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawPreload {
+    /// Whether everything that has mass weighs; by default false.
+    pub weight: Option<bool>,
+    /// Acceleration of gravity, a magnitude, length / time^2; by default 9.80665 m/s2. In a scene its own holds.
+    pub gravity: Option<f64>,
+    /// Forces on points.
+    pub loads: Option<Vec<RawPreloadLoad>>,
+}
+
+/// A force on a point.
+#[derive(Debug, Deserialize, JsonSchema)]
+#[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
+pub(crate) struct RawPreloadLoad {
+    /// General form: index of the point, or name of a set of one point.
+    pub point: Option<Reference>,
+    /// Short form: coordinate of a support or an end of the girder, length.
+    pub x: Option<f64>,
+    /// Force along the global axes.
+    pub force: Option<[f64; 3]>,
 }
 
 /// A straight uniform girder, continuous over its supports. Its coordinate is 0 at the first support.
@@ -163,7 +191,8 @@ pub(crate) struct RawBlock {
 #[derive(Debug, Default, Deserialize, JsonSchema)]
 #[serde(remote = "Self", deny_unknown_fields, expecting = "an object")]
 pub(crate) struct RawCellData {
-    /// Kind of the member: "beam" (default), "truss" (axial force alone) or "rod" (axial force and torsion).
+    /// Kind of the member: "beam" (default), "truss" (axial force alone), "rod" (axial force and torsion) or "cable" (tension
+    /// alone, under a `preload`).
     pub kind: Option<Vec<Block<String>>>,
     /// Name or index of the section; may be left out if there is only one section.
     pub section: Option<Vec<Block<Reference>>>,

@@ -3,9 +3,10 @@
 use fea::BeamTheory;
 
 use super::raw::RawSpec;
+use super::references::Points;
 use super::structure::{Form, Spec};
 use super::words::THEORIES;
-use super::{cuts, frame, girder, notes, outline, stress};
+use super::{cuts, frame, girder, notes, outline, preload, stress};
 use crate::check::Check;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults};
@@ -39,7 +40,7 @@ impl Spec {
         let from = own.unwrap_or(Units::SI);
         let to = target.filter(|_| own.is_some()).unwrap_or(from);
         let mut check = Check { faults, scale: Scale { from, to } };
-        let (form, effects) = match &raw.girder {
+        let (form, effects, preload) = match &raw.girder {
             Some(girder) => {
                 refuse_general(raw, &root, check.faults);
                 let before = check.faults.0.len();
@@ -48,11 +49,18 @@ impl Spec {
                 let faultless = check.faults.0.len() == before;
                 let points = stress::read(points, &root.key("girder"), &mut check);
                 let effects = cuts::read_girder(raw, &girder, &points, faultless, &root, &mut check);
-                (Form::Girder(girder), effects)
+                let places = girder.model_and_rail().map_or_else(
+                    |_| Vec::new(),
+                    |(model, _)| model.points.iter().map(|point| point[0]).collect(),
+                );
+                let has_mass = girder.mass_per_length.is_some_and(|mass| mass > 0.0);
+                let known = Points { count: 0, sets: &[] };
+                let preload = preload::read(raw, &root, Some(&places), &known, has_mass, &mut check);
+                (Form::Girder(girder), effects, preload)
             }
             None if raw.points.is_some() || raw.cells.is_some() => {
-                let (frame, effects) = frame::read(raw, theory, &root, &mut check);
-                (Form::Frame(frame), effects)
+                let (frame, effects, preload) = frame::read(raw, theory, &root, &mut check);
+                (Form::Frame(frame), effects, preload)
             }
             None => {
                 let fault = Fault::new(&root, "must have a `girder`, or `points` and `cells`").got("neither");
@@ -69,7 +77,7 @@ impl Spec {
         };
         let notes = if check.faults.0.is_empty() { notes::of(raw, from) } else { Vec::new() };
         let crane_rails = outline::crane_rails(raw);
-        Some(Spec { name, units: to, theory, form, effects, notes, outlines, crane_rails })
+        Some(Spec { name, units: to, theory, form, effects, notes, outlines, crane_rails, preload })
     }
 }
 

@@ -1,9 +1,10 @@
 //! A checked beam spec: a structure with its rails and user-defined names, as plain values.
 
-use fea::{BeamTheory, Girder, Model, Rail};
+use fea::{BeamTheory, EntryFault, Girder, Member, MemberKind, Model, ModelEntry, Rail};
 
 use super::cuts::Cut;
 use super::outline::{MemberOutline, OutlinedMember, SectionOutline, SpecCraneRail};
+use super::preload::SpecPreload;
 use crate::units::Units;
 
 /// Name of the only rail of the short form.
@@ -46,10 +47,13 @@ pub struct Spec {
     pub outlines: Vec<SectionOutline>,
     /// Crane rails by rail; empty where the rails are those of ties.
     pub crane_rails: Vec<Option<SpecCraneRail>>,
+    /// Forces under which the structure is at rest; the model is that about this state.
+    pub preload: Option<SpecPreload>,
 }
 
 /// The two forms of a spec.
 #[derive(Clone, Debug, PartialEq)]
+#[allow(clippy::large_enum_variant, reason = "there are few specs, and most have the general form")]
 pub enum Form {
     /// A straight girder, continuous over its supports.
     Girder(Girder),
@@ -145,10 +149,7 @@ impl Spec {
     pub fn has_mass(&self) -> bool {
         match &self.form {
             Form::Girder(girder) => girder.mass_per_length.is_some_and(|mass| mass > 0.0),
-            Form::Frame(FrameSpec { model, .. }) => {
-                let members = || model.members.iter().any(|member| model.sections[member.section].mass > 0.0);
-                model.masses.iter().any(|point| point.mass > 0.0) || members()
-            }
+            Form::Frame(FrameSpec { model, .. }) => has_mass(model),
         }
     }
 
@@ -173,11 +174,29 @@ impl Spec {
         }
     }
 
-    /// The model and its rails, as `fea::FrameSpec::new` requires them.
+    /// The model and its rails, as `fea::FactoredFrame::new` requires them: with a preload the model about its state.
+    ///
+    /// # Errors
+    /// A girder from whose numbers no model can be built; a preload without a state; a cable without preload.
+    pub fn model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
+        let (model, rails) = self.unloaded_model()?;
+        if let Some(preload) = &self.preload {
+            return Ok((preload.state(&model, &rails)?.model.clone(), rails));
+        }
+        match model.members.iter().position(|member| member.kind == MemberKind::Cable) {
+            Some(member) => Err(fea::Error::Invalid {
+                entry: ModelEntry::Member(member),
+                fault: EntryFault::Slack { tension: 0.0 },
+            }),
+            None => Ok((model, rails)),
+        }
+    }
+
+    /// The model without preload, and its rails.
     ///
     /// # Errors
     /// A girder from whose numbers no model can be built.
-    pub fn model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
+    pub fn unloaded_model(&self) -> Result<(Model, Vec<Rail>), fea::Error> {
         match &self.form {
             Form::Girder(girder) => girder.model_and_rail().map(|(model, rail)| (model, vec![rail])),
             Form::Frame(frame) => {
@@ -196,6 +215,12 @@ impl Spec {
         }
         self
     }
+}
+
+/// Whether anything of a model has mass.
+pub(super) fn has_mass(model: &Model) -> bool {
+    let mass = |member: &Member| model.sections.get(member.section).is_some_and(|section| section.mass > 0.0);
+    model.masses.iter().any(|point| point.mass > 0.0) || model.members.iter().any(mass)
 }
 
 /// First and last rail coordinate of a girder.

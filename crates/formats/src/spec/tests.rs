@@ -235,3 +235,62 @@ fn stations_are_tenths_of_the_spans_by_default() {
     let stations = &spec.rails()[0].stations;
     assert!((500..=1100).contains(&stations.len()) && stations.windows(2).all(|pair| pair[0] < pair[1]));
 }
+
+/// The portal of two columns and a girder with a preload of its own weight and forces on its corners.
+fn portal(preload: &str) -> Source {
+    let text = r#"{"format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"},
+        "points": [[0, 0, 0], [0, 5, 0], [6, 5, 0], [6, 0, 0]], "point_sets": {"corner": [1]},
+        "cells": [{"type": "line", "data": [[0, 1], [1, 2], [3, 2]]}],
+        "cell_data": {"orientation": [[[0, 0, 1], [0, 1, 0], [0, 0, 1]]]},
+        "materials": [{"name": "steel", "E": 2.1e8, "G": 8.1e7, "density": 7.85}],
+        "sections": [{"name": "all", "material": "steel", "A": 0.01, "Iy": 5e-5, "Iz": 5e-5, "J": 1e-5}],
+        "supports": [{"point": 0, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"]},
+                     {"point": 3, "fix": ["ux", "uy", "uz", "rx", "ry", "rz"]}],
+        "rails": {"top": {"origin": [0, 5, 0], "axis": [1, 0, 0], "segments": [{"cell": [0, 1]}], "stations": [0, 3, 6]}},
+        "preload": PRELOAD}"#;
+    Source { name: "portal.json".to_owned(), text: text.replace("PRELOAD", preload) }
+}
+
+#[test]
+fn the_model_of_a_spec_with_a_preload_is_that_about_its_state() {
+    let loads =
+        r#"{"loads": [{"point": "corner", "force": [0, -200, 0]}, {"point": 2, "force": [0, -200, 0]}]}"#;
+    let spec = Spec::read(&portal(loads), None).expect("a spec with a preload");
+    let (model, _) = spec.model().expect("it stands");
+    let (unloaded, _) = spec.unloaded_model().expect("a model");
+    assert_eq!(model.members.len(), 3);
+    for (column, expected) in [(0, -200.0), (2, -200.0)] {
+        assert!((model.members[column].tension / expected - 1.0).abs() < 1e-9);
+    }
+    assert!(unloaded.members.iter().all(|member| member.tension == 0.0));
+    // The state is solved once: copies share it, and other units have their own.
+    let state = spec.preloaded().expect("it stands").expect("a state");
+    let copy = spec.clone().preloaded().expect("it stands").expect("a state");
+    assert!(std::sync::Arc::ptr_eq(&state, &copy));
+    let si = Spec::read(&portal(loads), Some(crate::units::Units::SI)).expect("the same in newtons");
+    let (model, _) = si.model().expect("it stands");
+    assert!((model.members[0].tension / -200e3 - 1.0).abs() < 1e-9);
+    let factor = si.preloaded().expect("it stands").expect("a state").critical.value();
+    assert!((factor / state.critical.value() - 1.0).abs() < 1e-9, "{factor}");
+}
+
+#[test]
+fn weight_cuts_the_members_that_rise_and_warnings_name_cells() {
+    let spec =
+        Spec::read(&portal(r#"{"weight": true, "loads": [{"point": 1, "force": [0, -300, 0]}]}"#), None)
+            .expect("a spec with a preload");
+    let Form::Frame(frame) = &spec.form else { panic!("the general form") };
+    // w L^3/EI of a column is 0.0092: one part suffices; ten times as long it is cut.
+    assert_eq!(frame.model.members.len(), 3);
+    let high =
+        portal(r#"{"weight": true}"#).text.replace("5, 0]", "20, 0]").replace("[0, 5, 0]", "[0, 20, 0]");
+    let tall = Spec::read(&Source { name: "tall.json".to_owned(), text: high }, None).expect("a tall portal");
+    let Form::Frame(frame) = &tall.form else { panic!("the general form") };
+    assert!(frame.model.members.len() > 5 && frame.cells.iter().filter(|cell| **cell == [0, 1]).count() == 1);
+    let warnings = spec.warnings();
+    assert!(
+        warnings.iter().any(|text| text.contains("critical factor") && text.contains("5.2.1(3)")),
+        "{warnings:?}"
+    );
+    assert!(warnings.iter().any(|text| text.contains("cell [0, 0]")), "{warnings:?}");
+}

@@ -159,7 +159,8 @@ pub fn on_ground(name: &str, units: Units, ties: &Ties, range: [f64; 2]) -> Resu
     let (name, form) = (name.to_owned(), Form::Frame(frame));
     let theory = BeamTheory::EulerBernoulli;
     let (outlines, crane_rails) = (Vec::new(), Vec::new());
-    Ok(Spec { name, units, theory, form, effects: Vec::new(), notes: Vec::new(), outlines, crane_rails })
+    let (effects, notes, preload) = (Vec::new(), Vec::new(), None);
+    Ok(Spec { name, units, theory, form, effects, notes, outlines, crane_rails, preload })
 }
 
 /// The structure with a rail on ties above each of its rails. The new rails have the names, coordinates and stations

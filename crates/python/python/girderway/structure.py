@@ -117,6 +117,11 @@ class Structure:
         return self._native.error_bound
 
     @property
+    def critical_factor(self) -> float | None:
+        """Smallest factor on the `preload` at which the structure buckles, by axial forces alone; infinite above 1e6."""
+        return self._native.critical_factor
+
+    @property
     def grid(self) -> dict[str, Floats]:
         """Influence coefficients between all stations by block, as in the file of `girderway fea`."""
         return self._native.grid()

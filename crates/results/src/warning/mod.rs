@@ -1,9 +1,10 @@
 //! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
-//! Files, lowest first: tension, scene, scope, this one.
+//! Files, lowest first: tension, slack, scene, scope, this one.
 
 mod scene;
 mod scope;
+mod slack;
 mod tension;
 
 use std::f64::consts::PI;
@@ -130,6 +131,7 @@ fn warnings(scene: &Scene, input: &SimulationInput, record: &NamedColumns, run: 
             all.extend(of_spec.map(|warning| format!("{}: {warning}", structure.name)));
         }
     }
+    all.extend(slack::slack_cables(scene, input, record));
     all.extend(scene::scene_warnings(scene, record));
     let of_rail = |rail| Wheels { input, record, rail };
     let each = scene.rails.iter().enumerate().map(|(r, rail)| (rail, of_rail(r)));

@@ -47,7 +47,7 @@ pub(super) fn stiffness_growth(model: &Model, rail: &fea::Rail, delta: f64) -> O
         } else {
             chain.clear();
         }
-        if is_released || matches!(member.kind, MemberKind::Truss | MemberKind::Rod) {
+        if is_released || member.kind != MemberKind::Beam {
             chain.clear();
         }
         if restrained.contains(&to) {

@@ -12,7 +12,8 @@ pub(crate) const IDENTITY: [[f64; 3]; 3] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0
 /// Flexibilities of a member's section: reciprocal stiffnesses, so that zero means rigid.
 ///
 /// Local x runs along the member. `bending_z` and `shear_y` act in the local x-y plane, `bending_y` and
-/// `shear_z` in the local x-z plane. `f64::INFINITY` means that the section has no stiffness of that kind.
+/// `shear_z` in the local x-z plane. `f64::INFINITY` means that the section has no stiffness of that kind. A `tension` is
+/// the one number that is no flexibility: it stiffens bending, and compression, its opposite, softens it.
 ///
 /// ```
 /// use splines::Flexibility;
@@ -35,6 +36,9 @@ pub struct Flexibility {
     pub shear_y: f64,
     /// 1/(G Asz), 1/force.
     pub shear_z: f64,
+    /// Axial force N of the member, positive in tension, about which its motions are small; 0 without preload. It adds
+    /// the energy 1/2 integral of N w'^2 to each plane of bending ([`crate::BeamColumn`]).
+    pub tension: f64,
 }
 
 /// The member to which a rail element belongs.
@@ -165,7 +169,9 @@ impl RailElement {
         }
         let f = &self.flexibility;
         let all = [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z];
-        if all.iter().any(|x| *x < 0.0 || x.is_nan()) {
+        // Shear that is softer than the compression has no stable straight state.
+        let collapses = [f.shear_y, f.shear_z].iter().any(|shear| shear * f.tension <= -1.0);
+        if all.iter().any(|x| *x < 0.0 || x.is_nan()) || !f.tension.is_finite() || collapses {
             return Err(Error::ElementFlexibility { cell: index });
         }
         Ok(())

@@ -3,7 +3,7 @@
 use super::element::{LocalPlace, RailElement};
 use super::green::ClampedElement;
 use super::load::AxisLoad;
-use super::shape::cubics;
+use super::shape::shape_values;
 use crate::probe::Axis;
 use crate::vector::RealNumber;
 
@@ -58,10 +58,9 @@ impl<T: RealNumber> ElementFunctions<T> {
     /// the last; for a rigid arm the last six are zero. Coordinates beyond the element count as its ends.
     #[must_use]
     pub fn shapes(&self, axis: Axis, x: T) -> [T; 12] {
-        let LocalPlace { end, r } = self.local(x);
         let axis = axis.component();
         let load = AxisLoad::new(&self.element, &self.element.frame, axis);
-        cubics(&self.element, axis, &load, end).map(|[a, b, c, d]| a + r * (b + r * (c + r * d)))
+        shape_values(&self.element, axis, &load, self.local(x))
     }
 
     /// Displacement along `axis` at x under a unit force along `other_axis` at z of `other`, an element of the

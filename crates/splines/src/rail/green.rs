@@ -5,10 +5,14 @@
 //! function itself; `Plane::magnitude` sums the absolute values of its terms, for bounds of rounding errors;
 //! and `separated` expands it in powers of the place, for the fast evaluation of many pairs.
 
+use super::beam_column::BeamColumn;
 use super::element::{MemberPlace, RailElement};
 use super::load::AxisLoad;
 use crate::compliance::Partials;
 use crate::vector::RealNumber;
+
+/// Roundings of the functions of a member under an axial force, relative to those of cubics.
+pub(crate) const BENT_ROUNDINGS: f64 = 8.0;
 
 /// One bending plane of a clamped Timoshenko beam; all zero where the plane is rigid.
 #[derive(Clone, Copy, Debug)]
@@ -21,6 +25,8 @@ struct Plane<T = f64> {
     l: T,
     /// 1/D, with D = c l^3 + 12 g l.
     inverse: T,
+    /// The plane under an axial force: its functions then replace those above.
+    column: Option<BeamColumn<T>>,
 }
 
 /// Shear V and bending moment m0 that a load causes at the near clamp, x = 0; or their derivatives.
@@ -31,13 +37,14 @@ struct Reaction<T> {
 }
 
 impl<T: RealNumber> Plane<T> {
-    fn new(c: f64, g: f64, l: T) -> Self {
-        let [c, g, zero] = [c, g, 0.0].map(T::from);
+    fn new(bending: f64, shear: f64, tension: f64, l: T) -> Self {
+        let [c, g, zero] = [bending, shear, 0.0].map(T::from);
         let d = (c * l * l + T::from(12.0) * g) * l;
         if d > zero && d < T::from(f64::INFINITY) {
-            Plane { c, g, l, inverse: T::from(1.0) / d }
+            let column = (tension != 0.0).then(|| BeamColumn::new(bending, shear, tension, l));
+            Plane { c, g, l, inverse: T::from(1.0) / d, column }
         } else {
-            Plane { c: zero, g: zero, l: zero, inverse: zero }
+            Plane { c: zero, g: zero, l: zero, inverse: zero, column: None }
         }
     }
 
@@ -49,12 +56,12 @@ impl<T: RealNumber> Plane<T> {
     ///
     /// No term of a force cancels another, so that the reaction keeps its digits near both clamps.
     #[inline(always)]
-    fn reactions(
-        &self,
-        MemberPlace { s: b, q }: MemberPlace<T>,
-        [force, moment]: [T; 2],
-    ) -> [Reaction<T>; 3] {
-        let Plane { c, g, l, inverse } = *self;
+    fn reactions(&self, at: MemberPlace<T>, load: [T; 2]) -> [Reaction<T>; 3] {
+        if let Some(column) = &self.column {
+            return column_reactions(column, at, load);
+        }
+        let (MemberPlace { s: b, q }, [force, moment]) = (at, load);
+        let Plane { c, g, l, inverse, .. } = *self;
         let [two, three, six, twelve] = [2.0, 3.0, 6.0, 12.0].map(T::from);
         let (cl, by_force) = (c * l, c * l * q + six * g);
         let by_moment = cl * (q - two * b) + twelve * g;
@@ -74,12 +81,18 @@ impl<T: RealNumber> Plane<T> {
     /// Deflection v = g V a + c (m0 a^2/2 - V a^3/6) at a, between the near clamp and the load.
     #[inline(always)]
     fn deflection(&self, a: T, Reaction { shear, moment }: Reaction<T>) -> T {
+        if let Some(column) = &self.column {
+            return column.clamped_deflection(a, shear, moment);
+        }
         a * (self.g * shear + self.c * a * (T::from(0.5) * moment - shear * a * T::from(1.0) / T::from(6.0)))
     }
 
     /// Rotation theta = c (m0 a - V a^2/2) there.
     #[inline(always)]
     fn rotation(&self, a: T, Reaction { shear, moment }: Reaction<T>) -> T {
+        if let Some(column) = &self.column {
+            return column.clamped_rotation(a, shear, moment);
+        }
         self.c * a * (moment - T::from(0.5) * shear * a)
     }
 
@@ -97,6 +110,32 @@ impl<T: RealNumber> Plane<T> {
     }
 }
 
+/// The reactions of a clamped member under an axial force, and their derivatives: by reciprocity the transverse force H is
+/// its shape function by the deflection of the near end, and the moment that by the rotation there.
+fn column_reactions<T: RealNumber>(
+    column: &BeamColumn<T>,
+    at: MemberPlace<T>,
+    [force, moment]: [T; 2],
+) -> [Reaction<T>; 3] {
+    let length = at.s + at.q;
+    let is_near = at.s < at.q;
+    // Seen from the far end, rotations and moments change their sign.
+    let (distance, [by_deflection, by_rotation]) = if is_near {
+        let [v, theta, ..] = column.shapes([force, moment]);
+        (at.s, [v, theta])
+    } else {
+        let [_, _, v, theta] = column.shapes([force, -moment]);
+        (at.q, [v, theta.map(|x| -x)])
+    };
+    let [values, first, second] = column.powers_with_derivatives(distance / length);
+    // The second derivative has no sign; the first is by q.
+    let rate = if is_near { -T::from(1.0) / length } else { T::from(1.0) / length };
+    [(values, T::from(1.0)), (first, rate), (second, rate * rate)].map(|(of, scale)| {
+        let sum = |c: &[T; 4]| scale * (c[0] * of[0] + c[1] * of[1] + c[2] * of[2] + c[3] * of[3]);
+        Reaction { shear: sum(&by_deflection), moment: sum(&by_rotation) }
+    })
+}
+
 /// A force and a moment as seen from the other end of the member: moments change their sign.
 #[inline(always)]
 fn turned<T: RealNumber>([force, moment]: [T; 2]) -> [T; 2] {
@@ -104,16 +143,16 @@ fn turned<T: RealNumber>([force, moment]: [T; 2]) -> [T; 2] {
 }
 
 impl Plane {
-    /// Slope v' = theta + g V there.
+    /// theta' = c (m0 - V a), v' = theta + g V, theta'' = -c V and v'' = theta' there; under an axial force those of the
+    /// beam-column.
     #[inline(always)]
-    fn slope(&self, a: f64, reaction: Reaction<f64>) -> f64 {
-        self.rotation(a, reaction) + self.g * reaction.shear
-    }
-
-    /// Curvature v'' = theta' = c (m0 - V a) there.
-    #[inline(always)]
-    fn curvature(&self, a: f64, Reaction { shear, moment }: Reaction<f64>) -> f64 {
-        self.c * (moment - shear * a)
+    fn derivatives(&self, a: f64, reaction: Reaction<f64>) -> [f64; 4] {
+        let Reaction { shear, moment } = reaction;
+        if let Some(column) = &self.column {
+            return column.clamped_derivatives(a, shear, moment);
+        }
+        let bend = self.c * (moment - shear * a);
+        [bend, self.rotation(a, reaction) + self.g * shear, -(self.c * shear), bend]
     }
 
     /// Green's function of a clamped Timoshenko beam, and its derivatives.
@@ -128,13 +167,15 @@ impl Plane {
     #[inline(always)]
     fn green(&self, a: f64, [f, m]: [f64; 2], b: MemberPlace, load: [f64; 2]) -> Partials {
         let [reaction, first, second] = self.reactions(b, load);
+        let [bend, slope, turn, curvature] = self.derivatives(a, reaction);
+        let [first_bend, first_slope, ..] = self.derivatives(a, first);
         // A derivative by b is the negative of one by q.
         Partials {
             value: f * self.deflection(a, reaction) + m * self.rotation(a, reaction),
-            p: f * self.slope(a, reaction) + m * self.c * (reaction.moment - reaction.shear * a),
+            p: f * slope + m * bend,
             q: -(f * self.deflection(a, first) + m * self.rotation(a, first)),
-            pp: f * self.curvature(a, reaction) - m * self.c * reaction.shear,
-            pq: -(f * self.slope(a, first) + m * self.curvature(a, first)),
+            pp: f * curvature + m * turn,
+            pq: -(f * first_slope + m * first_bend),
             qq: f * self.deflection(a, second) + m * self.rotation(a, second),
         }
     }
@@ -182,8 +223,16 @@ impl Plane {
     /// Sum of the absolute values of the terms from which `Plane::green` of a place with itself is computed.
     fn magnitude(&self, at: MemberPlace, [f, m]: [f64; 2]) -> f64 {
         let MemberPlace { s, q } = if at.s <= at.q { at } else { at.mirrored() };
-        let Plane { c, g, l, inverse } = *self;
+        let Plane { c, g, l, inverse, .. } = *self;
         let (f, m) = (f.abs(), m.abs());
+        if let Some(column) = &self.column {
+            let r = s / l;
+            let powers = [1.0, r, r * r, r * r * r];
+            let sizes = column.shape_sizes([f, m]);
+            let of = |k: usize| sizes[k].iter().zip(powers).map(|(a, b)| a * b).sum::<f64>();
+            let [deflection, rotation] = column.clamped_sizes(s, of(0), of(1));
+            return BENT_ROUNDINGS * (f * deflection + m * rotation);
+        }
         let shear = q * (f * (c * q * (l + 2.0 * s) + 12.0 * g) + 6.0 * c * m * s) * inverse;
         let moment = q * (f * s * (c * l * q + 6.0 * g) + m * (c * l * (q + 2.0 * s) + 12.0 * g)) * inverse;
         f * s * (g * shear + c * s * (0.5 * moment + shear * s * (1.0 / 6.0)))
@@ -233,8 +282,8 @@ impl<T: RealNumber> ClampedElement<T> {
             length: element.length,
             axial: finite(flexibility.axial),
             torsion: finite(flexibility.torsion),
-            xy: Plane::new(flexibility.bending_z, flexibility.shear_y, element.length),
-            xz: Plane::new(flexibility.bending_y, flexibility.shear_z, element.length),
+            xy: Plane::new(flexibility.bending_z, flexibility.shear_y, flexibility.tension, element.length),
+            xz: Plane::new(flexibility.bending_y, flexibility.shear_z, flexibility.tension, element.length),
             loads: [0, 1, 2].map(|axis| AxisLoad::new(element, &element.member_axes(), axis)),
             without_stiffness: element.without_stiffness(),
         }
@@ -323,6 +372,15 @@ impl ClampedElement {
         sum
     }
 
+    /// Deflection of the section at s in the x-y plane (`plane` = 0) or the x-z plane, and its derivative by s, under a unit
+    /// force along rail direction `axis` at t.
+    pub fn section(&self, plane: usize, s: MemberPlace, axis: usize, t: MemberPlace) -> [f64; 2] {
+        let load = &self.loads[axis];
+        let (of, load) = [(&self.xy, load.xy), (&self.xz, load.xz)][plane];
+        let Partials { value, p, .. } = of.pair(s, [1.0, 0.0], t, load);
+        [value, p]
+    }
+
     /// Sum of the absolute values of the terms from which the displacement under the load `p` at a place is
     /// computed.
     pub fn magnitude(&self, p: &AxisLoad, at: MemberPlace) -> f64 {
@@ -365,16 +423,19 @@ pub(crate) fn separated(element: &RailElement, axis: usize) -> Option<[[[f64; 4]
             return Some(ends.map(|[far, near]| [far.map(|x| scale * x), zero, near, zero]));
         }
         [false, false, true, false] if load.xy[1] == 0.0 => {
-            (load.xy[0], Plane::new(f.bending_z, f.shear_y, element.length))
+            (load.xy[0], Plane::new(f.bending_z, f.shear_y, f.tension, element.length))
         }
         [false, false, false, true] if load.xz[1] == 0.0 => {
-            (load.xz[0], Plane::new(f.bending_y, f.shear_z, element.length))
+            (load.xz[0], Plane::new(f.bending_y, f.shear_z, f.tension, element.length))
         }
         _ => return None,
     };
-    let Plane { c, g, l, inverse, .. } = plane;
+    let Plane { c, g, l, inverse, column } = plane;
     if inverse == 0.0 {
         return Some([[[0.0; 4]; 4]; 2]);
+    }
+    if let Some(column) = column {
+        return Some(column.separated().map(|four| four.map(|of| of.map(|x| force * x))));
     }
     let first = [
         [1.0, -12.0 * g * inverse, -3.0 * c * l * inverse, 2.0 * c * inverse],

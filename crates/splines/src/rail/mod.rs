@@ -1,11 +1,12 @@
 //! Rails as chains of uniform elements: how the rail moves with the ends of its elements, and what each
 //! element adds between them.
 //!
-//! Order: `element` (data), `load` (a rail force in the axes of the member), `green` and `shape` (the two
-//! functions of one element), `functions` (both in any number type), `rounding` (sizes of their terms), `interior` (the
+//! Order: `element` (data), `load` (a rail force in the axes of the member), `beam_column` (a bending plane under an
+//! axial force), `green` and `shape` (the two functions of one element), `functions` (both in any number type), `rounding` (sizes of their terms), `interior` (the
 //! deflection of an element under uniform loads), `member_motion` (any other motion of its member between the ends), `row` and `planar` (their values at a place), `track` (which element
 //! carries a place), `rails` (all together).
 
+mod beam_column;
 mod element;
 mod functions;
 mod green;
@@ -19,6 +20,7 @@ mod row;
 mod shape;
 mod track;
 
+pub use beam_column::BeamColumn;
 pub use element::{ElementMember, Flexibility, RailElement};
 pub(crate) use element::{IDENTITY, LocalPlace, MemberPlace};
 pub use functions::ElementFunctions;

@@ -1,9 +1,9 @@
 //! Sizes of the terms from which the functions of an element are computed, for bounds of rounding errors.
 
 use super::element::{LocalPlace, RailElement};
-use super::green::ClampedElement;
+use super::green::{BENT_ROUNDINGS, ClampedElement};
 use super::load::{AxisLoad, without_rounding};
-use super::shape::{cubics, local_cubics};
+use super::shape::{Planes, cubics, local_cubics};
 use crate::vector::{cross, unit};
 
 /// Sizes of the terms from which shape row and Green's function at one probe are computed, as
@@ -110,7 +110,7 @@ fn cubic_sizes(
 ) -> [[f64; 4]; 12] {
     if element.is_rigid_arm() {
         let plain = AxisLoad::default();
-        let mut out = cubics(element, axis, &plain, end).map(|terms| terms.map(f64::abs));
+        let mut out = cubics(element, axis, &plain, end, Planes::Both).map(|terms| terms.map(f64::abs));
         let offset: f64 = element.offset.iter().map(|x| x.abs()).sum();
         let extent = element.x[1] - element.x[0];
         for own in &mut out[3..6] {
@@ -119,7 +119,10 @@ fn cubic_sizes(
         }
         return out;
     }
-    let local = local_cubics(element, load, end, 1.0);
+    let mut local = local_cubics(element, load, end, 1.0);
+    if element.flexibility.tension != 0.0 {
+        local.iter_mut().flatten().for_each(|size| *size *= BENT_ROUNDINGS);
+    }
     let mut out = [[0.0; 4]; 12];
     for (k, components) in element.frame.iter().enumerate() {
         for (a, &component) in components.iter().enumerate() {

@@ -1,5 +1,6 @@
 //! Shape rows: displacement of the rail at one place, by the node states at the ends of its element.
 
+use super::beam_column::{power_derivatives, powers};
 use super::element::{LocalPlace, MemberPlace};
 use super::shape::ShapeCubics;
 
@@ -88,6 +89,16 @@ impl ShapeRow {
         let (indices, _) = self.index.as_chunks_mut::<4>();
         let (values, _) = self.value.as_chunks_mut::<4>();
         let (slopes, _) = self.slope.as_chunks_mut::<4>();
+        if let Some(bent) = shapes.bent() {
+            let of = bent.squares.map(|square| powers(square, r));
+            let by_r = bent.squares.map(|square| power_derivatives(square, r)[0]);
+            for (k, group) in shapes.groups().iter().take(3).enumerate() {
+                indices[k] = group.index;
+                values[k] = bent.sum(shapes.groups(), k, end, &of);
+                slopes[k] = bent.sum(shapes.groups(), k, end, &by_r).map(|slope| scale * slope);
+            }
+            return;
+        }
         let out = indices.iter_mut().zip(values.iter_mut().zip(slopes));
         for (group, (index, (value, slope))) in shapes.groups().iter().zip(out) {
             let [a, b, c, d] = &group.cubic[end];

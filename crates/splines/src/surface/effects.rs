@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 
 use crate::error::Error;
 use crate::probe::Probe;
-use crate::rail::{RailElement, Rails, ShapeRow};
+use crate::rail::{MemberPlace, RailElement, Rails, ShapeRow};
 use crate::vector::{cross, dot, unit};
 
 /// Places along a member that differ by less than this fraction of its length count as equal.
@@ -58,6 +58,21 @@ impl ForceComponent {
             _ => {}
         }
         out
+    }
+
+    /// What an axial force N of one adds to the component, by the deflection of the section in its plane and by the
+    /// derivative of this deflection: the plane (0 for x-y, 1 for x-z) and both factors; `None` where it adds nothing.
+    ///
+    /// Moments turn with N times the deflection, and the shear force normal to the bent axis with N times its slope.
+    #[must_use]
+    pub fn under_tension(self) -> Option<(usize, [f64; 2])> {
+        match self {
+            ForceComponent::ShearY => Some((0, [0.0, -1.0])),
+            ForceComponent::ShearZ => Some((1, [0.0, -1.0])),
+            ForceComponent::BendingY => Some((1, [-1.0, 0.0])),
+            ForceComponent::BendingZ => Some((0, [1.0, 0.0])),
+            ForceComponent::Axial | ForceComponent::Torsion => None,
+        }
     }
 }
 
@@ -198,7 +213,7 @@ impl InfluenceLines {
             for (sum, section) in out.iter_mut().zip(&self.sections) {
                 if let Some(section) = section.as_ref().filter(|section| section.member == carrier.id) {
                     let load = load.get_or_insert_with(|| MemberLoad::new(element, at, &row));
-                    *sum += load.with_ends_held(section);
+                    *sum += load.with_ends_held(section) + self.under_tension(section, &row);
                 }
             }
         }
@@ -227,13 +242,32 @@ impl InfluenceLines {
         let carrier = element.member.filter(|_| !element.is_rigid_arm());
         let own = carrier.zip(section.as_ref()).filter(|(carrier, section)| section.member == carrier.id);
         if let Some((_, section)) = own {
-            sum += MemberLoad::new(element, at, &row).with_ends_held(section);
+            sum += MemberLoad::new(element, at, &row).with_ends_held(section)
+                + self.under_tension(section, &row);
         }
         if sum.is_finite() {
             Ok(sum)
         } else {
             Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis })
         }
+    }
+}
+
+impl InfluenceLines {
+    /// What the axial force of a member adds to an internal force by the deflection under a load on it with the row `row`,
+    /// its ends held.
+    fn under_tension(&self, section: &InternalForce, row: &ShapeRow) -> f64 {
+        let element = &self.rails.elements()[row.element];
+        let tension = element.flexibility.tension;
+        if tension == 0.0 {
+            return 0.0;
+        }
+        let Some((plane, factors)) = section.component.under_tension() else { return 0.0 };
+        let Some(clamped) = self.rails.clamped(row.element) else { return 0.0 };
+        let place =
+            MemberPlace { s: section.place * element.length, q: (1.0 - section.place) * element.length };
+        let deflected = clamped.section(plane, place, row.axis, row.place);
+        tension * dot(&factors, &deflected)
     }
 }
 

@@ -33,8 +33,9 @@ struct OnMember {
     /// Its distance from the first end of the member.
     place: f64,
     /// Coefficients of the first three powers of the load's distance from the first end, for loads before the place, and of
-    /// the distance from the last end, for loads behind it. At the ends of the member Green's function is zero.
-    cubics: [[f64; 3]; 2],
+    /// the distance from the last end, for loads behind it. At the ends of the member Green's function is zero. `None` under
+    /// an axial force, where it is no cubic.
+    cubics: Option<[[f64; 3]; 2]>,
 }
 
 /// The shape row of a probe in whose direction the structure has stiffness.
@@ -79,8 +80,13 @@ impl<'s> SurfacePlaces<'s> {
                 own.value(place.axis, place.place, other, load.axis, at)
             };
             let MemberPlace { s, q } = place.place;
+            if self.rails.elements()[load.element].flexibility.tension != 0.0 {
+                out.push(OnMember { index, place: s, cubics: None });
+                continue;
+            }
             let cubics = [cubic(s, |t| value(t, length - t)), cubic(q, |t| value(length - t, t))];
-            if cubics != [[0.0; 3]; 2] {
+            let cubics = Some(cubics).filter(|cubics| *cubics != [[0.0; 3]; 2]);
+            if cubics.is_some() {
                 out.push(OnMember { index, place: s, cubics });
             }
         }
@@ -104,7 +110,11 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
             let entries = row.indices().iter().zip(row.values());
             entries.for_each(|(&dof, shape)| forces[dof] += shape * force);
             let own = self.members[row.element][row.axis].get_or_init(|| self.on_member(&row));
-            for OnMember { index, place, cubics: [before, behind] } in own {
+            for OnMember { index, place, cubics } in own {
+                let Some([before, behind]) = cubics else {
+                    out[*index] += force * self.rails.clamped_between(&self.places[*index], &row);
+                    continue;
+                };
                 let MemberPlace { s, q } = row.place;
                 let (t, [a, b, c]) = if s <= *place { (s, before) } else { (q, behind) };
                 out[*index] += force * t * (a + t * (b + t * c));

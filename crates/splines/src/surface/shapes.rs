@@ -130,11 +130,35 @@ impl RailShapes {
         if count == 0 {
             return Ok(());
         }
+        if self.rails.elements()[span.element].flexibility.tension != 0.0 {
+            return self.row_under_tension(at, value, slope);
+        }
         let axis = at.axis.component();
         let of = self.elements[span.element][axis].get_or_init(|| self.along(span.element, axis));
         let reversed = self.rails.elements()[span.element].is_reversed();
         let (place, scale) = (span.local(at.x), span.scale);
         of.fill(count, hermite(place, scale), || quotient_weights(place, reversed, scale), value, slope);
+        Ok(())
+    }
+
+    /// [`RailShapes::row`] on an element with an axial force, along which the shapes are no polynomials.
+    fn row_under_tension(&self, at: Probe, value: &mut [f64], slope: &mut [f64]) -> Result<(), Error> {
+        let row = self.rails.row(at)?;
+        value.fill(0.0);
+        slope.fill(0.0);
+        let mut add = |weights: [f64; 2], motions: &mut dyn Iterator<Item = &f64>| {
+            for ((value, slope), motion) in value.iter_mut().zip(slope.iter_mut()).zip(motions) {
+                *value += weights[0] * motion;
+                *slope += weights[1] * motion;
+            }
+        };
+        for ((&k, &shape), &by_x) in row.indices().iter().zip(row.values()).zip(row.slopes()) {
+            add([shape, by_x], &mut self.motions.column(k).iter());
+        }
+        for (k, motion) in self.between.get(row.element).into_iter().flatten().enumerate() {
+            let weights = self.rails.member_motion(at, motion)?;
+            add(weights, &mut self.amplitudes.column(self.first[row.element] + k).iter());
+        }
         Ok(())
     }
 

@@ -165,6 +165,7 @@ pub fn coupled() -> ExactSurface {
         bending_z: c,
         shear_y: 1e-9,
         shear_z: 2e-9,
+        tension: 0.0,
     };
     let (s, t) = (0.6, 0.8);
     let mut cells = chain(&printed::STATIONS, [0.1, 3.0, 0.5], flexibility);

@@ -47,7 +47,7 @@ pub(in crate::scene) fn read(
         check_name(&name, &root.key("name"), check.faults);
     }
     let gravity = read_gravity(raw, &root, check);
-    let mut structures = read_structures(raw, &root, files, check);
+    let mut structures = read_structures(raw, gravity, &root, files, check);
     let rails = rails_of(&structures);
     let all_structures = structures.len() == raw.structures.0.len();
     let mut bodies = read_bodies(raw, gravity, all_structures.then_some(&rails), &root, check);
@@ -184,6 +184,7 @@ fn read_gravity(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> Opti
 
 fn read_structures(
     raw: &RawScene,
+    gravity: Option<f64>,
     root: &Place<'_>,
     files: &mut Files<'_>,
     check: &mut Check<'_>,
@@ -199,7 +200,7 @@ fn read_structures(
         check_name(name, &at, check.faults);
         let others: Vec<&str> =
             all.iter().map(|(other, _)| other.as_str()).filter(|other| other != name).collect();
-        structures.extend(structure::read(name, &others, raw, &at, files, check));
+        structures.extend(structure::read(name, &others, raw, &at, files, gravity, check));
     }
     structures
 }

@@ -14,7 +14,7 @@ use crate::scene::values::structure::{
     DEFAULT_PARTS, ELEMENTS, Foundation, Handover, MODES, Origin, Structure, TOLERANCE, TableInterpolation,
 };
 use crate::spec::ties::Ties;
-use crate::spec::{RailOutline, Spec};
+use crate::spec::{RailOutline, Spec, SpecPreload};
 use crate::text::fault::{Fault, nearest, number};
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -41,6 +41,7 @@ pub(super) fn read(
     raw: &RawStructure,
     at: &Place<'_>,
     files: &mut Files<'_>,
+    gravity: Option<f64>,
     check: &mut Check<'_>,
 ) -> Option<Structure> {
     let word = foundation_word(raw, at, check);
@@ -53,6 +54,7 @@ pub(super) fn read(
     let measure = read_measure(raw, at, check);
     let ties = ties::read(raw, matches!(word, FoundationWord::Ties), at, check);
     let origin = read_origin((name, others), raw, (word, ties.as_ref()), at, files, check);
+    let (origin, preload) = read_preload(origin, raw, gravity, at, check);
     let foundation = match word {
         FoundationWord::Rigid => Foundation::Rigid,
         FoundationWord::Parts => Foundation::Parts { count, handover, damping },
@@ -103,6 +105,7 @@ pub(super) fn read(
         gauges,
         longitudinal,
         irregularities,
+        preload,
         carrier: None,
     })
 }
@@ -139,6 +142,36 @@ fn read_origin(
             check.faults.add(fault.hint(format!("{}{hint}", meant.unwrap_or_default())));
             None
         }
+    }
+}
+
+/// Gives the preload of a spec the gravity of the scene, and reads whether the wheels at rest belong to it.
+fn read_preload(
+    origin: Option<Origin>,
+    raw: &RawStructure,
+    gravity: Option<f64>,
+    at: &Place<'_>,
+    check: &mut Check<'_>,
+) -> (Option<Origin>, bool) {
+    let asked = raw.preload.unwrap_or(false);
+    let gravity = gravity.unwrap_or_default();
+    match origin {
+        Some(Origin::Spec { file, mut spec }) => {
+            let own = Arc::make_mut(&mut spec);
+            if asked && own.preload.is_none() {
+                own.preload = Some(SpecPreload::of_wheels(gravity));
+            }
+            if let Some(preload) = &mut own.preload {
+                preload.gravity = gravity;
+            }
+            (Some(Origin::Spec { file, spec }), asked)
+        }
+        Some(tables @ Origin::Tables { .. }) if asked => {
+            let fault = Fault::new(&at.key("preload"), "needs a `spec`: tables hold for one state").at_key();
+            check.faults.add(fault);
+            (Some(tables), false)
+        }
+        other => (other, false),
     }
 }
 

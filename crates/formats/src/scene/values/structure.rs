@@ -35,6 +35,8 @@ pub struct Structure {
     pub longitudinal: bool,
     /// Irregularities of its unloaded rails, one for each rail; empty if all rails are straight.
     pub irregularities: Vec<sim::Irregularity>,
+    /// Whether the wheels at rest at the start are part of its preload.
+    pub preload: bool,
     /// The body that carries it; none if the ground does.
     pub carrier: Option<CarriedBy>,
 }

@@ -1,4 +1,4 @@
-//! Number of eigenvalues below a shift, by the signs of the pivots of a factor.
+//! Factor L D L^T of a matrix that need not be positive, and the number of its negative eigenvalues by the signs of D.
 
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::ldlt::factor::LdltRegularization;
@@ -8,12 +8,60 @@ use faer::{Conj, MatMut, Par, Side};
 use sprs::CsMat;
 
 use crate::assembly::irregular_vector;
-use crate::factor::{Analysis, FactorError, analyse, for_each_entry};
+use crate::factor::cholesky::{Analysis, FactorError, analyse, for_each_entry};
 
 /// Steps of the power iteration for the norm of the inverse.
 const POWER_STEPS: usize = 8;
 /// Factor on the estimate of the norm of the inverse, which is a lower bound.
 const ESTIMATE_MARGIN: f64 = 3.0;
+
+/// A = L D L^T without exchanges of rows, L with a unit diagonal.
+pub(crate) struct IndefiniteFactor {
+    symbolic: SymbolicCholesky<usize>,
+    values: Vec<f64>,
+    memory: MemBuffer,
+}
+
+impl IndefiniteFactor {
+    /// Factors the symmetric matrix whose upper triangle is given; `None` if a pivot is zero or a number is not finite.
+    ///
+    /// # Errors
+    /// A factor that is too large.
+    pub fn new(upper: &CsMat<f64>) -> Result<Option<IndefiniteFactor>, FactorError> {
+        let Analysis { pattern, symbolic, mut values } = analyse(upper, CholeskySymbolicParams::default())?;
+        let request = StackReq::any_of(&[
+            symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
+            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
+        ]);
+        let mut memory = MemBuffer::try_new(request).map_err(|_| FactorError::TooLarge(0))?;
+        let done = symbolic.factorize_numeric_ldlt(
+            &mut values,
+            SparseColMatRef::new(pattern, upper.data()),
+            Side::Upper,
+            LdltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut memory),
+            Default::default(),
+        );
+        if done.is_err() {
+            return Ok(None);
+        }
+        Ok(Some(IndefiniteFactor { symbolic, values, memory }))
+    }
+
+    /// Number of negative pivots; `None` if a number is not finite.
+    pub fn negative_pivots(&self) -> Option<usize> {
+        FactorSize::new(&self.symbolic, &self.values).map(|size| size.negative)
+    }
+
+    /// Solves A x = x in place.
+    pub fn solve(&mut self, x: &mut [f64]) {
+        let n = x.len();
+        let x = MatMut::from_column_major_slice_mut(x, n, 1);
+        let factor = LdltRef::new(&self.symbolic, &self.values);
+        factor.solve_in_place_with_conj(Conj::No, x, Par::Seq, MemStack::new(&mut self.memory));
+    }
+}
 
 /// Number of negative eigenvalues of the symmetric matrix A whose upper triangle is given; `None` if rounding
 /// may have changed it.
@@ -26,32 +74,10 @@ const ESTIMATE_MARGIN: f64 = 3.0;
 /// # Source
 /// Higham, Accuracy and Stability of Numerical Algorithms (2002), theorems 10.3 and 11.3; Parlett, The
 /// Symmetric Eigenvalue Problem (1980), section 3.3.
-pub(super) fn negative_eigenvalues(upper: &CsMat<f64>) -> Result<Option<usize>, FactorError> {
-    let n = upper.cols();
-    let Analysis { pattern, symbolic, mut values } = analyse(upper, CholeskySymbolicParams::default())?;
-    let request = StackReq::any_of(&[
-        symbolic.factorize_numeric_ldlt_scratch::<f64>(Par::Seq, Default::default()),
-        symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-    ]);
-    let mut memory = MemBuffer::try_new(request).map_err(|_| FactorError::TooLarge(0))?;
-    let done = symbolic.factorize_numeric_ldlt(
-        &mut values,
-        SparseColMatRef::new(pattern, upper.data()),
-        Side::Upper,
-        LdltRegularization::default(),
-        Par::Seq,
-        MemStack::new(&mut memory),
-        Default::default(),
-    );
-    if done.is_err() {
-        return Ok(None);
-    }
-    let Some(size) = FactorSize::new(&symbolic, &values) else { return Ok(None) };
-    let factor = LdltRef::new(&symbolic, &values);
-    let inverse = estimate_inverse_norm(n, |x| {
-        let x = MatMut::from_column_major_slice_mut(x, n, 1);
-        factor.solve_in_place_with_conj(Conj::No, x, Par::Seq, MemStack::new(&mut memory));
-    });
+pub(crate) fn negative_eigenvalues(upper: &CsMat<f64>) -> Result<Option<usize>, FactorError> {
+    let Some(mut factor) = IndefiniteFactor::new(upper)? else { return Ok(None) };
+    let Some(size) = FactorSize::new(&factor.symbolic, &factor.values) else { return Ok(None) };
+    let inverse = estimate_inverse_norm(upper.cols(), |x| factor.solve(x));
     let error = f64::EPSILON * (size.longest + 1) as f64 * size.growth;
     Ok((error * ESTIMATE_MARGIN * inverse < 1.0).then_some(size.negative))
 }

@@ -1,0 +1,61 @@
+//! Runs about a loaded state: energy, foundations, cables that wheels would leave slack.
+
+use std::ops::ControlFlow;
+
+use formats::scene::SceneSource;
+use formats::text::source::Source;
+use foundations::StructureCache;
+use results::cases::RunOptions;
+use results::scene_run::SceneRun;
+use results::warning::case_warnings;
+
+fn run(changes: &str) -> SceneRun {
+    let scene = SceneSource::open("../../examples/monorail/scene.json".as_ref()).expect("the example");
+    let changes = Source { name: "changes".to_owned(), text: changes.to_owned() };
+    let document = scene.document(Some(&changes), false).expect("a scene without faults");
+    let cache = StructureCache::default();
+    SceneRun::of(document, &cache, RunOptions::default(), &|_| ControlFlow::Continue(())).expect("it runs")
+}
+
+fn warnings(changes: &str) -> Vec<String> {
+    let run = run(changes);
+    case_warnings(run.document.scene(), &run.cases[0])
+}
+
+/// Identity: the energy of a run about a loaded state balances on every foundation, and all find the same sway of the trolley,
+/// to what the mass of the track does.
+#[test]
+fn energy_balances_about_a_loaded_state_on_every_foundation() {
+    let sways = [r#""influence""#, r#""modal", "modes": 12"#, r#""full", "elements": 2"#].map(|foundation| {
+        let changes = format!(
+            r#"{{"structures": {{"line": {{"foundation": {foundation}}}}}, "end": {{"time": 2}}, "accuracy": 1e-5}}"#
+        );
+        let run = run(&changes);
+        let case = &run.cases[0];
+        assert!(case.run.status.is_complete());
+        assert!(case.run.audit.residual() < 1e-5, "{foundation}: {:e}", case.run.audit.residual());
+        *case.columns.values("trolley.z").last().expect("a history")
+    });
+    for sway in &sways[1..] {
+        assert!((sway / sways[0] - 1.0).abs() < 0.05, "{sways:?}");
+    }
+    assert!((sways[1] / sways[2] - 1.0).abs() < 0.01, "{sways:?}");
+}
+
+/// A trolley of 100 kN in the first bay of the monorail, whose hangers have the tension of its own weight alone, lifts the third
+/// hanger; one of 1 kN does not, nor does the trolley over the middle whose weight belongs to the preload.
+#[test]
+fn cables_that_would_go_slack_are_named() {
+    let in_first_bay = |weight: f64| {
+        warnings(&format!(
+            r#"{{"structures": {{"line": {{"preload": false}}}}, "end": {{"time": 0.1}},
+                "bodies": {{"trolley": {{"weight": {weight}, "x0": 2.5}}}}}}"#
+        ))
+    };
+    let heavy = in_first_bay(100.0);
+    assert!(heavy.iter().any(|text| text.contains("cell [1, 2] would go slack")), "{heavy:?}");
+    let light = in_first_bay(1.0);
+    assert!(!light.iter().any(|text| text.contains("slack")), "{light:?}");
+    let given = warnings(r#"{"end": {"time": 0.1}}"#);
+    assert!(!given.iter().any(|text| text.contains("slack")), "{given:?}");
+}
