@@ -1,5 +1,7 @@
 //! Forward solves w = L^-1 p of sparse loads, and products of their solutions.
 
+use pulp::Arch;
+
 use crate::assembly::Real;
 use crate::factor::cholesky::Factor;
 
@@ -68,13 +70,16 @@ impl<T: Real> Factor<T> {
         let mut seen = vec![false; self.panels];
         let mut x = vec![[T::zero(); K]; self.len()];
         let mut scratch = Vec::new();
-        for some in loads.chunks(K) {
-            self.forward_chunk(some, &mut x, &mut seen, &mut scratch, &mut solutions);
-        }
+        Arch::new().dispatch(|| {
+            for some in loads.chunks(K) {
+                self.forward_chunk(some, &mut x, &mut seen, &mut scratch, &mut solutions);
+            }
+        });
         solutions
     }
 
     /// Solves at most K loads; `x` is zero and `seen` false, before and after.
+    #[inline(always)]
     fn forward_chunk<const K: usize>(
         &self,
         loads: &[SparseLoad],
