@@ -13,7 +13,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Accum, MatMut, MatRef, Par, Side};
-use pulp::Arch;
+use pulp::{Arch, Simd, WithSimd};
 use sprs::CsMat;
 
 use crate::assembly::Real;
@@ -121,15 +121,7 @@ impl<T: Real> Factor<T> {
 
     /// Solves K x = x in place for W vectors, side by side in each row.
     pub fn solve_lanes<const W: usize>(&self, x: &mut [[T; W]]) {
-        let mut scratch = Vec::new();
-        Arch::new().dispatch(|| {
-            for k in 0..self.panels {
-                self.panel(k).forward(x, &mut scratch);
-            }
-            for k in (0..self.panels).rev() {
-                self.panel(k).backward(x);
-            }
-        });
+        Arch::new().dispatch(Solve { factor: self, x });
     }
 
     /// Largest row sum of |L| |L^T|, and the largest number of entries in a row of L.
@@ -145,6 +137,27 @@ impl<T: Real> Factor<T> {
             lengths[row] += 1;
         });
         (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
+    }
+}
+
+/// Solution of K x = x for W vectors, compiled for several sets of vector registers.
+struct Solve<'a, T: Real, const W: usize> {
+    factor: &'a Factor<T>,
+    x: &'a mut [[T; W]],
+}
+
+impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let mut scratch = Vec::new();
+        for k in 0..self.factor.panels {
+            self.factor.panel(k).forward(self.x, &mut scratch);
+        }
+        for k in (0..self.factor.panels).rev() {
+            self.factor.panel(k).backward(self.x);
+        }
     }
 }
 
