@@ -1,4 +1,8 @@
 //! Sparse Cholesky factor in panels of adjoining columns.
+//!
+//! Solves run with the widest vector registers that the processor has. Their results are the same in every bit without
+//! them: the order of the sums is fixed, and products are rounded before they are added. Double-doubles need the product
+//! with one rounding (fused multiply-add), which is a function call where the processor is not asked first.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
@@ -9,6 +13,7 @@ use faer::sparse::linalg::cholesky::{
 };
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMatRef};
 use faer::{Accum, MatMut, MatRef, Par, Side};
+use pulp::{Arch, Simd, WithSimd};
 use sprs::CsMat;
 
 use crate::assembly::Real;
@@ -116,13 +121,7 @@ impl<T: Real> Factor<T> {
 
     /// Solves K x = x in place for W vectors, side by side in each row.
     pub fn solve_lanes<const W: usize>(&self, x: &mut [[T; W]]) {
-        let mut scratch = Vec::new();
-        for k in 0..self.panels {
-            self.panel(k).forward(x, &mut scratch);
-        }
-        for k in (0..self.panels).rev() {
-            self.panel(k).backward(x);
-        }
+        Arch::new().dispatch(Solve { factor: self, x });
     }
 
     /// Largest row sum of |L| |L^T|, and the largest number of entries in a row of L.
@@ -138,6 +137,27 @@ impl<T: Real> Factor<T> {
             lengths[row] += 1;
         });
         (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
+    }
+}
+
+/// Solution of K x = x for W vectors, compiled for several sets of vector registers.
+struct Solve<'a, T: Real, const W: usize> {
+    factor: &'a Factor<T>,
+    x: &'a mut [[T; W]],
+}
+
+impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let mut scratch = Vec::new();
+        for k in 0..self.factor.panels {
+            self.factor.panel(k).forward(self.x, &mut scratch);
+        }
+        for k in (0..self.factor.panels).rev() {
+            self.factor.panel(k).backward(self.x);
+        }
     }
 }
 
@@ -193,7 +213,7 @@ pub(crate) fn for_each_entry<T: Copy>(
 }
 
 /// target -= l * value, in K lanes.
-#[inline]
+#[inline(always)]
 fn subtract_scaled<T: Real, const K: usize>(target: &mut [T; K], l: T, value: &[T; K]) {
     for (target, value) in target.iter_mut().zip(value) {
         *target -= l * *value;
@@ -219,6 +239,7 @@ impl<'a, T> Panel<'a, T> {
 impl<T: Real> Panel<'_, T> {
     /// One panel of x := L^-1 x for K vectors: divides by the pivots, subtracts the panel from the rows
     /// below it, in a dense product if the panel is wide enough.
+    #[inline(always)]
     pub fn forward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
         let height = self.width + self.below.len();
         let dense = T::PANELS && K > 1 && self.width >= DENSE_WIDTH;
@@ -263,6 +284,7 @@ impl<T: Real> Panel<'_, T> {
     }
 
     /// One panel of x := L^-T x for K vectors.
+    #[inline(always)]
     fn backward<const K: usize>(&self, x: &mut [[T; K]]) {
         let height = self.width + self.below.len();
         for j in (0..self.width).rev() {

@@ -1,5 +1,7 @@
 //! Forward solves w = L^-1 p of sparse loads, and products of their solutions.
 
+use pulp::{Arch, Simd, WithSimd};
+
 use crate::assembly::Real;
 use crate::factor::cholesky::Factor;
 
@@ -64,17 +66,11 @@ impl<T: Real> Factor<T> {
     }
 
     fn forward_in_lanes<const K: usize>(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
-        let mut solutions = Vec::with_capacity(loads.len());
-        let mut seen = vec![false; self.panels];
-        let mut x = vec![[T::zero(); K]; self.len()];
-        let mut scratch = Vec::new();
-        for some in loads.chunks(K) {
-            self.forward_chunk(some, &mut x, &mut seen, &mut scratch, &mut solutions);
-        }
-        solutions
+        Arch::new().dispatch(Forward::<T, K> { factor: self, loads })
     }
 
     /// Solves at most K loads; `x` is zero and `seen` false, before and after.
+    #[inline(always)]
     fn forward_chunk<const K: usize>(
         &self,
         loads: &[SparseLoad],
@@ -127,6 +123,28 @@ impl<T: Real> Factor<T> {
         path.iter().for_each(|&k| seen[k] = false);
         path.sort_unstable();
         path
+    }
+}
+
+/// Forward solves of loads in chunks of K, compiled for several sets of vector registers.
+struct Forward<'a, T: Real, const K: usize> {
+    factor: &'a Factor<T>,
+    loads: &'a [SparseLoad],
+}
+
+impl<T: Real, const K: usize> WithSimd for Forward<'_, T, K> {
+    type Output = Vec<ForwardSolution>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Vec<ForwardSolution> {
+        let mut solutions = Vec::with_capacity(self.loads.len());
+        let mut seen = vec![false; self.factor.panels];
+        let mut x = vec![[T::zero(); K]; self.factor.len()];
+        let mut scratch = Vec::new();
+        for some in self.loads.chunks(K) {
+            self.factor.forward_chunk(some, &mut x, &mut seen, &mut scratch, &mut solutions);
+        }
+        solutions
     }
 }
 

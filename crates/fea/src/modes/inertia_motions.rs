@@ -58,16 +58,18 @@ impl InertiaMotions {
                 * (mass.deflection * integral_of_product(&a[0], &b[0])
                     + mass.rotation * integral_of_product(&a[1], &b[1]))
         };
+        let of_shapes: [[f64; MOTIONS]; MOTIONS] =
+            std::array::from_fn(|i| std::array::from_fn(|j| work(&shapes[i], &shapes[j])));
         let uniform = &shapes[MOTIONS - 1];
         let energy = plane.bending * length.powi(5) / 720.0 + plane.shear * length.powi(3) / 12.0;
         let rest: [[Polynomial; 2]; MOTIONS] = std::array::from_fn(|j| {
             let loads = [shapes[j][0].map(|c| mass.deflection * c), shapes[j][1].map(|c| mass.rotation * c)];
             let whole = clamped_deflection(plane, length, &loads);
-            let carried = work(&shapes[j], uniform) / energy;
+            let carried = of_shapes[j][MOTIONS - 1] / energy;
             let mut rest: [Polynomial; 2] =
                 std::array::from_fn(|k| std::array::from_fn(|p| whole[k][p] - carried * uniform[k][p]));
             for (row, shape) in released.iter().zip(&shapes) {
-                let moved: f64 = row.iter().zip(&shapes).map(|(c, other)| c * work(&shapes[j], other)).sum();
+                let moved: f64 = row.iter().zip(&of_shapes[j]).map(|(c, work)| c * work).sum();
                 for (rest, shape) in rest.iter_mut().zip(shape) {
                     rest.iter_mut().zip(shape).for_each(|(rest, c)| *rest += moved * c);
                 }
@@ -75,9 +77,9 @@ impl InertiaMotions {
             rest
         });
         let products = |a: &[[Polynomial; 2]; MOTIONS]| -> [[f64; MOTIONS]; MOTIONS] {
-            std::array::from_fn(|i| {
-                std::array::from_fn(|j| 0.5 * (work(&a[i], &rest[j]) + work(&a[j], &rest[i])))
-            })
+            let one_way: [[f64; MOTIONS]; MOTIONS] =
+                std::array::from_fn(|i| std::array::from_fn(|j| work(&a[i], &rest[j])));
+            std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (one_way[i][j] + one_way[j][i])))
         };
         InertiaMotions {
             motions: rest.map(|[deflection, rotation]| MemberMotion { plane: index, deflection, rotation }),

@@ -10,15 +10,16 @@ pub(super) type Vector12 = SVector<f64, 12>;
 /// A cubic in the fraction of the length: the coefficient of each power.
 pub(super) type Cubic = [f64; 4];
 
+/// Coefficients of the longest polynomials whose products are integrated.
+const LONGEST: usize = 9;
+
 /// Integral over 0 to 1 of a product of two polynomials, given by their coefficients.
 pub(super) fn integral_of_product(a: &[f64], b: &[f64]) -> f64 {
-    let mut sum = 0.0;
-    for (p, x) in a.iter().enumerate() {
-        for (q, y) in b.iter().enumerate() {
-            sum += x * y / (p + q + 1) as f64;
-        }
+    let mut product = [0.0; 2 * LONGEST - 1];
+    for (p, x) in a.iter().enumerate().filter(|(_, x)| **x != 0.0) {
+        product[p..].iter_mut().zip(b).for_each(|(sum, y)| *sum += x * y);
     }
-    sum
+    product.iter().enumerate().map(|(power, c)| c / (power + 1) as f64).sum()
 }
 
 /// Deflection and rotation of the member without load, for a unit deflection and a unit rotation of its first

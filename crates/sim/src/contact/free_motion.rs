@@ -86,9 +86,9 @@ impl<'a> FreeMotion<'a> {
         }
     }
 
-    /// Sets the accelerations to those of `at` plus the correction Z (f - M a - B^T F) for its forces F, where
-    /// `acting` lists the elements with forces and `force_row` returns their rows; then updates the motion of the
-    /// stage. Applies only to scenes without structures with mass.
+    /// Sets the accelerations to those of `at` plus the correction Z (f - M a - C v - K q - B^T F) for its forces F, where
+    /// v = v* + g a, q = q* + g v, `acting` lists the elements with forces and `force_row` returns their rows; then
+    /// updates the motion of the stage.
     pub fn improve<'r>(
         &mut self,
         system: &System,
@@ -108,6 +108,17 @@ impl<'a> FreeMotion<'a> {
             }
             for (column, a) in self.mass.column_iter().zip(at.a.iter()) {
                 self.load.iter_mut().zip(column.iter()).for_each(|(load, mass)| *load -= mass * a);
+            }
+        }
+        if system.mechanics.has_structures() {
+            self.a.copy_from(&at.a);
+            self.follow(g, known);
+            for block in &system.mechanics.blocks {
+                block.resist_acceleration(self.a.as_slice(), self.load.as_mut_slice());
+                block.resist(self.v.as_slice(), self.q.as_slice(), self.load.as_mut_slice());
+            }
+            for coupling in &system.mechanics.couplings {
+                coupling.resist_acceleration(self.a.as_slice(), self.load.as_mut_slice());
             }
         }
         for &j in acting {

@@ -8,6 +8,7 @@ use nalgebra::{DMatrix, DVector};
 use super::inertia::Block;
 use super::kinematics::Kinematics;
 use crate::Carrier;
+use crate::numerics::dense::dot;
 
 /// Inertial coupling block B of one structure.
 pub(crate) struct InertialCoupling {
@@ -33,6 +34,16 @@ impl InertialCoupling {
             }
         }
         (between.amax() > 0.0).then_some(InertialCoupling { range, between })
+    }
+
+    /// Subtracts the inertia forces B^T a_s and B a_b of the accelerations `a` from `load`, both over all degrees of
+    /// freedom.
+    pub fn resist_acceleration(&self, a: &[f64], load: &mut [f64]) {
+        for (j, column) in self.between.column_iter().enumerate() {
+            let own = self.range.clone();
+            load[j] -= dot(column.as_slice(), &a[own.clone()]);
+            load[own].iter_mut().zip(column.iter()).for_each(|(load, inertia)| *load -= inertia * a[j]);
+        }
     }
 
     /// Contribution v_s^T B v_b to the kinetic energy.

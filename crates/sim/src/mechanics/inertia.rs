@@ -73,6 +73,20 @@ impl Block {
         }
     }
 
+    /// Subtracts M a from `load`, both over all degrees of freedom, where this is the block of a structure.
+    pub fn resist_acceleration(&self, a: &[f64], load: &mut [f64]) {
+        let (a, load) = (&a[self.range.clone()], &mut load[self.range.clone()]);
+        match &self.matrices {
+            Matrices::Bodies(_) => {}
+            Matrices::General { mass, .. } => {
+                for (column, a) in mass.column_iter().zip(a) {
+                    load.iter_mut().zip(column.iter()).for_each(|(load, mass)| *load -= mass * a);
+                }
+            }
+            Matrices::Modes { .. } => load.iter_mut().zip(a).for_each(|(load, a)| *load -= a),
+        }
+    }
+
     /// Mass matrix, where this is the block of the bodies.
     pub fn body_mass(&self) -> Option<&DMatrix<f64>> {
         match &self.matrices {

@@ -5,22 +5,29 @@ use nalgebra::Complex;
 /// Number of powers of time of a load, 0 to 4.
 pub(crate) const POWERS: usize = 5;
 
+/// Square of a term of the series of phi_5, which is about 1/120, below which the rest of the series is rounding.
+const NEGLIGIBLE: f64 = 1e-38;
+
 /// k! for k = 0 to 5.
 const FACTORIALS: [f64; POWERS + 1] = [1.0, 1.0, 2.0, 6.0, 24.0, 120.0];
 
-/// phi_k(z), k = 1 to 5: phi_1 = (e^z - 1)/z, phi_(k+1) = (phi_k - 1/k!)/z; power series where |z| < 2.
+/// phi_k(z), k = 1 to 5: phi_1 = (e^z - 1)/z, phi_(k+1) = (phi_k - 1/k!)/z. Where |z| < 2 this loses digits: there phi_5
+/// is a power series, and phi_k = z phi_(k+1) + 1/k! downwards.
 ///
 /// # Source
 /// Hochbruck, Ostermann, Exponential integrators, Acta Numerica 19 (2010), section 2.
 fn phi(z: Complex<f64>) -> [Complex<f64>; POWERS] {
     let mut out = [Complex::new(0.0, 0.0); POWERS];
     if z.norm() < 2.0 {
-        for (k, out) in out.iter_mut().enumerate() {
-            let mut term = Complex::new(FACTORIALS[k + 1].recip(), 0.0);
-            for n in 1..24 {
-                *out += term;
-                term *= z / (n + k + 1) as f64;
-            }
+        let mut term = Complex::new(FACTORIALS[POWERS].recip(), 0.0);
+        let mut n = POWERS as f64;
+        while term.norm_sqr() > NEGLIGIBLE {
+            out[POWERS - 1] += term;
+            n += 1.0;
+            term *= z / n;
+        }
+        for k in (1..POWERS).rev() {
+            out[k - 1] = z * out[k] + FACTORIALS[k].recip();
         }
         return out;
     }

@@ -19,11 +19,11 @@ use crate::mechanics::state::{Known, State};
 use crate::numerics::dense::along;
 
 impl Solver<'_> {
-    /// Whether a stage with coefficient `g` may be corrected: the matrices for `g` are factored, and the scene has
-    /// neither structures with mass nor charts.
+    /// Whether a stage with coefficient `g` may be corrected: the matrices for `g` are factored, and the step has no
+    /// charts.
     pub(super) fn may_correct(&self, g: f64) -> bool {
         let is_factored = self.factored_for == Some(g) && self.problem.is_factored();
-        is_factored && !self.system.mechanics.has_structures() && self.charts.is_empty()
+        is_factored && self.charts.is_empty()
     }
 
     /// Corrects the stage at `at`. Returns the largest change of the degrees of freedom relative to themselves, and
@@ -69,7 +69,7 @@ impl Solver<'_> {
             let penetration = self.geometry.approach(i, &self.free.q) - deflection;
             let mut rate = 0.0;
             if self.follows_motion(i) {
-                let slope = self.geometry.rows().rise[i];
+                let slope = self.geometry.rows().rise[i] - self.geometry.shape_slope(i, &self.free.q);
                 rate = along(&self.geometry.rows().approach, i, self.free.v.as_slice())
                     + slope * system.contact_speed(i, at);
             } else if self.remembers(i) {

@@ -116,7 +116,10 @@ impl Solver<'_> {
             let verdict = self.convergence.judge(change, last);
             // In the first pass of a free motion, a small change of positions does not imply accurate speeds.
             let is_sure = pass > 0 || !system.mechanics.moves_freely;
-            if (moved < 1e-13 && is_sure) || !iterates || verdict.has_ended {
+            // Where nothing depends on the motion within the stage, a full pass is its solution; a correction is not, where
+            // laws are not linear.
+            let is_solved = !iterates && corrected.is_none();
+            if (moved < 1e-13 && is_sure) || is_solved || verdict.has_ended {
                 return Ok(true);
             }
             if verdict.is_poor {
