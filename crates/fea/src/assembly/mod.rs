@@ -27,5 +27,7 @@ pub(crate) use element::{
     vector, without_rounding,
 };
 pub(crate) use precision::{Extended, Real, exact_sum};
-pub(crate) use sparse::{column_norm, irregular_vector, symmetric_product, symmetric_product_lanes};
+pub(crate) use sparse::{
+    column_norm, inverse_iterations, irregular_vector, symmetric_product, symmetric_product_lanes,
+};
 pub(crate) use stiffness::{Numbering, ScaledStiffness, transformation, transformation_and_size};

@@ -116,6 +116,15 @@ pub(crate) fn irregular_vector(n: usize) -> Vec<f64> {
     (0..n).map(|k| 1.0 + 0.5 * ((k * 7919 % 1009) as f64 / 1009.0)).collect()
 }
 
+/// Takes steps of inverse iteration from `x`, each divided by its largest component. `solve` applies the inverse in place.
+pub(crate) fn inverse_iterations(x: &mut [f64], steps: usize, mut solve: impl FnMut(&mut [f64])) {
+    for _ in 0..steps {
+        solve(x);
+        let size = x.iter().fold(0.0_f64, |most, component| most.max(component.abs()));
+        x.iter_mut().for_each(|component| *component /= size);
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Triplets;

@@ -46,6 +46,21 @@ pub(crate) struct Numbering {
     pub operations: f64,
 }
 
+impl Numbering {
+    /// The column of the largest component of a motion of the unknowns, by size; among those within `equal` of it, the
+    /// first column. 0 without unknowns.
+    pub fn largest_column(&self, motion: &[f64], equal: f64) -> usize {
+        let mut largest = 0;
+        for (k, component) in motion.iter().enumerate() {
+            let gain = component.abs() - motion[largest].abs();
+            if gain > equal || (gain > -equal && self.column[k] < self.column[largest]) {
+                largest = k;
+            }
+        }
+        self.column.get(largest).copied().unwrap_or(0)
+    }
+}
+
 /// B, 12 x 12: local end displacements of a member (tips of its rigid offsets) by the motions of the
 /// references of its two bodies.
 pub(crate) fn transformation<T: Real>(element: &Element<T>, bodies: &Bodies<T>) -> Matrix12<T> {

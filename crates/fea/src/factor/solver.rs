@@ -1,6 +1,6 @@
 //! Factoring in the precision that the accuracy needs, and names for what cannot be factored.
 
-use crate::assembly::{Bodies, Extended, Real, ScaledStiffness, irregular_vector};
+use crate::assembly::{Bodies, Extended, Real, ScaledStiffness, inverse_iterations, irregular_vector};
 use crate::dof::Dof;
 use crate::error::{EntryAttribute, Error};
 use crate::factor::certificate::Certificate;
@@ -177,23 +177,11 @@ pub(crate) fn ill_conditioned(
 /// Three inverse iterations with the slightly shifted stiffness approximate this motion. Among equal
 /// components the one of the lowest column is named.
 fn weakest(stiffness: &ScaledStiffness, bodies: &Bodies) -> (usize, Dof) {
-    let columns = &stiffness.numbering.column;
     let factor = SHIFTS.iter().find_map(|&shift| Factor::new(&stiffness.shifted(shift)).ok());
     let mut x = irregular_vector(stiffness.len());
     if let Some(factor) = factor {
-        for _ in 0..3 {
-            factor.solve(&mut x);
-            let size = x.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-            x.iter_mut().for_each(|v| *v /= size);
-        }
+        inverse_iterations(&mut x, 3, |x| factor.solve(x));
     }
-    let mut largest = 0;
-    for (k, value) in x.iter().enumerate() {
-        let gain = value.abs() - x[largest].abs();
-        if gain > EQUAL || (gain > -EQUAL && columns[k] < columns[largest]) {
-            largest = k;
-        }
-    }
-    let column = columns.get(largest).copied().unwrap_or(0);
+    let column = stiffness.numbering.largest_column(&x, EQUAL);
     (bodies.list[column / 6].reference, Dof::ALL[column % 6])
 }

@@ -18,7 +18,8 @@ use splines::BeamColumn;
 use sprs::CsMat;
 
 use crate::assembly::{
-    Bodies, Element, Numbering, ScaledStiffness, bending_planes, irregular_vector, symmetric_product,
+    Bodies, Element, Numbering, ScaledStiffness, bending_planes, inverse_iterations, irregular_vector,
+    symmetric_product,
 };
 use crate::dof::Dof;
 use crate::error::{Buckling, EntryAttribute, Error};
@@ -92,11 +93,7 @@ struct Trial {
 fn interpolated(low: &Trial, high: &mut Trial, x: &mut [f64]) -> Option<f64> {
     let (below, _) = low.stiffness.as_ref()?;
     let (above, factor) = high.stiffness.as_mut()?;
-    for _ in 0..MODE_STEPS {
-        factor.solve(x);
-        let size = x.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-        x.iter_mut().for_each(|v| *v /= size);
-    }
+    inverse_iterations(x, MODE_STEPS, |x| factor.solve(x));
     let at = DVector::from_column_slice(x);
     let [a, b] = [below, above].map(|k| symmetric_product(k, at.as_view()).dot(&at));
     (a > 0.0 && b < 0.0).then(|| low.alpha + (high.alpha - low.alpha) * a / (a - b))
@@ -264,21 +261,9 @@ impl<'a> Critical<'a> {
         let stiffness = ScaledStiffness::<f64>::in_precision(&behind, &self.numbering)?;
         let factor = IndefiniteFactor::new(&stiffness.upper).map_err(|fault| self.too_large(fault))?;
         if let Some(mut factor) = factor {
-            for _ in 0..MODE_STEPS {
-                factor.solve(&mut x);
-                let size = x.iter().fold(0.0_f64, |a, v| a.max(v.abs()));
-                x.iter_mut().for_each(|v| *v /= size);
-            }
+            inverse_iterations(&mut x, MODE_STEPS, |x| factor.solve(x));
         }
-        let mut largest = 0;
-        for (k, value) in x.iter().enumerate() {
-            let gain = value.abs() - x[largest].abs();
-            let columns = &self.numbering.column;
-            if gain > EQUAL || (gain > -EQUAL && columns[k] < columns[largest]) {
-                largest = k;
-            }
-        }
-        let column = self.numbering.column.get(largest).copied().unwrap_or(0);
+        let column = self.numbering.largest_column(&x, EQUAL);
         let mut motions = vec![SVector::<f64, 6>::zeros(); self.bodies.list.len()];
         for (k, value) in x.iter().enumerate() {
             let column = self.numbering.column[k];

@@ -335,7 +335,7 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
 }
 
 /// A law that is not linear takes more than one iteration in a stage, also where the wheel's place is known. The reference
-/// has sixteen times as many steps as the finest.
+/// has at least eight times as many steps.
 #[test]
 fn stages_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error> {
     let influence = || Foundation::massless(Box::new(Give), 1);
@@ -345,7 +345,8 @@ fn stages_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error> 
         let law = || NormalLaw { exponent: 1.5, ..NormalLaw::linear(300.0, 2.0, Damper::Ground) };
         let wanted = end(Method::Sdirk4, law(), foundation(), 2560)?;
         let mut errors = Vec::new();
-        for steps in [40, 80, 160] {
+        // The fastest mode of the mesh has a period of 0.06.
+        for steps in if name == "full" { [80, 160, 320] } else { [40, 80, 160] } {
             let found = end(Method::Sdirk4, law(), foundation(), steps)?;
             errors.push((found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1])));
         }
