@@ -25,10 +25,10 @@ const PASSES: usize = 2;
 pub fn with_wheels_at_rest(mut document: Document) -> Document {
     for case in &mut document.cases {
         let scene = &mut case.scene;
+        if !scene.structures.iter().any(|structure| structure.preload) {
+            continue;
+        }
         for pass in 0..=PASSES {
-            if !scene.structures.iter().any(|structure| structure.preload) {
-                break;
-            }
             let Some(forces) = wheel_forces(scene, pass > 0) else { break };
             for (structure, own) in scene.structures.iter_mut().zip(forces) {
                 if let (true, Origin::Spec { spec, .. }) = (structure.preload, &mut structure.origin)

@@ -137,8 +137,8 @@ fn has_static_start(scene: &Scene, outcome: &CaseResult) -> bool {
     carried >= CARRIED * weight
 }
 
-/// The largest force of each rail over that of the equilibrium at the start, where that is its static force; measured values of the run beside those of codes, and static deflections over their limits, where the scene asks for
-/// codes.
+/// The largest force of each rail over that of the equilibrium at the start, where that is its static force; measured
+/// values of the run beside those of codes, and static deflections over their limits, where the scene asks for codes.
 fn ratios(scene: &Scene, outcome: &CaseResult, row: &mut RunRow) {
     let rails = if has_static_start(scene, outcome) { &scene.rails[..] } else { &[] };
     for rail in rails {

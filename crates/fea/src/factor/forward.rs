@@ -184,25 +184,19 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use nalgebra::{DMatrix, DVector};
-    use sprs::{CsMat, TriMat};
+    use sprs::CsMat;
 
     use super::*;
     use crate::assembly::Extended;
+    use crate::factor::banded;
     use crate::factor::cholesky::FactorError;
 
     /// Positive definite matrix with the given half bandwidth, and its upper triangle.
-    fn banded(n: usize, width: usize) -> (DMatrix<f64>, CsMat<f64>) {
-        let entry = |i: usize, j: usize| match i.abs_diff(j) {
+    fn definite(n: usize, width: usize) -> (DMatrix<f64>, CsMat<f64>) {
+        banded(n, width, |i, j| match i.abs_diff(j) {
             0 => 2.0 * width as f64 + 0.1 * (i % 7) as f64,
-            gap if gap <= width => -1.0 + 0.01 * ((i * j) % 13) as f64,
-            _ => 0.0,
-        };
-        let dense = DMatrix::from_fn(n, n, entry);
-        let mut upper = TriMat::new((n, n));
-        for j in 0..n {
-            (j.saturating_sub(width)..=j).for_each(|i| upper.add_triplet(i, j, dense[(i, j)]));
-        }
-        (dense, upper.to_csc())
+            _ => -1.0 + 0.01 * ((i * j) % 13) as f64,
+        })
     }
 
     #[test]
@@ -217,7 +211,7 @@ mod tests {
 
     fn agree<T: Real>(precision: impl Fn(&CsMat<f64>) -> CsMat<T>) {
         for (n, width, panels) in [(40, 1, false), (300, 299, true)] {
-            let (dense, upper) = banded(n, width);
+            let (dense, upper) = definite(n, width);
             let factor = Factor::new(&precision(&upper)).expect("positive definite");
             assert_eq!(factor.panels < n, panels && T::PANELS, "another kind of factor than meant");
             let inverse = dense.clone().try_inverse().expect("positive definite");
@@ -252,7 +246,7 @@ mod tests {
 
     #[test]
     fn growth_is_the_norm_of_the_products_and_pivots_the_diagonal() {
-        let (dense, upper) = banded(300, 299);
+        let (dense, upper) = definite(300, 299);
         let factor = Factor::new(&upper).expect("positive definite");
         let l = dense.cholesky().expect("positive definite").l();
         let bound = (l.abs() * l.abs().transpose()).column_sum().amax();
@@ -265,7 +259,7 @@ mod tests {
 
     #[test]
     fn indefinite_matrices_are_refused() {
-        let (_, upper) = banded(10, 1);
+        let (_, upper) = definite(10, 1);
         let shifted = &upper + &CsMat::eye_csc(10).map(|one: &f64| -5.0 * one);
         assert_eq!(Factor::new(&shifted).err(), Some(FactorError::Indefinite));
     }

@@ -138,31 +138,19 @@ fn estimate_inverse_norm(n: usize, mut solve: impl FnMut(&mut [f64])) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::DMatrix;
     use sprs::TriMat;
 
     use super::*;
-
-    /// Symmetric matrix with the given half bandwidth, and its upper triangle.
-    fn banded(n: usize, width: usize, shift: f64) -> (DMatrix<f64>, CsMat<f64>) {
-        let entry = |i: usize, j: usize| match i.abs_diff(j) {
-            0 => (i % 17) as f64 - shift,
-            gap if gap <= width => 0.3 * ((i * j) % 13) as f64 / width as f64,
-            _ => 0.0,
-        };
-        let dense = DMatrix::from_fn(n, n, entry);
-        let mut upper = TriMat::new((n, n));
-        for j in 0..n {
-            (j.saturating_sub(width)..=j).for_each(|i| upper.add_triplet(i, j, dense[(i, j)]));
-        }
-        (dense, upper.to_csc())
-    }
+    use crate::factor::banded;
 
     #[test]
     fn negative_pivots_count_the_negative_eigenvalues_in_columns_and_in_panels() {
         for (n, width) in [(60, 1), (60, 7), (300, 299)] {
             for shift in [-8.3, 0.4, 3.7, 9.1, 40.2] {
-                let (dense, upper) = banded(n, width, shift);
+                let (dense, upper) = banded(n, width, |i, j| match i.abs_diff(j) {
+                    0 => (i % 17) as f64 - shift,
+                    _ => 0.3 * ((i * j) % 13) as f64 / width as f64,
+                });
                 let eigenvalues = dense.symmetric_eigenvalues();
                 let exact = eigenvalues.iter().filter(|&&value| value < 0.0).count();
                 assert_eq!(

@@ -24,3 +24,19 @@ pub use memory::MEMORY_LIMIT;
 pub(crate) use memory::allow_square;
 pub(crate) use product::multiply;
 pub(crate) use solver::{Factored, Solver, ill_conditioned};
+
+/// Symmetric matrix with the given half bandwidth and the `entry` of each row and column within it, and its upper triangle.
+#[cfg(test)]
+fn banded(
+    n: usize,
+    width: usize,
+    entry: impl Fn(usize, usize) -> f64,
+) -> (nalgebra::DMatrix<f64>, sprs::CsMat<f64>) {
+    let within = |i: usize, j: usize| if i.abs_diff(j) <= width { entry(i, j) } else { 0.0 };
+    let dense = nalgebra::DMatrix::from_fn(n, n, within);
+    let mut upper = sprs::TriMat::new((n, n));
+    for j in 0..n {
+        (j.saturating_sub(width)..=j).for_each(|i| upper.add_triplet(i, j, dense[(i, j)]));
+    }
+    (dense, upper.to_csc())
+}

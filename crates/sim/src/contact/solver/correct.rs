@@ -16,7 +16,6 @@ use super::Solver;
 use crate::Error;
 use crate::contact::element::passing;
 use crate::mechanics::state::{Known, State};
-use crate::numerics::dense::along;
 
 impl Solver<'_> {
     /// Whether a stage with coefficient `g` may be corrected: the matrices for `g` are factored, and the step has no
@@ -69,9 +68,7 @@ impl Solver<'_> {
             let penetration = self.geometry.approach(i, &self.free.q) - deflection;
             let mut rate = 0.0;
             if self.follows_motion(i) {
-                let slope = self.geometry.rows().rise[i] - self.geometry.shape_slope(i, &self.free.q);
-                rate = along(&self.geometry.rows().approach, i, self.free.v.as_slice())
-                    + slope * system.contact_speed(i, at);
+                rate = self.free_approach_rate(i, system.contact_speed(i, at));
             } else if self.remembers(i) {
                 rate = (penetration - known[i]) / g;
             } else if fixed.feels_rates {

@@ -224,15 +224,22 @@ impl Solver<'_> {
         self.remembers(i) && self.system.follows_motion[i]
     }
 
-    /// Replaces the rate of vertical contact `i` by that of the motion, r = R v + x' (h' - w'), with the slopes h' of the
-    /// unloaded rail and w' = S q of the structure at the speed x' of `at`: r_0 is that without forces, and Y = g R Z B^T -
-    /// g^2 x' S Z B^T.
+    /// Rate of the approach of vertical contact `i` in the motion of the stage without forces, r = R v + x' (h' - w'), with
+    /// the slopes h' of the unloaded rail and w' = S q of the structure at the `speed` x' along the rail.
+    pub(super) fn free_approach_rate(&self, i: usize, speed: f64) -> f64 {
+        let rows = self.geometry.rows();
+        let slope = rows.rise[i] - self.geometry.shape_slope(i, &self.free.q);
+        along(&rows.approach, i, self.free.v.as_slice()) + speed * slope
+    }
+
+    /// Replaces the rate of vertical contact `i` by that of the motion at the speed x' of `at`: r_0 is that without forces
+    /// ([`Solver::free_approach_rate`]), and Y = g R Z B^T - g^2 x' S Z B^T.
     fn fill_passing(&mut self, i: usize, g: f64, at: &State) {
         let m = at.force.len();
-        let (rows, speed) = (self.geometry.rows(), self.system.contact_speed(i, at));
-        let slope = rows.rise[i] - self.geometry.shape_slope(i, &self.free.q);
+        let speed = self.system.contact_speed(i, at);
+        let rate = self.free_approach_rate(i, speed);
         let effects = &mut self.problem.effects;
-        effects.rate[i] = along(&rows.approach, i, self.free.v.as_slice()) + speed * slope;
+        effects.rate[i] = rate;
         if self.system.mechanics.has_structures() && speed != 0.0 {
             let own = &mut effects.y[i * m..(i + 1) * m];
             for (&j, by_slope) in self.projection.product(self.geometry.shape_row(i)) {
