@@ -7,6 +7,7 @@
 
 use splines::{Influence, Probe};
 
+use super::candidates::Candidates;
 use super::matrices::RailMatrices;
 use super::path::CompliancePath;
 use super::probes::{Entry, Probes};
@@ -85,19 +86,26 @@ impl RailCompliance {
         self.reach != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
     }
 
-    /// Updates G to the rail coordinates `x` of all wheels.
+    /// Updates the rows of G of the `elements` to the rail coordinates `x` of all wheels. The columns of other elements
+    /// are not needed.
     ///
     /// # Errors
     /// Errors of the compliance of a structure.
-    pub fn update(&mut self, mechanics: &Mechanics, probes: &Probes, x: &[f64]) -> Result<(), Error> {
+    pub fn update(
+        &mut self,
+        mechanics: &Mechanics,
+        probes: &Probes,
+        x: &[f64],
+        elements: &Candidates,
+    ) -> Result<(), Error> {
         let m = probes.slots.len();
         let RailCompliance { matrices, providers, near, reach } = self;
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
             let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
             if let Some(path) = &mut provider.path
-                && path.follow(x, *reach)
+                && path.follow(x, *reach, elements)
             {
-                path.put(m, matrices);
+                path.put(m, matrices, elements);
                 provider.is_on_path = true;
                 continue;
             }

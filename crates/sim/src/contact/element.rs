@@ -115,6 +115,11 @@ pub(crate) trait Element {
         false
     }
 
+    /// Whether it may begin to act within the time `_h` after `_at`, where it has no force.
+    fn may_act(&self, _at: &At, _h: f64) -> bool {
+        true
+    }
+
     /// Whether an idle element begins to act within a stage at the penetration `_p`.
     fn touches(&self, _p: f64) -> bool {
         false

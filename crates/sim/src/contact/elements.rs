@@ -41,6 +41,14 @@ macro_rules! force_elements {
                 }
             }
 
+            /// [`Element::may_act`].
+            #[inline]
+            pub fn may_act(&self, at: &At, h: f64) -> bool {
+                match self {
+                    $(ForceElement::$kind(element) => element.may_act(at, h),)+
+                }
+            }
+
             /// [`Element::switch`].
             #[inline]
             pub fn switch(&self, at: &At, active: &ActiveSet) -> Option<f64> {

@@ -1,13 +1,19 @@
 //! Flange of a wheel: L = k S(h) (|e| - clearance) sign(e) beyond the clearance, where h is the height of the wheel.
 
+use nalgebra::DVector;
 use splines::Axis;
 
 use super::element::{At, Coupling, Element, ElementProbe, Guard, GuardKind, Law, Local, Query, Role, Where};
 use super::energy::{Exchanged, Stored};
 use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
+use crate::numerics::dense::along;
 use crate::scene::dof::arm_rows;
 use crate::{BodyDof, Channel, Flange};
+
+/// Part of the clearance within which a flange is near its rail, and the factor on the motion in a step.
+const NEAR: f64 = 0.1;
+const CLOSING: f64 = 3.0;
 
 /// Index of the roll among the displacements of a body.
 const ROLL: usize = BodyDof::Roll as usize;
@@ -88,6 +94,15 @@ impl Element for FlangeContact<'_> {
 
     fn is_followed(&self) -> bool {
         true
+    }
+
+    /// A flange may touch if its distance from the rail is a tenth of the clearance, or if the distance at its present
+    /// speed and acceleration closes within some times `h`.
+    fn may_act(&self, at: &At, h: f64) -> bool {
+        let shape = at.rows.rise[at.index] * at.mechanics.speed_along(self.wheel, at.state);
+        let by = |motion: &DVector<f64>| along(&at.rows.approach, at.index, motion.as_slice()).abs();
+        let moved = CLOSING * h * (by(&at.state.v) + shape.abs() + h * by(&at.state.a));
+        (at.approach() - at.deflection()).abs() + moved > (1.0 - NEAR) * self.flange.clearance
     }
 
     fn touches(&self, p: f64) -> bool {

@@ -10,6 +10,7 @@
 //! their residual is within rounding, or when the residual is within the slack that the caller allows. If all
 //! elements are linear vertical contacts, a single linear system is solved instead.
 
+use super::candidates::Candidates;
 use super::element::{Coupling, Law, Local, Query};
 use super::system::System;
 use crate::numerics::dense::{along, factor_general, solve_factored, solve_general, solve_spd};
@@ -76,6 +77,8 @@ struct Factors {
 /// The problem of the forces, solved repeatedly without allocation.
 pub(crate) struct Problem {
     pub effects: Effects,
+    /// Elements that may have a force; the others have none, and nothing of them is evaluated.
+    pub candidates: Candidates,
     /// Elements that are assumed to have no force, independent of their laws; their columns of the mobility are not
     /// filled.
     pub idle: Vec<bool>,
@@ -141,6 +144,7 @@ impl Problem {
                 rate: vec![0.0; m],
                 kind: vec![RowKind::Law; m],
             },
+            candidates: Candidates::all(m),
             idle: vec![false; m],
             slack: 0.0,
             residuals: Residuals {
@@ -290,7 +294,7 @@ impl Problem {
 
     /// Evaluates the residuals of the laws under `force` with W and Y; returns the largest absolute residual.
     fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
-        for i in 0..force.len() {
+        for &i in self.candidates.list() {
             if !self.idle[i] || system.fixed[i].is_followed {
                 self.residuals.reached[i] =
                     [self.effects.penetration(i, force), self.effects.rate_under(i, force)];
@@ -303,10 +307,10 @@ impl Problem {
     /// Fills the residuals F - law(p, r) under `force` at the stored penetrations and rates, the list of acting
     /// elements, and the slopes of their laws. The residual of an element that does not act is its force.
     fn evaluate_laws(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) {
-        let Problem { effects, idle, residuals, .. } = self;
+        let Problem { effects, candidates, idle, residuals, .. } = self;
         residuals.clear();
         let m = force.len();
-        for (i, element) in system.elements.iter().enumerate() {
+        for &i in candidates.list() {
             if effects.kind[i] == RowKind::Given {
                 continue;
             }
@@ -325,7 +329,7 @@ impl Problem {
                 (query.rate, query.fall) = (SATURATED.copysign(wanted), 0.0);
             }
             let known = residuals.couplings.len();
-            let Some(mut law) = element.law(&query, &mut residuals.couplings) else {
+            let Some(mut law) = system.elements[i].law(&query, &mut residuals.couplings) else {
                 residuals.set_idle(i, force[i]);
                 continue;
             };

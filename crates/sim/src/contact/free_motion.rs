@@ -80,9 +80,12 @@ impl<'a> FreeMotion<'a> {
 
     /// Sets V = v* + g A and Q = q* + g V from the present accelerations A.
     fn follow(&mut self, g: f64, known: &Known) {
-        for k in 0..self.a.len() {
-            self.v[k] = known.v[k] + g * self.a[k];
-            self.q[k] = known.q[k] + g * self.v[k];
+        let (a, v, q) = (self.a.as_slice(), self.v.as_mut_slice(), self.q.as_mut_slice());
+        for (v, (known, a)) in v.iter_mut().zip(known.v.as_slice().iter().zip(a)) {
+            *v = known + g * a;
+        }
+        for (q, (known, v)) in q.iter_mut().zip(known.q.as_slice().iter().zip(v)) {
+            *q = known + g * *v;
         }
     }
 
@@ -106,8 +109,9 @@ impl<'a> FreeMotion<'a> {
                 let state = (at.t, &at.q, &at.v);
                 system.mechanics.carried.add(&system.mechanics.kinematics, state, sums, &mut self.columns);
             }
-            for (column, a) in self.mass.column_iter().zip(at.a.iter()) {
-                self.load.iter_mut().zip(column.iter()).for_each(|(load, mass)| *load -= mass * a);
+            let load = self.load.as_mut_slice();
+            for (column, a) in self.mass.as_slice().chunks_exact(constant.nrows().max(1)).zip(at.a.as_slice()) {
+                load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
             }
         }
         if system.mechanics.has_structures() {
@@ -123,10 +127,11 @@ impl<'a> FreeMotion<'a> {
         }
         for &j in acting {
             let force = at.force[j];
-            self.load.iter_mut().zip(force_row(j)).for_each(|(load, share)| *load -= share * force);
+            let load = self.load.as_mut_slice();
+            load.iter_mut().zip(force_row(j)).for_each(|(load, share)| *load -= share * force);
         }
         self.stage.apply(self.load.as_slice(), self.a.as_mut_slice());
-        for (a, own) in self.a.iter_mut().zip(at.a.iter()) {
+        for (a, own) in self.a.as_mut_slice().iter_mut().zip(at.a.as_slice()) {
             *a += own;
         }
         self.follow(g, known);
@@ -142,8 +147,9 @@ impl<'a> FreeMotion<'a> {
         for block in &system.mechanics.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
-        for (row, force) in rows.chunks_exact(self.load.len().max(1)).zip(&at.force) {
-            for (load, entry) in self.load.iter_mut().zip(row) {
+        let load = self.load.as_mut_slice();
+        for (row, force) in rows.chunks_exact(load.len().max(1)).zip(&at.force).filter(|(_, force)| **force != 0.0) {
+            for (load, entry) in load.iter_mut().zip(row) {
                 *load -= entry * force;
             }
         }

@@ -9,6 +9,7 @@
 use nalgebra::DVector;
 use splines::Probe;
 
+use super::candidates::Candidates;
 use super::compliance::RailCompliance;
 use super::element::{Frame, Local, Where};
 use super::matrices::RailMatrices;
@@ -166,6 +167,20 @@ impl Geometry {
     /// # Errors
     /// Errors of the rail models.
     pub fn update(&mut self, system: &System, t: f64, q: &DVector<f64>, force: &[f64]) -> Result<(), Error> {
+        self.update_some(system, (t, q), force, &system.all)
+    }
+
+    /// Updates the data of `elements` to (t, q). Elements that are not among them must have no force.
+    ///
+    /// # Errors
+    /// Errors of the rail models.
+    pub fn update_some(
+        &mut self,
+        system: &System,
+        (t, q): (f64, &DVector<f64>),
+        force: &[f64],
+        elements: &Candidates,
+    ) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         self.places.move_to(mechanics, t, q);
         if system.traits.has_parts {
@@ -173,34 +188,39 @@ impl Geometry {
                 local.fraction = element.fraction(mechanics, &self.places).unwrap_or(local.fraction);
             }
         }
-        self.rails.update(mechanics, &system.probes, &self.places.x)?;
+        self.rails.update(mechanics, &system.probes, &self.places.x, elements)?;
         let rows_stay = self.is_built && system.traits.has_constant_rows;
         self.is_built = true;
         if rows_stay {
             return Ok(());
         }
-        self.update_rows(system, t, q)?;
-        self.update_force_rows(system, q, force);
+        self.update_rows(system, (t, q), elements)?;
+        self.update_force_rows(system, q, force, elements);
         Ok(())
     }
 
-    fn update_rows(&mut self, system: &System, t: f64, q: &DVector<f64>) -> Result<(), Error> {
+    fn update_rows(
+        &mut self,
+        system: &System,
+        (t, q): (f64, &DVector<f64>),
+        elements: &Candidates,
+    ) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         let is_uneven = system.traits.is_uneven;
         let Geometry { places, rows, local, switches, .. } = self;
-        rows.reset(&self.constant);
         let at = Where { mechanics, t, q, places, switches, is_uneven };
-        for (i, (element, local)) in system.elements.iter().zip(local).enumerate() {
-            element.update_row(&at, &mut rows.row_mut(i), local);
+        for &i in elements.list() {
+            rows.reset(i, &self.constant);
+            system.elements[i].update_row(&at, &mut rows.row_mut(i), &mut local[i]);
         }
         if mechanics.has_structures() {
-            self.add_shapes(system)?;
+            self.add_shapes(system, elements)?;
         }
         Ok(())
     }
 
-    /// Adds the shapes of structures with mass to the rows of the elements on them.
-    fn add_shapes(&mut self, system: &System) -> Result<(), Error> {
+    /// Adds the shapes of structures with mass to the rows of the `elements` on them.
+    fn add_shapes(&mut self, system: &System, elements: &Candidates) -> Result<(), Error> {
         let n = system.mechanics.dofs;
         let ShapeSlopes { all, value, slope } = &mut self.shapes;
         all.fill(0.0);
@@ -208,7 +228,7 @@ impl Geometry {
             let Some(structure) = &system.foundations[s].structure else { continue };
             let range = system.mechanics.structures[s].clone();
             let size = range.len();
-            for entry in entries {
+            for entry in entries.iter().filter(|entry| elements.has(entry.element)) {
                 let at = Probe { x: self.places.x[entry.wheel], ..entry.probe };
                 let (value, slope) = (&mut value[..size], &mut slope[..size]);
                 structure
@@ -250,19 +270,25 @@ impl Geometry {
 
     /// Computes the rows of the forces: the rows of the approach, or of the rate for tangential elements, minus the
     /// slope of the rail times the rows of the wheel's x.
-    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
+    fn update_force_rows(
+        &mut self,
+        system: &System,
+        q: &DVector<f64>,
+        force: &[f64],
+        elements: &Candidates,
+    ) {
         let n = system.mechanics.dofs;
-        for (i, fixed) in system.fixed.iter().enumerate() {
+        for &i in elements.list() {
             let span = i * n..(i + 1) * n;
-            let own = if fixed.is_tangential { &self.rows.rate } else { &self.rows.approach };
+            let own = if system.fixed[i].is_tangential { &self.rows.rate } else { &self.rows.approach };
             self.rows.force[span.clone()].copy_from_slice(&own[span]);
         }
         if !system.mechanics.moves_freely {
             return;
         }
         self.update_rail_slope(system, q, force);
-        for (i, element) in system.elements.iter().enumerate() {
-            let Some(w) = element.tilted_wheel() else { continue };
+        for &i in elements.list() {
+            let Some(w) = system.elements[i].tilted_wheel() else { continue };
             let wheel = &system.mechanics.wheels[w];
             let row = arm_rows(wheel.hub)[0];
             for (k, coefficient) in row.iter().enumerate().filter(|(_, c)| **c != 0.0) {

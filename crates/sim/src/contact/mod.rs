@@ -8,6 +8,7 @@
 
 pub(crate) mod active;
 pub(crate) mod brake;
+pub(crate) mod candidates;
 pub(crate) mod chart;
 pub(crate) mod charts;
 pub(crate) mod compliance;

@@ -9,6 +9,7 @@
 
 use splines::{Compliance, Influence, Probe};
 
+use super::candidates::Candidates;
 use super::matrices::RailMatrices;
 use super::probes::Entry;
 use crate::Foundation;
@@ -64,8 +65,9 @@ pub(crate) struct CompliancePath {
     /// row-major.
     value: [Vec<f64>; 4],
     slope: [Vec<f64>; 3],
-    /// Values and slopes at the latest position.
+    /// Values and slopes at the latest position, and the groups of the rows that are current.
     now: [Vec<f64>; 2],
+    rows: Vec<usize>,
     is_set: bool,
 }
 
@@ -110,6 +112,7 @@ impl CompliancePath {
             value: std::array::from_fn(|_| square()),
             slope: std::array::from_fn(|_| square()),
             now: [square(), square()],
+            rows: Vec::with_capacity(count),
             groups,
             is_set: false,
         })
@@ -240,9 +243,9 @@ impl CompliancePath {
         (s, farthest)
     }
 
-    /// Updates values and slopes to the positions `places`. Returns false if the path is not set or a wheel is
-    /// farther than `reach` from it.
-    pub fn follow(&mut self, places: &[f64], reach: f64) -> bool {
+    /// Updates values and slopes of the rows of `elements` to the positions `places`; entries between them and other
+    /// elements are not needed. Returns false if the path is not set or a wheel is farther than `reach` from it.
+    pub fn follow(&mut self, places: &[f64], reach: f64, elements: &Candidates) -> bool {
         if !self.is_set {
             return false;
         }
@@ -250,19 +253,25 @@ impl CompliancePath {
         if farthest > reach {
             return false;
         }
+        let count = self.groups.len();
+        self.rows.clear();
+        self.rows.extend((0..count).filter(|&group| elements.has(self.groups[group].element)));
         let [value, slope] = &mut self.now;
-        let [a, b, c, d] = &self.value;
-        for ((now, (a, b)), (c, d)) in value.iter_mut().zip(a.iter().zip(b)).zip(c.iter().zip(d)) {
-            *now = a + s * (b + s * (c + s * d));
-        }
-        let [a, b, c] = &self.slope;
-        for ((now, a), (b, c)) in slope.iter_mut().zip(a).zip(b.iter().zip(c)) {
-            *now = a + s * (b + s * c);
+        for &row in &self.rows {
+            let span = row * count..(row + 1) * count;
+            let [a, b, c, d] = self.value.each_ref().map(|of| &of[span.clone()]);
+            let now = &mut value[span.clone()];
+            for ((now, (a, b)), (c, d)) in now.iter_mut().zip(a.iter().zip(b)).zip(c.iter().zip(d)) {
+                *now = a + s * (b + s * (c + s * d));
+            }
+            let [a, b, c] = self.slope.each_ref().map(|of| &of[span.clone()]);
+            for ((now, a), (b, c)) in slope[span].iter_mut().zip(a).zip(b.iter().zip(c)) {
+                *now = a + s * (b + s * c);
+            }
         }
         if farthest > 0.0 {
-            let count = self.groups.len();
-            for i in 0..count {
-                for j in 0..=i {
+            for (place, &i) in self.rows.iter().enumerate() {
+                for &j in &self.rows[..=place] {
                     let (there, back) = (i * count + j, j * count + i);
                     let more = slope[there] * self.offset[i] + slope[back] * self.offset[j];
                     value[there] += more;
@@ -275,17 +284,18 @@ impl CompliancePath {
         true
     }
 
-    /// Writes the latest values and slopes into the matrices over `m` elements.
-    pub fn put(&self, m: usize, matrices: &mut RailMatrices) {
+    /// Writes the latest values and slopes of the rows of `elements` into the matrices over `m` elements.
+    pub fn put(&self, m: usize, matrices: &mut RailMatrices, elements: &Candidates) {
         let RailMatrices { value: sums, slope: rates, tangential } = matrices;
-        for group in &self.groups {
+        let is_wanted = |group: &&Group| elements.has(group.element);
+        for group in self.groups.iter().filter(is_wanted) {
             let row = group.element * m..(group.element + 1) * m;
             sums[row.clone()].fill(0.0);
             rates[row].fill(0.0);
         }
         let count = self.groups.len();
         let lines = self.now[0].chunks_exact(count).zip(self.now[1].chunks_exact(count));
-        for (row, (value, slope)) in self.groups.iter().zip(lines) {
+        for (row, (value, slope)) in self.groups.iter().zip(lines).filter(|(row, _)| is_wanted(row)) {
             let span = row.element * m..(row.element + 1) * m;
             let (sums, rates) = (&mut sums[span.clone()], &mut rates[span]);
             for (column, (value, slope)) in self.groups.iter().zip(value.iter().zip(slope)) {

@@ -65,8 +65,14 @@ impl Projection {
         self.columns.iter().zip(&self.other)
     }
 
-    /// Computes the products for the elements that are not `idle`.
-    pub fn fill(&mut self, system: &System, rows: &Rows, mobility: &Mobility, idle: &[bool]) {
+    /// Computes the products of the rows of `elements`, for the forces of those that are not `idle`.
+    pub fn fill(
+        &mut self,
+        system: &System,
+        rows: &Rows,
+        mobility: &Mobility,
+        (elements, idle): (&[usize], &[bool]),
+    ) {
         if self.is_constant {
             return;
         }
@@ -82,10 +88,10 @@ impl Projection {
             }
         }
         let spread = &self.spread[..self.answer.len() * count];
-        for (i, fixed) in system.fixed.iter().enumerate() {
+        for &i in elements {
             let span = i * count..(i + 1) * count;
             product(rows.approach_row(i), spread, &mut self.approach[span.clone()]);
-            if fixed.feels_rates {
+            if system.fixed[i].feels_rates {
                 product(rows.rate_row(i), spread, &mut self.rate[span]);
             }
         }

@@ -49,12 +49,13 @@ impl Rows {
         }
     }
 
-    /// Copies the rows of approach and rate and the offset of the approach from `constant`; sets `rise` to zero.
-    pub fn reset(&mut self, constant: &Rows) {
-        self.approach.copy_from_slice(&constant.approach);
-        self.rate.copy_from_slice(&constant.rate);
-        self.approach_offset.copy_from_slice(&constant.approach_offset);
-        self.rise.fill(0.0);
+    /// Copies approach and rate of element `i` and the offset of its approach from `constant`; sets its `rise` to zero.
+    pub fn reset(&mut self, i: usize, constant: &Rows) {
+        let span = i * self.dofs..(i + 1) * self.dofs;
+        self.approach[span.clone()].copy_from_slice(&constant.approach[span.clone()]);
+        self.rate[span.clone()].copy_from_slice(&constant.rate[span]);
+        self.approach_offset[i] = constant.approach_offset[i];
+        self.rise[i] = 0.0;
     }
 
     /// The row of element `i`, for writing.

@@ -4,6 +4,7 @@
 
 use splines::{Axis, Probe};
 
+use super::candidates::Candidates;
 use super::element::{ElementProbe, Fixed, GuardKind, Role};
 use super::elements::ForceElement;
 use super::probes::{Entry, Probes, TangentialContact};
@@ -19,6 +20,8 @@ pub(crate) struct System<'a> {
     pub foundations: &'a [Foundation],
     pub mechanics: Mechanics<'a>,
     pub elements: Vec<ForceElement<'a>>,
+    /// All elements.
+    pub all: Candidates,
     /// Properties of each element that are the same at every state.
     pub fixed: Vec<Fixed>,
     /// Whether the rail below each vertical contact moves with degrees of freedom alone, without a compliance of its own,
@@ -84,6 +87,7 @@ impl<'a> System<'a> {
             scene,
             foundations,
             mechanics,
+            all: Candidates::all(elements.len()),
             elements,
             fixed,
             follows_motion,

@@ -19,7 +19,7 @@ use crate::numerics::dense::along;
 use crate::numerics::step::step_integral;
 use crate::scene::dof::arm_rows;
 use crate::scene::wheel::LawValue;
-use crate::{Channel, Damper, NormalLaw};
+use crate::{Channel, Damper, Irregularity, NormalLaw};
 
 /// A vertical contact.
 pub(crate) struct Vertical<'a> {
@@ -29,6 +29,9 @@ pub(crate) struct Vertical<'a> {
     contact: usize,
     /// The rigid part on which it acts, if every part has its own force.
     part: Option<usize>,
+    /// The shape of the unloaded rail averaged over the wheels, at the rail coordinate of the first of them; `None` where it
+    /// has corners, which the wheels pass one by one.
+    mean: Option<Irregularity>,
 }
 
 impl<'a> Vertical<'a> {
@@ -42,6 +45,7 @@ impl<'a> Vertical<'a> {
                 wheels: group.wheels.clone(),
                 contact: group.contact,
                 part: group.part,
+                mean: mean_shape(mechanics, group.wheels.clone()),
             })
             .collect()
     }
@@ -93,6 +97,14 @@ impl<'a> Vertical<'a> {
     }
 }
 
+/// The shape of the unloaded rail averaged over `wheels`, which move along it together.
+fn mean_shape(mechanics: &Mechanics, wheels: Range<usize>) -> Option<Irregularity> {
+    let first = mechanics.wheels[wheels.start].hub;
+    let ahead: Vec<f64> = wheels.clone().map(|w| mechanics.wheels[w].hub[0] - first[0]).collect();
+    let together = wheels.clone().all(|w| mechanics.wheels[w].hub[1..] == first[1..]);
+    mechanics.irregularity(wheels.start).filter(|_| together)?.averaged(&ahead)
+}
+
 impl Element for Vertical<'_> {
     fn constant_row(&self, mechanics: &Mechanics, row: &mut RowMut) {
         for w in self.wheels.clone() {
@@ -105,6 +117,12 @@ impl Element for Vertical<'_> {
     /// Shape of the unloaded rail: an upward irregularity increases the approach.
     fn update_row(&self, at: &Where, row: &mut RowMut, _: &mut Local) {
         if !at.is_uneven {
+            return;
+        }
+        if let Some(shape) = &self.mean {
+            let [height, slope] = shape.vertical(0, at.places.x[self.wheels.start]);
+            *row.approach_offset += height;
+            *row.rise += slope;
             return;
         }
         for w in self.wheels.clone() {

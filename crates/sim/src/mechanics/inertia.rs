@@ -58,9 +58,9 @@ impl Block {
         match &self.matrices {
             Matrices::Bodies(_) => {}
             Matrices::General { damping, stiffness, .. } => {
-                for (j, (v, q)) in v.iter().zip(q).enumerate() {
-                    let (damping, stiffness) = (damping.column(j), stiffness.column(j));
-                    for (load, (c, k)) in load.iter_mut().zip(damping.iter().zip(stiffness.iter())) {
+                let moved = v.iter().zip(q);
+                for ((damping, stiffness), (v, q)) in columns_of(damping).zip(columns_of(stiffness)).zip(moved) {
+                    for (load, (c, k)) in load.iter_mut().zip(damping.iter().zip(stiffness)) {
                         *load -= c * v + k * q;
                     }
                 }
@@ -79,8 +79,8 @@ impl Block {
         match &self.matrices {
             Matrices::Bodies(_) => {}
             Matrices::General { mass, .. } => {
-                for (column, a) in mass.column_iter().zip(a) {
-                    load.iter_mut().zip(column.iter()).for_each(|(load, mass)| *load -= mass * a);
+                for (column, a) in columns_of(mass).zip(a) {
+                    load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
                 }
             }
             Matrices::Modes { .. } => load.iter_mut().zip(a).for_each(|(load, a)| *load -= a),
@@ -145,6 +145,11 @@ impl Block {
             }
         }
     }
+}
+
+/// Columns of a matrix as slices.
+fn columns_of(matrix: &DMatrix<f64>) -> impl Iterator<Item = &[f64]> {
+    matrix.as_slice().chunks_exact(matrix.nrows().max(1))
 }
 
 fn quadratic(matrix: &DMatrix<f64>, x: &[f64]) -> f64 {

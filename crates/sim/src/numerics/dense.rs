@@ -1,5 +1,11 @@
 //! Small dense products and linear systems without allocation, used in the innermost loop of the contact solver.
 
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::cholesky::llt::solve::solve_in_place;
+use faer::reborrow::{Reborrow, ReborrowMut};
+use faer::{MatMut, Par};
+
 /// Scalar product of two vectors of equal length. It uses four partial sums in a fixed order, so the result is the
 /// same on every machine.
 #[inline]
@@ -22,8 +28,8 @@ pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
 
 /// Order of a matrix from which scalar products use `LANES` partial sums; below it the plain loop is faster.
 const WIDE: usize = 16;
-/// Number of rows in one block of the factorization, chosen so that a block stays in the cache.
-const BLOCK: usize = 32;
+/// Order of a matrix from which the blocked factorization of faer is faster.
+const BLOCKED: usize = 64;
 /// Number of partial sums of a scalar product, large enough to hide the latency of an addition.
 const LANES: usize = 16;
 
@@ -40,40 +46,48 @@ fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n, row-major, lower triangle
-/// used).
+/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n).
 ///
-/// `a` is overwritten by its factor and `b` by x. The factor is computed row by row from the top, so that every
-/// scalar product uses contiguous memory. Returns false where A is not positive definite to working precision; the
-/// contents of `a` and `b` are then undefined.
+/// `a` is overwritten by its factor and `b` by x. The factor of a small matrix is computed row by row from the top, so that
+/// every scalar product uses contiguous memory, that of a large one by faer in blocks. Returns false where A is not
+/// positive definite to working precision; the contents of `a` and `b` are then undefined.
 #[must_use]
 pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
-    if b.len() < WIDE { factor_and_solve(a, b, dot) } else { factor_and_solve(a, b, dot_wide) }
+    match b.len() {
+        0..WIDE => factor_and_solve(a, b, dot),
+        WIDE..BLOCKED => factor_and_solve(a, b, dot_wide),
+        _ => factor_and_solve_in_blocks(a, b),
+    }
+}
+
+fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64]) -> bool {
+    let n = b.len();
+    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default()));
+    let stack = MemStack::new(&mut memory);
+    let mut matrix = MatMut::from_column_major_slice_mut(a, n, n);
+    let limits = LltRegularization::default();
+    if cholesky_in_place(matrix.rb_mut(), limits, Par::Seq, stack, Default::default()).is_err() {
+        return false;
+    }
+    let right = MatMut::from_column_major_slice_mut(b, n, 1);
+    solve_in_place(matrix.rb(), right, Par::Seq, MemStack::new(&mut []));
+    b.iter().all(|x| x.is_finite())
 }
 
 #[inline]
 fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
     let n = b.len();
-    // The rows above `i` are processed in blocks that stay in the cache while the rows of a lower block are updated.
-    for first in (0..n).step_by(BLOCK) {
-        let last = (first + BLOCK).min(n);
-        for upper in (0..=first).step_by(BLOCK) {
-            let end = (upper + BLOCK).min(n);
-            for i in first..last {
-                let (above, row) = a.split_at_mut(i * n);
-                for j in upper..end.min(i) {
-                    let other = &above[j * n..(j + 1) * n];
-                    row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
-                }
-                if end > i {
-                    let pivot = row[i] - dot(&row[..i], &row[..i]);
-                    if !(pivot > 0.0 && pivot.is_finite()) {
-                        return false;
-                    }
-                    row[i] = pivot.sqrt();
-                }
-            }
+    for i in 0..n {
+        let (above, row) = a.split_at_mut(i * n);
+        for j in 0..i {
+            let other = &above[j * n..(j + 1) * n];
+            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
         }
+        let pivot = row[i] - dot(&row[..i], &row[..i]);
+        if !(pivot > 0.0 && pivot.is_finite()) {
+            return false;
+        }
+        row[i] = pivot.sqrt();
     }
     for i in 0..n {
         let row = &a[i * n..=i * n + i];
@@ -121,7 +135,7 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
 }
 
 /// Replaces A (n x n, row-major) by its factors P A = L U with partial pivoting. L is stored below the diagonal
-/// without its unit diagonal, and `pivots` receives the row exchanges.
+/// without its unit diagonal, U with the reciprocals of its diagonal, and `pivots` receives the row exchanges.
 ///
 /// Returns false where A is singular.
 #[must_use]
@@ -162,11 +176,13 @@ fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
     Some(pivot)
 }
 
-/// Eliminates column `j` from the rows below row `j` and stores the multipliers in column `j`.
+/// Eliminates column `j` from the rows below row `j` and stores the multipliers in column `j`, and the reciprocal of the
+/// pivot in its place.
 fn eliminate(a: &mut [f64], j: usize, n: usize) {
     let (above, below) = a.split_at_mut((j + 1) * n);
-    let row = &above[j * n..];
+    let row = &mut above[j * n..];
     let scale = 1.0 / row[j];
+    row[j] = scale;
     for line in below.chunks_exact_mut(n) {
         let factor = line[j] * scale;
         line[j] = factor;
@@ -176,12 +192,13 @@ fn eliminate(a: &mut [f64], j: usize, n: usize) {
     }
 }
 
-/// Solves U x = b by back substitution, where U is stored on and above the diagonal of `a`.
+/// Solves U x = b by back substitution, where U is stored on and above the diagonal of `a`, with the reciprocals of its
+/// diagonal.
 fn substitute(a: &[f64], b: &mut [f64]) {
     let n = b.len();
     for i in (0..n).rev() {
         let line = &a[i * n..(i + 1) * n];
-        b[i] = (b[i] - dot(&line[i + 1..], &b[i + 1..])) / line[i];
+        b[i] = (b[i] - dot(&line[i + 1..], &b[i + 1..])) * line[i];
     }
 }
 
@@ -234,7 +251,7 @@ mod tests {
         let a = [4.0, 1.0, -2.0, 1.0, 5.0, 0.5, -2.0, 0.5, 6.0];
         let x = [1.0, -2.0, 3.0];
         let b: Vec<f64> = (0..3).map(|i| (0..3).map(|j| a[3 * i + j] * x[j]).sum()).collect();
-        for solve in [solve_spd, solve_general] {
+        for solve in [solve_spd as fn(&mut [f64], &mut [f64]) -> bool, solve_general] {
             let (mut m, mut r) = (a, b.clone());
             assert!(solve(&mut m, &mut r));
             for (found, planted) in r.iter().zip(x) {

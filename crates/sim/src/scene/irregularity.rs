@@ -167,6 +167,25 @@ impl Irregularity {
         self.starts.is_empty() && self.waves.is_empty()
     }
 
+    /// The vertical irregularity averaged over points `ahead` of a place x, as a function of x; `None` where it has corners
+    /// or ends. The mean of sinusoids of one wavelength is a sinusoid of the same wavelength: with c and s the means of
+    /// cos(2 pi d/length) and sin(2 pi d/length) over the distances d, its amplitude is (c^2 + s^2)^(1/2) times that of one,
+    /// and its phase is ahead by atan2(s, c).
+    pub(crate) fn averaged(&self, ahead: &[f64]) -> Option<Irregularity> {
+        if !self.starts.is_empty() {
+            return None;
+        }
+        let mean = |swell: &Swell| {
+            let turns = ahead.iter().map(|distance| (TAU * distance / swell.wave.length).sin_cos());
+            let [s, c] = turns.fold([0.0; 2], |sum, (s, c)| [sum[0] + s, sum[1] + c]);
+            let amplitude = swell.wave.amplitude * s.hypot(c) / ahead.len() as f64;
+            let wave = Wave { amplitude, phase: swell.wave.phase + s.atan2(c), ..swell.wave };
+            Swell { wave, ..swell.clone() }
+        };
+        let waves = self.waves.iter().filter(|swell| swell.side == VERTICAL).map(mean).collect();
+        Some(Irregularity { waves, ..self.clone() })
+    }
+
     /// Coordinates of the corners and steps.
     #[must_use]
     pub fn breaks(&self) -> &[f64] {

@@ -61,7 +61,7 @@ impl Sdirk {
         let tableau = self.tableau;
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(from);
-        solver.begin_step(from);
+        solver.begin_step(from, h);
         for i in 0..tableau.stages() {
             self.fill_known(solver, from, h, i);
             // The stage is evaluated just before the limit, because a prescribed motion may jump there.
@@ -80,6 +80,7 @@ impl Sdirk {
             solver.update_rail_slope(&self.stage);
             done.power = power(solver.system(), solver.geometry(), &self.stage);
         }
+        solver.end_step(&self.stage)?;
         to.copy_from(&self.stage);
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }

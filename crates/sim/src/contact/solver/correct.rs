@@ -35,7 +35,7 @@ impl Solver<'_> {
         at: &mut State,
     ) -> Result<Option<[f64; 2]>, Error> {
         let system = self.system;
-        self.update(at)?;
+        self.update_candidates(at)?;
         let rows = self.geometry.rows();
         self.free.improve(system, g, known, at, self.projection.columns(), |j| rows.force_row(j));
         if !self.reach(g, &known.p, at) {
@@ -59,7 +59,8 @@ impl Solver<'_> {
     /// an element that was treated as idle touches.
     fn reach(&mut self, g: f64, known: &[f64], at: &State) -> bool {
         let system = self.system;
-        for (i, element) in system.elements.iter().enumerate() {
+        for k in 0..self.problem.candidates.list().len() {
+            let i = self.problem.candidates.list()[k];
             let (is_idle, fixed) = (self.problem.idle[i], system.fixed[i]);
             if is_idle && !fixed.is_followed {
                 continue;
@@ -81,7 +82,7 @@ impl Solver<'_> {
                 let rails = self.geometry.rails();
                 rate += passing(&system.mechanics, &system.probes, rails, at, i);
             }
-            if is_idle && element.touches(penetration) {
+            if is_idle && system.elements[i].touches(penetration) {
                 return false;
             }
             self.problem.set_reached(i, [penetration, rate]);

@@ -185,6 +185,7 @@ impl Solver<'_> {
     fn fill_without_mobility(&mut self, at: &State, h: f64) {
         let m = at.force.len();
         self.problem.idle.fill(false);
+        self.problem.candidates.choose(|_| true);
         let effects = &mut self.problem.effects;
         effects.w.copy_from_slice(&self.geometry.rails().value);
         effects.y.fill(0.0);

@@ -285,6 +285,7 @@ impl<'a> Solver<'a> {
     pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
         let system = self.system;
         self.problem.idle.fill(false);
+        self.problem.candidates.choose(|_| true);
         self.factored_for = None;
         self.problem.slack = 0.0;
         for _ in 0..PASSES {

@@ -17,7 +17,7 @@
 
 use nalgebra::DVector;
 
-use super::{PASSES, RowKind, Solver};
+use super::{PASSES, Problem, RowKind, Solver};
 use crate::Error;
 use crate::mechanics::state::{Known, State};
 use crate::numerics::dense::along;
@@ -43,9 +43,13 @@ impl Solver<'_> {
         self.geometry.set_accuracy(tolerance, radius);
     }
 
-    /// Begins a step at `from`: selects the local coordinates of hanging bodies and discards the results of earlier
-    /// stages.
-    pub fn begin_step(&mut self, from: &State) {
+    /// Begins a step of length `h` at `from`: selects the elements that may act in it and the local coordinates of hanging
+    /// bodies, and discards the results of earlier stages.
+    pub fn begin_step(&mut self, from: &State, h: f64) {
+        let (system, geometry) = (self.system, &self.geometry);
+        let frame = geometry.frame(system, from);
+        let may_act = |i: usize| from.force[i] != 0.0 || system.elements[i].may_act(&frame.at(i), h);
+        self.problem.candidates.choose(may_act);
         if !self.system.springs().is_empty() {
             let (system, active) = (self.system, &self.active);
             let is_taut = |rope: usize| system.rope(rope).is_some_and(|(i, _)| active.has(i));
@@ -53,6 +57,23 @@ impl Solver<'_> {
         }
         self.convergence.begin_step();
         self.factored_for = None;
+    }
+
+    /// Ends a step at `to`: updates the geometry of the elements that could not act in it.
+    ///
+    /// # Errors
+    /// Errors of the rail models.
+    pub fn end_step(&mut self, to: &State) -> Result<(), Error> {
+        if self.problem.candidates.are_all() { Ok(()) } else { self.update(to) }
+    }
+
+    /// Updates the geometry of the elements that may act in the step to `at`.
+    ///
+    /// # Errors
+    /// Errors of the rail models.
+    pub(super) fn update_candidates(&mut self, at: &State) -> Result<(), Error> {
+        let elements = &self.problem.candidates;
+        self.geometry.update_some(self.system, (at.t, &at.q), &at.force, elements)
     }
 
     /// Replaces the constant terms of hanging bodies by their local coordinates and rates at the start of the step.
@@ -139,12 +160,14 @@ impl Solver<'_> {
             self.free.move_in_stage(system, g, known, at)?;
         }
         self.factored_for = None;
-        self.update(at)?;
+        self.update_candidates(at)?;
         if begins {
             self.find_idle(&at.force);
         }
-        self.projection.fill(system, self.geometry.rows(), self.free.mobility(), &self.problem.idle);
-        for i in 0..at.force.len() {
+        let elements = (self.problem.candidates.list(), &self.problem.idle[..]);
+        self.projection.fill(system, self.geometry.rows(), self.free.mobility(), elements);
+        for k in 0..self.problem.candidates.list().len() {
+            let i = self.problem.candidates.list()[k];
             self.fill_row(i, g, &known.p);
             if self.follows_motion(i) {
                 self.fill_passing(i, g, at);
@@ -171,19 +194,19 @@ impl Solver<'_> {
     fn find_idle(&mut self, force: &[f64]) {
         let elements = self.system.elements.iter().zip(self.geometry.local());
         for (i, (element, local)) in elements.enumerate() {
-            self.problem.idle[i] = element.is_idle(self.active.has(i), local, force[i]);
+            let can_act = self.problem.candidates.has(i);
+            self.problem.idle[i] = !can_act || element.is_idle(self.active.has(i), local, force[i]);
         }
     }
 
     /// Removes the idle mark of elements that touch under `force`; returns whether there are any.
     fn find_touching(&mut self, force: &[f64]) -> bool {
         let mut is_found = false;
-        for (i, element) in self.system.elements.iter().enumerate() {
-            if self.problem.idle[i]
-                && self.system.fixed[i].is_followed
-                && element.touches(self.problem.effects.penetration(i, force))
-            {
-                self.problem.idle[i] = false;
+        let Problem { effects, candidates, idle, .. } = &mut self.problem;
+        for &i in candidates.list() {
+            let touches = |p: f64| self.system.elements[i].touches(p);
+            if idle[i] && self.system.fixed[i].is_followed && touches(effects.penetration(i, force)) {
+                idle[i] = false;
                 is_found = true;
             }
         }
