@@ -110,7 +110,8 @@ impl<'a> FreeMotion<'a> {
                 system.mechanics.carried.add(&system.mechanics.kinematics, state, sums, &mut self.columns);
             }
             let load = self.load.as_mut_slice();
-            for (column, a) in self.mass.as_slice().chunks_exact(constant.nrows().max(1)).zip(at.a.as_slice()) {
+            for (column, a) in self.mass.as_slice().chunks_exact(constant.nrows().max(1)).zip(at.a.as_slice())
+            {
                 load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
             }
         }
@@ -148,7 +149,9 @@ impl<'a> FreeMotion<'a> {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
         let load = self.load.as_mut_slice();
-        for (row, force) in rows.chunks_exact(load.len().max(1)).zip(&at.force).filter(|(_, force)| **force != 0.0) {
+        for (row, force) in
+            rows.chunks_exact(load.len().max(1)).zip(&at.force).filter(|(_, force)| **force != 0.0)
+        {
             for (load, entry) in load.iter_mut().zip(row) {
                 *load -= entry * force;
             }

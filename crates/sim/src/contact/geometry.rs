@@ -270,13 +270,7 @@ impl Geometry {
 
     /// Computes the rows of the forces: the rows of the approach, or of the rate for tangential elements, minus the
     /// slope of the rail times the rows of the wheel's x.
-    fn update_force_rows(
-        &mut self,
-        system: &System,
-        q: &DVector<f64>,
-        force: &[f64],
-        elements: &Candidates,
-    ) {
+    fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
         let n = system.mechanics.dofs;
         for &i in elements.list() {
             let span = i * n..(i + 1) * n;

@@ -59,7 +59,9 @@ impl Block {
             Matrices::Bodies(_) => {}
             Matrices::General { damping, stiffness, .. } => {
                 let moved = v.iter().zip(q);
-                for ((damping, stiffness), (v, q)) in columns_of(damping).zip(columns_of(stiffness)).zip(moved) {
+                for ((damping, stiffness), (v, q)) in
+                    columns_of(damping).zip(columns_of(stiffness)).zip(moved)
+                {
                     for (load, (c, k)) in load.iter_mut().zip(damping.iter().zip(stiffness)) {
                         *load -= c * v + k * q;
                     }

@@ -3,8 +3,11 @@
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
 use faer::linalg::cholesky::llt::solve::solve_in_place;
+use faer::linalg::solvers::Solve;
 use faer::reborrow::{Reborrow, ReborrowMut};
-use faer::{MatMut, Par};
+use faer::{MatMut, MatRef, Par};
+
+use super::lu::BLOCKED;
 
 /// Scalar product of two vectors of equal length. It uses four partial sums in a fixed order, so the result is the
 /// same on every machine.
@@ -28,8 +31,6 @@ pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
 
 /// Order of a matrix from which scalar products use `LANES` partial sums; below it the plain loop is faster.
 const WIDE: usize = 16;
-/// Order of a matrix from which the blocked factorization of faer is faster.
-const BLOCKED: usize = 64;
 /// Number of partial sums of a scalar product, large enough to hide the latency of an addition.
 const LANES: usize = 16;
 
@@ -46,22 +47,23 @@ fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n).
+/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n) and one or more right sides,
+/// which follow each other in `b`.
 ///
-/// `a` is overwritten by its factor and `b` by x. The factor of a small matrix is computed row by row from the top, so that
-/// every scalar product uses contiguous memory, that of a large one by faer in blocks. Returns false where A is not
-/// positive definite to working precision; the contents of `a` and `b` are then undefined.
+/// `a` is overwritten by its factor and `b` by the solutions. The factor of a small matrix is computed row by row from the
+/// top, so that every scalar product uses contiguous memory, that of a large one by faer in blocks. Returns false where A
+/// is not positive definite to working precision; the contents of `a` and `b` are then undefined.
 #[must_use]
 pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
-    match b.len() {
-        0..WIDE => factor_and_solve(a, b, dot),
-        WIDE..BLOCKED => factor_and_solve(a, b, dot_wide),
-        _ => factor_and_solve_in_blocks(a, b),
+    match a.len().isqrt() {
+        0 => true,
+        n @ 1..WIDE => factor_and_solve(a, b, n, dot),
+        n @ WIDE..BLOCKED => factor_and_solve(a, b, n, dot_wide),
+        n => factor_and_solve_in_blocks(a, b, n),
     }
 }
 
-fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64]) -> bool {
-    let n = b.len();
+fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
     let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(n, Par::Seq, Default::default()));
     let stack = MemStack::new(&mut memory);
     let mut matrix = MatMut::from_column_major_slice_mut(a, n, n);
@@ -69,14 +71,14 @@ fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64]) -> bool {
     if cholesky_in_place(matrix.rb_mut(), limits, Par::Seq, stack, Default::default()).is_err() {
         return false;
     }
-    let right = MatMut::from_column_major_slice_mut(b, n, 1);
+    let columns = b.len() / n;
+    let right = MatMut::from_column_major_slice_mut(&mut *b, n, columns);
     solve_in_place(matrix.rb(), right, Par::Seq, MemStack::new(&mut []));
     b.iter().all(|x| x.is_finite())
 }
 
 #[inline]
-fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
-    let n = b.len();
+fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize, dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
     for i in 0..n {
         let (above, row) = a.split_at_mut(i * n);
         for j in 0..i {
@@ -89,27 +91,34 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], dot: impl Fn(&[f64], &[f64]) -
         }
         row[i] = pivot.sqrt();
     }
-    for i in 0..n {
-        let row = &a[i * n..=i * n + i];
-        b[i] = (b[i] - dot(&row[..i], &b[..i])) / row[i];
-    }
-    // The columns of the transposed factor are the rows of the factor.
-    for i in (0..n).rev() {
-        let (before, rest) = b.split_at_mut(i);
-        let row = &a[i * n..=i * n + i];
-        rest[0] /= row[i];
-        before.iter_mut().zip(row).for_each(|(b, l)| *b -= rest[0] * l);
+    for b in b.chunks_exact_mut(n) {
+        for i in 0..n {
+            let row = &a[i * n..=i * n + i];
+            b[i] = (b[i] - dot(&row[..i], &b[..i])) / row[i];
+        }
+        // The columns of the transposed factor are the rows of the factor.
+        for i in (0..n).rev() {
+            let (before, rest) = b.split_at_mut(i);
+            let row = &a[i * n..=i * n + i];
+            rest[0] /= row[i];
+            before.iter_mut().zip(row).for_each(|(b, l)| *b -= rest[0] * l);
+        }
     }
     true
 }
 
-/// Solves A x = b (n x n, row-major) by Gaussian elimination with partial pivoting. `a` is overwritten, and `b` is
-/// overwritten by x.
+/// Solves A x = b (n x n, row-major) by Gaussian elimination with partial pivoting, in blocks where A is large. `a` is
+/// overwritten, and `b` is overwritten by x.
 ///
 /// Returns false where A is singular.
 #[must_use]
 pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
+    if n >= BLOCKED {
+        let factors = MatRef::from_row_major_slice(a, n, n).partial_piv_lu();
+        factors.solve_in_place(MatMut::from_column_major_slice_mut(&mut *b, n, 1));
+        return b.iter().all(|x| x.is_finite());
+    }
     for j in 0..n {
         let Some(pivot) = exchange(a, j, n) else { return false };
         b.swap(pivot, j);

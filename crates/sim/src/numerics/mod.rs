@@ -5,5 +5,6 @@
 pub(crate) mod bernstein;
 pub(crate) mod complementarity;
 pub(crate) mod dense;
+pub(crate) mod lu;
 pub(crate) mod root;
 pub(crate) mod step;

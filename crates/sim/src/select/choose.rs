@@ -14,9 +14,10 @@
 //!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
 //!    the new run changes the quantities by its error there, whatever the wheels amplify. Where this exceeds the tolerance
 //!    and the steps cause more than half of it, the new run is repeated with that finer accuracy.
-//! 5. The first run is chosen if the difference and the error of the new run together are within 0.8 of the tolerance,
-//!    and otherwise the new run if its error is (within the tolerance where no further run would help), and so is that of
-//!    its start. If neither is, the number of modes is raised by
+//! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
+//!    of it in reactions and internal forces, where the errors of the steps of both runs are larger), and otherwise the new
+//!    run if its error is within 0.8 of the tolerance (within the tolerance where no further run would help), and so is that
+//!    of its start. If neither is, the number of modes is raised by
 //!    the new estimates, and steps 3 and 4 are repeated, up to three times. After that the error is reported as exceeding the
 //!    tolerance.
 //!
@@ -354,7 +355,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let error = apart.largest + factor * lacking;
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
-            if error <= SAFE * strictest.value {
+            let is_safe = apart.effects + factor * lacking <= SAFE * strictest.value;
+            if error <= strictest.value && is_safe {
                 let error = TailError { kept: 0, error, quantity: apart.quantity };
                 return self.choose_lower(&open, lower, higher, &error);
             }

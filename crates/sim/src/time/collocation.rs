@@ -13,8 +13,8 @@ use crate::contact::geometry::Geometry;
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::dense::{dot, solve_general};
 use crate::record::energy::power;
+use crate::time::node_forces::{NodeForces, NodeMotion};
 use crate::time::nodes::Nodes;
 use crate::time::propagator::Propagator;
 use crate::{Dynamics, Error, Exchanged};
@@ -30,7 +30,7 @@ pub(crate) struct Collocation {
     geometries: Vec<Geometry>,
     projection: NodeProjection,
     loads: NodeLoads,
-    problem: NodeProblem,
+    forces: NodeForces,
     states: Vec<State>,
     powers: Vec<Exchanged>,
 }
@@ -39,8 +39,6 @@ pub(crate) struct Collocation {
 struct NodeProjection {
     /// M^-1 R^T, s x m x n.
     spread: Vec<f64>,
-    /// R M^-1 R^T if the rows are constant, m x m.
-    mobile: Vec<f64>,
     is_filled: bool,
 }
 
@@ -53,20 +51,6 @@ struct NodeLoads {
     start: DVector<f64>,
     /// Whether the loads without contact forces are constant.
     is_steady: bool,
-}
-
-/// The linear system of the forces at all nodes.
-struct NodeProblem {
-    /// Approach in the free motion and its rate as the damper feels it, for each (node, element), and the influence
-    /// of the force at another (node, element) on both.
-    approach: Vec<f64>,
-    rate: Vec<f64>,
-    effect: Vec<f64>,
-    rate_effect: Vec<f64>,
-    matrix: Vec<f64>,
-    force: Vec<f64>,
-    /// Positions of the unknown forces among all (node, element) pairs.
-    index: Vec<usize>,
 }
 
 /// Responses of all degrees of freedom over a step of length `h`.
@@ -133,26 +117,14 @@ impl Collocation {
             modes,
             responses: vec![Responses::new(&nodes, n)],
             geometries: vec![Geometry::new(system); s],
-            projection: NodeProjection {
-                spread: vec![0.0; size * n],
-                mobile: vec![0.0; m * m],
-                is_filled: false,
-            },
+            projection: NodeProjection { spread: vec![0.0; size * n], is_filled: false },
             loads: NodeLoads {
                 free: vec![DVector::zeros(n); s],
                 whole: vec![DVector::zeros(n); s],
                 start: DVector::zeros(n),
                 is_steady: system.scene.actuators.loads.is_empty() && !drags,
             },
-            problem: NodeProblem {
-                approach: vec![0.0; size],
-                rate: vec![0.0; size],
-                effect: vec![0.0; size * size],
-                rate_effect: vec![0.0; size * size],
-                matrix: vec![0.0; size * size],
-                force: vec![0.0; size],
-                index: Vec::with_capacity(size),
-            },
+            forces: NodeForces::new(system, s),
             states: vec![start.clone(); s],
             powers: vec![Exchanged::default(); s],
             nodes,
@@ -209,13 +181,17 @@ impl Collocation {
                 }
             }
         }
-        if solver.system().traits.has_constant_rows {
-            self.fill_body_responses(solver, from);
-        } else {
-            self.fill_responses(solver, from);
-        }
+        self.fill_approaches(solver.system(), from);
         self.projection.is_filled = true;
-        if !self.solve(solver, from) {
+        let motion = NodeMotion {
+            nodes: &self.nodes,
+            h,
+            from,
+            geometries: &self.geometries,
+            spread: &self.projection.spread,
+            forced: &self.responses[0].forced,
+        };
+        if !self.forces.solve(solver, &motion) {
             return Ok(false);
         }
         self.finish(solver, from, to, limit)
@@ -248,136 +224,20 @@ impl Collocation {
         out
     }
 
-    /// Fills the free approach and the influence of the forces from the responses of every degree of freedom.
-    fn fill_responses(&mut self, solver: &Solver, from: &State) {
-        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
-        let size = s * m;
+    /// Fills the approaches at the nodes and their rates in the motion without contact forces.
+    fn fill_approaches(&mut self, system: &System, from: &State) {
+        let (s, n, m) = (self.count(), self.modes.len(), system.elements.len());
         for a in 0..s {
             for r in 0..n {
                 let [q, v] = self.response(&self.loads.free, from, a, r);
                 (self.states[a].q[r], self.states[a].v[r]) = (q, v);
             }
-            let geometry = &self.geometries[a];
+            let (geometry, state) = (&self.geometries[a], &self.states[a]);
             for i in 0..m {
-                let (row, rate_row) = (geometry.rows().approach_row(i), geometry.rows().rate_row(i));
-                self.problem.approach[a * m + i] =
-                    geometry.rows().approach_offset[i] + dot(row, self.states[a].q.as_slice());
-                self.problem.rate[a * m + i] =
-                    geometry.rows().rate_offset[i] + dot(rate_row, self.states[a].v.as_slice());
-                for b in 0..s {
-                    let responses = &self.responses[0].forced[(a * s + b) * n..(a * s + b + 1) * n];
-                    for j in 0..m {
-                        let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
-                        let (mut q, mut v) = (0.0, 0.0);
-                        for (r, ([by_q, by_v], spread)) in responses.iter().zip(spread).enumerate() {
-                            q += row[r] * by_q * spread;
-                            v += rate_row[r] * by_v * spread;
-                        }
-                        let compliance_here = if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
-                        self.problem.effect[(a * m + i) * size + b * m + j] = compliance_here + q;
-                        self.problem.rate_effect[(a * m + i) * size + b * m + j] = v;
-                    }
-                }
+                self.forces.approach[a * m + i] = geometry.approach(i, &state.q);
+                self.forces.rate[a * m + i] = geometry.rate(i, &state.v);
             }
         }
-    }
-
-    /// Same as [`Self::fill_responses`], for constant rows and degrees of freedom of bodies only.
-    fn fill_body_responses(&mut self, solver: &Solver, from: &State) {
-        let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
-        let (size, h) = (s * m, self.responses[0].h);
-        let rows = &self.geometries[0].rows().approach;
-        if !self.projection.is_filled {
-            for i in 0..m {
-                for j in 0..m {
-                    self.projection.mobile[i * m + j] =
-                        dot(&rows[i * n..(i + 1) * n], &self.projection.spread[j * n..(j + 1) * n]);
-                }
-            }
-        }
-        for i in 0..m {
-            let row = &rows[i * n..(i + 1) * n];
-            let start = self.geometries[0].rows().approach_offset[i] + dot(row, from.q.as_slice());
-            let rate = dot(row, from.v.as_slice());
-            for a in 0..s {
-                self.problem.approach[a * m + i] = start + self.nodes.c[a] * h * rate;
-                self.problem.rate[a * m + i] = rate;
-            }
-            for b in 0..s {
-                let weight = dot(row, self.loads.free[b].as_slice());
-                for a in 0..s {
-                    self.problem.approach[a * m + i] += h * h * self.nodes.a2[a * s + b] * weight;
-                    self.problem.rate[a * m + i] += h * self.nodes.a[a * s + b] * weight;
-                }
-            }
-        }
-        for a in 0..s {
-            let compliance = &self.geometries[a].rails().value;
-            for b in 0..s {
-                let by_q = h * h * self.nodes.a2[a * s + b];
-                let by_v = h * self.nodes.a[a * s + b];
-                for i in 0..m {
-                    let line = (a * m + i) * size + b * m;
-                    for j in 0..m {
-                        let compliance_here = if a == b { compliance[i * m + j] } else { 0.0 };
-                        self.problem.effect[line + j] =
-                            compliance_here + by_q * self.projection.mobile[i * m + j];
-                        self.problem.rate_effect[line + j] = by_v * self.projection.mobile[i * m + j];
-                    }
-                }
-            }
-        }
-    }
-
-    /// Solves F/k = p + (c/k) r at every node for the active contacts, where p = approach - effect F, and r is the
-    /// rate of p for a damper between wheel and rail and the rate of the wheel otherwise. Returns false if the matrix
-    /// is singular.
-    fn solve(&mut self, solver: &Solver, from: &State) -> bool {
-        let system = solver.system();
-        let (s, m, size) = (self.count(), system.elements.len(), self.problem.force.len());
-        self.problem.index.clear();
-        for a in 0..s {
-            let active = (0..m).filter(|&i| solver.active().has(i));
-            self.problem.index.extend(active.map(|i| a * m + i));
-        }
-        let count = self.problem.index.len();
-        self.problem.force.fill(0.0);
-        for (line, &at) in self.problem.index.iter().enumerate() {
-            let (a, i) = (at / m, at % m);
-            let law = system.law(i);
-            let ratio = law.damping / law.stiffness;
-            let memory = solver.remembers(i);
-            let by = |l: usize| self.nodes.rate[a * s + l] * ratio / self.responses[0].h;
-            let mut right = self.problem.approach[at];
-            if memory {
-                right += (0..s).map(|l| by(l) * (self.problem.approach[l * m + i] - from.p[i])).sum::<f64>();
-            } else {
-                right += ratio * self.problem.rate[at];
-            }
-            for (column, &other) in self.problem.index.iter().enumerate() {
-                let mut entry = self.problem.effect[at * size + other];
-                if memory {
-                    entry +=
-                        (0..s).map(|l| by(l) * self.problem.effect[(l * m + i) * size + other]).sum::<f64>();
-                } else {
-                    entry += ratio * self.problem.rate_effect[at * size + other];
-                }
-                self.problem.matrix[line * count + column] = entry;
-            }
-            self.problem.matrix[line * count + line] +=
-                1.0 / (law.stiffness * system.mechanics.groups[i].count());
-            self.problem.force[line] = right;
-        }
-        if !solve_general(&mut self.problem.matrix[..count * count], &mut self.problem.force[..count]) {
-            return false;
-        }
-        // The forces are moved to their positions among all elements, from the last to the first, because an index is
-        // never smaller than its line.
-        for line in (0..count).rev() {
-            let value = std::mem::take(&mut self.problem.force[line]);
-            self.problem.force[self.problem.index[line]] = value;
-        }
-        true
     }
 
     /// Computes the states at the nodes and at the end, and the powers exchanged.
@@ -389,22 +249,12 @@ impl Collocation {
         limit: f64,
     ) -> Result<bool, Error> {
         let (s, n, m) = (self.count(), self.modes.len(), solver.system().elements.len());
-        let size = s * m;
         for (b, (load, weight)) in self.loads.whole.iter_mut().zip(&self.loads.free).enumerate() {
             load.copy_from(weight);
             for j in 0..m {
                 let spread = &self.projection.spread[(b * m + j) * n..(b * m + j + 1) * n];
-                let force = self.problem.force[b * m + j];
+                let force = self.forces.force[b * m + j];
                 load.iter_mut().zip(spread).for_each(|(load, spread)| *load -= spread * force);
-            }
-        }
-        for (a, state) in self.states.iter_mut().enumerate() {
-            for i in 0..m {
-                let at = a * m + i;
-                self.problem.approach[at] -=
-                    dot(&self.problem.effect[at * size..(at + 1) * size], &self.problem.force);
-                state.p[i] = self.problem.approach[at];
-                state.force[i] = self.problem.force[at];
             }
         }
         let h = self.responses[0].h;
@@ -416,12 +266,14 @@ impl Collocation {
                 (state.q[r], state.v[r]) = (q, v);
                 state.a[r] = self.loads.whole[a][r] - omega * (2.0 * zeta * v + omega * q);
             }
-            let state = &mut self.states[a];
+            self.forces.penetrate(a, &self.geometries[a], &mut self.states[a]);
+        }
+        for a in 0..s {
             for i in 0..m {
-                let rates = (0..s)
-                    .map(|l| self.nodes.rate[a * s + l] * (self.problem.approach[l * m + i] - from.p[i]));
-                state.p_rate[i] = rates.sum::<f64>() / h;
+                let rates = (0..s).map(|l| self.nodes.rate[a * s + l] * (self.states[l].p[i] - from.p[i]));
+                self.states[a].p_rate[i] = rates.sum::<f64>() / h;
             }
+            let state = &mut self.states[a];
             self.geometries[a].update_rail_slope(solver.system(), &state.q, &state.force);
             self.powers[a] = power(solver.system(), &self.geometries[a], state);
         }

@@ -13,6 +13,7 @@ use crate::Error;
 use crate::contact::solver::Solver;
 use crate::contact::solver::follow::Followed;
 use crate::mechanics::state::State;
+use crate::numerics::lu::LuFactors;
 
 /// Number of Newton iterations at most; laws that are linear need one.
 const ITERATIONS: usize = 12;
@@ -144,7 +145,7 @@ impl Penetrations {
                 }
             }
         }
-        matrix.lu().solve(&residual).filter(|change| change.iter().all(|x| x.is_finite()))
+        LuFactors::new(matrix).solve(&residual).filter(|change| change.iter().all(|x| x.is_finite()))
     }
 
     /// Sets the penetration rates of the interpolated state `at`, at the fraction `share` of the step.

@@ -4,6 +4,16 @@ use crate::contact::system::System;
 use crate::time::passage::crossing::missing;
 use crate::{Dynamics, Error, Foundation, Method, Scene};
 
+/// Number of contacts with dampers between wheel and rail from which stages one by one cost less than the system of all
+/// forces at all nodes of a collocation step.
+const MANY: usize = 12;
+
+/// Whether collocation would have to solve a large system; see [`MANY`]. Without these dampers its forces are eliminated
+/// node by node.
+fn is_large(system: &System) -> bool {
+    system.traits.has_memory && system.verticals() >= MANY
+}
+
 impl Method {
     /// Checks whether the method can integrate `scene` on `foundations`.
     ///
@@ -18,7 +28,7 @@ impl Method {
     pub(crate) fn chosen(self, system: &System) -> Method {
         match self {
             Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
-            Method::Auto if Method::Radau.check(system).is_ok() => Method::Radau,
+            Method::Auto if Method::Radau.check(system).is_ok() && !is_large(system) => Method::Radau,
             Method::Auto => Method::Sdirk4,
             method => method,
         }

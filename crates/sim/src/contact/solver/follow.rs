@@ -5,6 +5,7 @@ use nalgebra::{DMatrix, DVector};
 use super::Solver;
 use crate::mechanics::state::State;
 use crate::numerics::dense::along;
+use crate::numerics::lu::LuFactors;
 
 /// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
 /// their rates g'.
@@ -61,7 +62,7 @@ impl Solver<'_> {
         let matrix = DMatrix::from_fn(count, count, |r, c| {
             f64::from(u8::from(r == c)) + compliance[(r, c)] * stiffness[c]
         });
-        let factors = matrix.lu();
+        let factors = LuFactors::new(matrix);
         let value = factors.solve(&approach)?;
         let rate = DVector::from_fn(count, |r, _| {
             let i = contacts[r];
@@ -106,7 +107,7 @@ impl Solver<'_> {
             let own = f64::from(u8::from(r == c));
             own + rails.value[contacts[r] * m + contacts[c]] * stiffness(contacts[c])
         });
-        let Some(rates) = matrix.lu().solve(&rates) else { return false };
+        let Some(rates) = LuFactors::new(matrix).solve(&rates) else { return false };
         for (&i, rate) in contacts.iter().zip(rates.iter()).filter(|(i, _)| self.is_damped_by_mass(**i)) {
             at.p_rate[i] = *rate;
         }
