@@ -46,7 +46,8 @@
 //! 4. `factor`: sparse Cholesky in doubles and double-doubles, certificate, limits of memory;
 //! 5. `influence`: rails laid over members, grids, surfaces, reactions and internal forces;
 //! 6. `modes`: mass, natural modes, effects of inertia;
-//! 7. `preload`: axial forces of a loaded state, critical factors, and what such a state leaves out.
+//! 7. `preload`: axial forces of a loaded state, critical factors, what such a state leaves out, and what second order would
+//!    change.
 
 mod assembly;
 mod dof;
@@ -74,6 +75,6 @@ pub use modes::{
 };
 pub use preload::{
     BucklingMode, Caution, CautionKind, CriticalFactor, MOST_CRITICAL, Preload, PreloadedState, RailForce,
-    preloaded,
+    SecondOrderChange, preloaded, second_order_change,
 };
 pub use splines::ForceComponent;

@@ -242,6 +242,64 @@ impl<T: RealNumber> BeamColumn<T> {
         [quarter * l * l * (moment - half * (s * s - one)), half * l * s * (c1 / (self.mu * all) - one)]
     }
 
+    /// Deflection, slope, rotation and its derivative at the distance `a` from the nearer end of the clamped member under a
+    /// uniform load of intensity one:
+    ///
+    /// theta = c a (m0 C1 - H a C2/mu + a^2 C3/mu),    w = (c a^2 (m0 C2 - H a C3/mu + a^2 C4/mu) + g (H a - a^2/2))/mu
+    ///
+    /// with H = l/2 and m0 = l^2 F/(4 mu) at the end.
+    pub(crate) fn clamped_under_load(&self, a: T) -> [T; 4] {
+        let [quarter, half] = [0.25, 0.5].map(T::from);
+        let [c, g] = self.flexibility;
+        let (l, mu) = (self.length, self.mu);
+        let r = a / l;
+        let square = self.square() * r * r;
+        let [c0, c1, c2, c3] = bent_powers(square);
+        let moment = quarter * l * l * self.ratio / mu;
+        let force = half * l;
+        let theta = c * a * (moment * c1 - a * (force * c2 - a * c3) / mu);
+        let bent = c * a * a * (moment * c2 - a * (force * c3 - a * fourth_power(square)) / mu);
+        let w = (bent + g * a * (force - half * a)) / mu;
+        let slope = (theta + g * (force - a)) / mu;
+        let bend = c * (moment * c0 - a * (force * c1 - a * c2) / mu);
+        [w, slope, theta, bend]
+    }
+
+    /// Deflection and rotation by powers of the fraction of the length, by deflection and rotation of the first end, then of
+    /// the last: cubic and quadratic without axial force; with it the series up to the eighth power, which is exact but for
+    /// about 6e-7 (lambda l)^8.
+    ///
+    /// ```
+    /// use splines::BeamColumn;
+    ///
+    /// let [[deflection, rotation], ..] = BeamColumn::new(1.0, 0.0, -1.0, 1.0_f64).polynomials();
+    /// assert!((deflection.iter().sum::<f64>()).abs() < 1e-6 && rotation[0] == 0.0);
+    /// ```
+    #[must_use]
+    pub fn polynomials(&self) -> [[[T; 9]; 2]; 4] {
+        let [zero, one] = [0.0, 1.0].map(T::from);
+        let square = self.square();
+        let series = |of: [T; 4]| {
+            let mut out = [zero; 9];
+            (out[0], out[1]) = (of[0], of[1]);
+            let (mut second, mut third) = (of[2], of[3]);
+            let mut power = 2;
+            while power < 9 {
+                out[power] = second;
+                if power < 8 {
+                    out[power + 1] = third;
+                }
+                let p = power as f64;
+                second = second * square / T::from((p + 1.0) * (p + 2.0));
+                third = third * square / T::from((p + 2.0) * (p + 3.0));
+                power += 2;
+            }
+            out
+        };
+        let [deflections, rotations] = [[one, zero], [zero, one]].map(|load| self.shapes(load));
+        std::array::from_fn(|k| [series(deflections[k]), series(rotations[k])])
+    }
+
     /// Deflection of the section at the fraction `at` of the length and its derivative by the place, by deflection and
     /// rotation of the first end, then of the last: `[0]` and `[1]`.
     #[must_use]
@@ -359,6 +417,22 @@ fn bent_powers<T: RealNumber>(z: T) -> [T; 4] {
         reduced = reduced * T::from(4.0);
     }
     [one + z * c2, one + z * c3, c2, c3]
+}
+
+/// C4 = (cosh x - 1 - x^2/2)/x^4 with x^2 = z.
+fn fourth_power<T: RealNumber>(z: T) -> T {
+    if size(z) > T::from(1.0) {
+        let [_, _, c2, _] = bent_powers(z);
+        return (c2 - T::from(0.5)) / z;
+    }
+    let (mut term, mut sum) = (T::from(1.0 / 24.0), T::from(0.0));
+    let mut k = 5.0;
+    while k < 2.0 * MOST_TERMS {
+        sum = sum + term;
+        term = term * z / T::from(k * (k + 1.0));
+        k += 2.0;
+    }
+    sum
 }
 
 /// F(z) = (h coth h - 1)/h^2 with h^2 = z, by Lambert's continued fraction from its end.
