@@ -77,6 +77,8 @@ fn iteration_squares_the_errors_about_a_loaded_state() {
 fn errors_are_squared(tension: f64) {
     let mut model = chain(&[0.0, SPAN], &[false], [0.0, 1.0, 0.0]);
     model.members[0].tension = tension;
+    // stiff enough beside the plane of the modes
+    model.sections[0].iy = if tension == 0.0 { model.sections[0].iy } else { 1e-3 };
     for point in 0..2 {
         model.supports.push(Support { point, fixed: [point == 0, true, true, true, false, false] });
     }

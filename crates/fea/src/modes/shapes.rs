@@ -1,7 +1,7 @@
 //! Shapes of a member in one plane of bending, as polynomials in the fraction of its length.
 
 use nalgebra::SVector;
-use splines::BeamColumn;
+use splines::{BeamColumn, lowered};
 
 use crate::assembly::BendingPlane;
 
@@ -10,6 +10,9 @@ pub(super) type Vector12 = SVector<f64, 12>;
 
 /// Coefficients of the longest polynomials.
 const LONGEST: usize = 9;
+
+/// Terms of a power series: |(lambda l)^2| is at most one.
+const SERIES: usize = 20;
 
 /// A polynomial in the fraction of the length: the coefficient of each power.
 pub(super) type Polynomial = [f64; LONGEST];
@@ -23,8 +26,7 @@ pub(super) fn integral_of_product(a: &[f64], b: &[f64]) -> f64 {
     product.iter().enumerate().map(|(power, c)| c / (power + 1) as f64).sum()
 }
 
-/// (lambda l)^2 up to which an axial force bends the shapes by their series, which err by less than 1e-6; members with more
-/// have the shapes without axial force.
+/// |(lambda l)^2| up to which an axial force bends the shapes; parts of members with more have those without.
 pub(super) const MOST_BENT: f64 = 1.0;
 
 /// Whether the shapes of a plane are those of the beam-column.
@@ -90,7 +92,7 @@ pub(super) fn uniform_load_stiffness(plane: &BendingPlane, length: f64) -> f64 {
 }
 
 /// Deflection and rotation of the clamped member with an axial force under the force f = `loads[0]` and the moment mu =
-/// `loads[1]` per length: the series up to the eighth power of
+/// `loads[1]` per length, of degree eight through values of the power series of
 ///
 /// H' = -f,    theta'' = lambda^2 theta - c (H/(1 + g N) + mu),    w' = (theta + g H)/(1 + g N).
 pub(super) fn bent_deflection(plane: &BendingPlane, length: f64, loads: &[Polynomial; 2]) -> [Polynomial; 2] {
@@ -99,20 +101,21 @@ pub(super) fn bent_deflection(plane: &BendingPlane, length: f64, loads: &[Polyno
     let square = c * plane.tension / stiffening * h * h;
     // The motion with the rotation `turn` per fraction and the transverse force `force` at the first end under a share of the loads.
     let motion = |turn: f64, force: f64, share: f64| {
-        let transverse: Polynomial = std::array::from_fn(|p| match p {
+        let load = |k: usize, p: usize| share * loads[k].get(p).copied().unwrap_or(0.0);
+        let transverse: [f64; SERIES] = std::array::from_fn(|p| match p {
             0 => force,
-            _ => -share * h * loads[0][p - 1] / p as f64,
+            _ => -h * load(0, p - 1) / p as f64,
         });
-        let (mut deflection, mut rotation): (Polynomial, Polynomial) = ([0.0; LONGEST], [0.0; LONGEST]);
+        let (mut deflection, mut rotation) = ([0.0; SERIES], [0.0; SERIES]);
         rotation[1] = turn;
-        for p in 2..LONGEST {
-            let bend = c * h * h * (transverse[p - 2] / stiffening + share * loads[1][p - 2]);
+        for p in 2..SERIES {
+            let bend = c * h * h * (transverse[p - 2] / stiffening + load(1, p - 2));
             rotation[p] = (square * rotation[p - 2] - bend) / (p * (p - 1)) as f64;
         }
-        for p in 1..LONGEST {
+        for p in 1..SERIES {
             deflection[p] = h * (rotation[p - 1] + g * transverse[p - 1]) / (stiffening * p as f64);
         }
-        [deflection, rotation]
+        [lowered(&deflection), lowered(&rotation)]
     };
     let [of_loads, of_turn, of_force] = [motion(0.0, 0.0, 1.0), motion(1.0, 0.0, 0.0), motion(0.0, 1.0, 0.0)];
     let end = |of: &[Polynomial; 2]| of.each_ref().map(|polynomial| polynomial.iter().sum::<f64>());

@@ -61,7 +61,7 @@ impl SecondOrderChange {
 /// let segments = vec![RailSegment { member: 0, offset: [0.0; 3] }];
 /// let rail = Rail { axis: [1.0, 0.0, 0.0], segments, ..Rail::default() };
 /// let critical = (std::f64::consts::PI / 4.0).powi(2) * section.e * section.iz;
-/// let rails = vec![RailForce { rail: 0, x: 2.0, force: [-0.1 * critical, -100.0, 0.0] }];
+/// let rails = vec![RailForce { rail: 0, x: 2.0, force: [-0.1 * critical, -1e5, 0.0] }];
 /// let change = second_order_change(&model, &[rail], &Preload { rails, ..Preload::default() })?;
 /// // 3 (tan u - u)/u^3 - 1 with u = (pi/2) sqrt(0.1)
 /// let u = 0.1_f64.sqrt() * std::f64::consts::FRAC_PI_2;

@@ -35,6 +35,8 @@ const LEAST_TERMS: usize = 32;
 const SMALL: f64 = 0.25;
 /// Most terms of these series: they end long before.
 const MOST_TERMS: f64 = 40.0;
+/// Pairs of powers of the series of a shape.
+const SERIES: usize = 10;
 /// Most doublings of the argument of C2 and C3: those of the largest double.
 const MOST_DOUBLINGS: usize = 520;
 
@@ -265,41 +267,6 @@ impl<T: RealNumber> BeamColumn<T> {
         [w, slope, theta, bend]
     }
 
-    /// Deflection and rotation by powers of the fraction of the length, by deflection and rotation of the first end, then of
-    /// the last: cubic and quadratic without axial force; with it the series up to the eighth power, which is exact but for
-    /// about 6e-7 (lambda l)^8.
-    ///
-    /// ```
-    /// use splines::BeamColumn;
-    ///
-    /// let [[deflection, rotation], ..] = BeamColumn::new(1.0, 0.0, -1.0, 1.0_f64).polynomials();
-    /// assert!((deflection.iter().sum::<f64>()).abs() < 1e-6 && rotation[0] == 0.0);
-    /// ```
-    #[must_use]
-    pub fn polynomials(&self) -> [[[T; 9]; 2]; 4] {
-        let [zero, one] = [0.0, 1.0].map(T::from);
-        let square = self.square();
-        let series = |of: [T; 4]| {
-            let mut out = [zero; 9];
-            (out[0], out[1]) = (of[0], of[1]);
-            let (mut second, mut third) = (of[2], of[3]);
-            let mut power = 2;
-            while power < 9 {
-                out[power] = second;
-                if power < 8 {
-                    out[power + 1] = third;
-                }
-                let p = power as f64;
-                second = second * square / T::from((p + 1.0) * (p + 2.0));
-                third = third * square / T::from((p + 2.0) * (p + 3.0));
-                power += 2;
-            }
-            out
-        };
-        let [deflections, rotations] = [[one, zero], [zero, one]].map(|load| self.shapes(load));
-        std::array::from_fn(|k| [series(deflections[k]), series(rotations[k])])
-    }
-
     /// Deflection of the section at the fraction `at` of the length and its derivative by the place, by deflection and
     /// rotation of the first end, then of the last: `[0]` and `[1]`.
     #[must_use]
@@ -357,6 +324,35 @@ impl<T: RealNumber> BeamColumn<T> {
 }
 
 impl BeamColumn<f64> {
+    /// Deflection and rotation by powers of the fraction of the length, by deflection and rotation of the first end, then of
+    /// the last: cubic and quadratic without axial force; with it the polynomials of degree eight through nine places, which
+    /// err by about 1e-10 (lambda l)^8. For |lambda l| of a few.
+    ///
+    /// ```
+    /// use splines::BeamColumn;
+    ///
+    /// let [[deflection, rotation], ..] = BeamColumn::new(1.0, 0.0, -1.0, 1.0).polynomials();
+    /// assert!(deflection.iter().sum::<f64>().abs() < 1e-14 && rotation[0] == 0.0);
+    /// ```
+    #[must_use]
+    pub fn polynomials(&self) -> [[[f64; 9]; 2]; 4] {
+        let square = self.square();
+        let series = |of: [f64; 4]| {
+            let mut out = [0.0; 2 * SERIES];
+            (out[0], out[1]) = (of[0], of[1]);
+            let (mut second, mut third) = (of[2], of[3]);
+            for k in 1..SERIES {
+                (out[2 * k], out[2 * k + 1]) = (second, third);
+                let p = (2 * k) as f64;
+                second *= square / ((p + 1.0) * (p + 2.0));
+                third *= square / ((p + 2.0) * (p + 3.0));
+            }
+            lowered(&out)
+        };
+        let [deflections, rotations] = [[1.0, 0.0], [0.0, 1.0]].map(|load| self.shapes(load));
+        std::array::from_fn(|k| [series(deflections[k]), series(rotations[k])])
+    }
+
     /// First derivatives of [`BeamColumn::clamped_rotation`] and of the deflection by a, then the second ones: theta', w',
     /// theta'', w''.
     #[inline]
@@ -419,6 +415,33 @@ fn bent_powers<T: RealNumber>(z: T) -> [T; 4] {
     [one + z * c2, one + z * c3, c2, c3]
 }
 
+/// The polynomial of degree eight that has the values of another, given by its coefficients, at nine places of the interval from
+/// 0 to 1, the extrema of the polynomial of Chebyshev of degree eight, both ends among them.
+#[must_use]
+pub fn lowered(coefficients: &[f64]) -> [f64; 9] {
+    // Monic, zero at the places.
+    let mut zero = [0.0; 10];
+    zero[0] = 1.0;
+    for k in 0..9 {
+        let place = 0.5 * (1.0 - (std::f64::consts::PI * f64::from(k) / 8.0).cos());
+        for p in (0..10).rev() {
+            zero[p] = if p > 0 { zero[p - 1] } else { 0.0 } - place * zero[p];
+        }
+    }
+    let mut out: [f64; 9] = std::array::from_fn(|p| coefficients.get(p).copied().unwrap_or(0.0));
+    // The remainder of each higher power.
+    let mut power = [0.0; 9];
+    power[8] = 1.0;
+    for c in coefficients.iter().skip(9) {
+        let top = power[8];
+        for p in (0..9).rev() {
+            power[p] = if p > 0 { power[p - 1] } else { 0.0 } - top * zero[p];
+        }
+        out.iter_mut().zip(power).for_each(|(out, power)| *out += c * power);
+    }
+    out
+}
+
 /// C4 = (cosh x - 1 - x^2/2)/x^4 with x^2 = z.
 fn fourth_power<T: RealNumber>(z: T) -> T {
     if size(z) > T::from(1.0) {
@@ -469,6 +492,20 @@ mod tests {
             }
         }
         assert_eq!(bent_powers(0.0), [1.0, 1.0, 0.5, 1.0 / 6.0]);
+    }
+
+    /// Identity: values at the places stay, and a polynomial of degree eight is itself.
+    #[test]
+    fn lowered_polynomials_have_the_same_values() {
+        let own = [0.3, -1.0, 2.0, 0.7, -0.2, 1.1, 0.4, -2.0, 0.9, 1.3, -0.8, 0.25];
+        let value = |c: &[f64], s: f64| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
+        let found = lowered(&own);
+        for k in 0..9 {
+            let place = 0.5 * (1.0 - (std::f64::consts::PI * f64::from(k) / 8.0).cos());
+            assert!((value(&found, place) - value(&own, place)).abs() < 1e-13, "{place}");
+        }
+        assert!((value(&found, 0.43) - value(&own, 0.43)).abs() < 1e-4);
+        assert_eq!(lowered(&own[..9])[..], own[..9]);
     }
 
     /// Analytic: (h coth h - 1)/h^2, (1 - h cot h)/h^2, and the limits 1/3 and 1/h.
