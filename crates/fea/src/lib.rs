@@ -74,7 +74,7 @@ pub use modes::{
     full_modes, modes, refined_modes, rigid_mass,
 };
 pub use preload::{
-    BucklingMode, Caution, CautionKind, CriticalFactor, MOST_CRITICAL, Preload, PreloadedState, RailForce,
-    SecondOrderChange, preloaded, second_order_change,
+    BucklingMode, Caution, CautionKind, CriticalFactor, LoadedFrame, MOST_CRITICAL, Preload, PreloadedState,
+    RailForce, SecondOrderChange, loaded_frame, preloaded, second_order_change,
 };
 pub use splines::ForceComponent;

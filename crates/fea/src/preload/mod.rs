@@ -20,4 +20,4 @@ pub use caution::{Caution, CautionKind};
 pub use change::{SecondOrderChange, second_order_change};
 pub use critical::{BucklingMode, CriticalFactor, MOST_CRITICAL};
 pub use given::{Preload, RailForce};
-pub use state::{PreloadedState, preloaded};
+pub use state::{LoadedFrame, PreloadedState, loaded_frame, preloaded};

@@ -6,7 +6,7 @@ use nalgebra::SVector;
 
 use super::caution::Caution;
 use super::critical::{Critical, CriticalFactor};
-use super::forces::StateForces;
+use super::forces::{MemberForces, StateForces};
 use super::given::{BodyLoads, Preload};
 use crate::assembly::Element;
 use crate::error::{EntryFault, Error, ModelEntry};
@@ -79,6 +79,36 @@ pub struct PreloadedState {
 /// # Ok::<(), fea::Error>(())
 /// ```
 pub fn preloaded(m: &Model, rails: &[Rail], preload: &Preload) -> Result<PreloadedState, Error> {
+    let LoadedFrame { model, frame, steps, forces, displacements } = loaded_frame(m, rails, preload)?;
+    let critical = Critical::new(&model)?.first()?;
+    if let CriticalFactor::At(factor, mode) = &critical
+        && *factor <= 1.0
+    {
+        return Err(Error::Buckled { factor: *factor, mode: mode.most });
+    }
+    let cautions = Caution::all(&model, &frame.elements, &forces);
+    Ok(PreloadedState { model, critical, cautions, displacements, steps, frame: Arc::new(frame) })
+}
+
+/// A structure with the axial forces of the equilibrium under a preload, factored.
+#[derive(Debug)]
+pub struct LoadedFrame {
+    /// The model with the axial forces.
+    pub model: Model,
+    /// Its factored stiffness, with the rails that were given.
+    pub frame: FactoredFrame,
+    /// Steps to the equilibrium.
+    pub steps: usize,
+    forces: Vec<MemberForces>,
+    displacements: Vec<[f64; 6]>,
+}
+
+/// The equilibrium of a preload as in [`preloaded`], without the critical factor. A stiffness that has a factor is that of a
+/// stable state, unless a member has buckled between its ends.
+///
+/// # Errors
+/// As [`preloaded`], but for members that buckle between their ends.
+pub fn loaded_frame(m: &Model, rails: &[Rail], preload: &Preload) -> Result<LoadedFrame, Error> {
     m.check()?;
     preload.check(m)?;
     let mut model = m.unloaded();
@@ -90,42 +120,38 @@ pub fn preloaded(m: &Model, rails: &[Rail], preload: &Preload) -> Result<Preload
         let motions = frame.motions(&load);
         let forces = StateForces::new(&model, &frame, &motions, &on_arms);
         let largest = forces.members.iter().fold(0.0_f64, |most, own| most.max(own.axial.abs()));
-        let pairs = forces.members.iter().zip(&model.members);
-        let change = pairs.fold(0.0_f64, |most, (own, member)| most.max((own.axial - member.tension).abs()));
+        let given: Vec<f64> = model.members.iter().map(|member| member.tension).collect();
+        let found: Vec<f64> = forces.members.iter().map(|own| own.axial).collect();
+        let change = given.iter().zip(&found).fold(0.0_f64, |most, (given, found)| most.max((found - given).abs()));
         let settled = change <= UNCHANGED * largest || (change <= ROUNDED * largest && change >= 0.5 * last);
-        if !(settled && are_equal(&model.arms, &forces.arms)) {
-            last = change;
-            let given: Vec<f64> = model.members.iter().map(|member| member.tension).collect();
-            let found: Vec<f64> = forces.members.iter().map(|own| own.axial).collect();
-            model = with_forces(model, forces);
-            if let Some(next) = before.as_ref().and_then(|before| accelerated(before, [&given, &found])) {
-                model.members.iter_mut().zip(next).for_each(|(member, n)| member.tension = n);
-            }
-            before = Some([given, found]);
-            frame = FactoredFrame::new(&model, rails).map_err(|error| buckled(&model, error))?;
-            continue;
+        if settled && are_equal(&model.arms, &forces.arms) {
+            check_turned(&forces.members)?;
+            check_tension(&model)?;
+            check_sag(&model, preload)?;
+            let displacements = point_motions(&frame, &motions);
+            return Ok(LoadedFrame { model, frame, steps: step, forces: forces.members, displacements });
         }
-        let turned = forces.members.iter().enumerate().max_by(|a, b| a.1.turned.total_cmp(&b.1.turned));
-        if let Some((member, own)) = turned.filter(|(_, own)| own.turned > MOST_TURNED) {
-            return Err(Error::NoEquilibrium { member, turned: Some(own.turned) });
+        last = change;
+        model = with_forces(model, forces);
+        if let Some(next) = before.as_ref().and_then(|before| accelerated(before, [&given, &found])) {
+            model.members.iter_mut().zip(next).for_each(|(member, n)| member.tension = n);
         }
-        check_tension(&model)?;
-        check_sag(&model, preload)?;
-        let critical = Critical::new(&model)?.first()?;
-        if let CriticalFactor::At(factor, mode) = &critical
-            && *factor <= 1.0
-        {
-            return Err(Error::Buckled { factor: *factor, mode: mode.most });
-        }
-        let cautions = Caution::all(&model, &frame.elements, &forces.members);
-        let displacements = point_motions(&frame, &motions);
-        let frame = Arc::new(frame);
-        return Ok(PreloadedState { model, critical, cautions, displacements, steps: step, frame });
+        before = Some([given, found]);
+        frame = FactoredFrame::new(&model, rails).map_err(|error| buckled(&model, error))?;
     }
     let (member, _) = model.members.iter().enumerate().fold((0, 0.0_f64), |most, (index, member)| {
         if member.tension.abs() > most.1 { (index, member.tension.abs()) } else { most }
     });
     Err(Error::NoEquilibrium { member, turned: None })
+}
+
+/// Refuses a state in which a member turns too far for its motion to count as small.
+fn check_turned(forces: &[MemberForces]) -> Result<(), Error> {
+    let turned = forces.iter().enumerate().max_by(|a, b| a.1.turned.total_cmp(&b.1.turned));
+    match turned.filter(|(_, own)| own.turned > MOST_TURNED) {
+        Some((member, own)) => Err(Error::NoEquilibrium { member, turned: Some(own.turned) }),
+        None => Ok(()),
+    }
 }
 
 /// Axial forces nearer to the equilibrium than the last ones found, by the last two steps, each its forces given and found: with
