@@ -116,7 +116,11 @@ fn structures_about_their_preload_agree_with_p_delta() {
         for (code, most) in ["OpenSees", "PyNite"].into_iter().zip(most) {
             for grid in ["vertical", "lateral"] {
                 let relative = difference(&result, code, grid);
-                assert!(relative > 0.0 && relative < most, "{}, {code}, {grid}: {relative:e}", spec.display());
+                assert!(
+                    relative > 0.0 && relative < most,
+                    "{}, {code}, {grid}: {relative:e}",
+                    spec.display()
+                );
             }
         }
     }

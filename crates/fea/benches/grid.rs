@@ -1,7 +1,8 @@
 //! Time from a model to its influence grid.
 
 use fea::{
-    BeamTheory, CrossSection, Girder, Member, Model, Preload, Rail, RailSegment, Support, grid, loaded_frame, surface,
+    BeamTheory, CrossSection, Girder, Member, Model, Preload, Rail, RailSegment, Support, grid, loaded_frame,
+    surface,
 };
 use splines::{Axis, Probe};
 
@@ -82,11 +83,8 @@ fn runway(bays: usize) -> (Model, Rail) {
 
 fn places(bays: usize, count: u32) -> Vec<Probe> {
     let end = 40.0 * bays as f64;
-    let at = |k: u32| Probe {
-        rail: 0,
-        x: end * (f64::from(k) + 0.5) / f64::from(count),
-        axis: Axis::Vertical,
-    };
+    let at =
+        |k: u32| Probe { rail: 0, x: end * (f64::from(k) + 0.5) / f64::from(count), axis: Axis::Vertical };
     (0..count).map(at).collect()
 }
 

@@ -87,7 +87,15 @@ fn elastica_is_that_of_elliptic_integrals() {
     let integral = |of: &dyn Fn(f64) -> f64, from: f64, to: f64| {
         let parts = 2000;
         let h = (to - from) / f64::from(parts);
-        let weight = |k: i32| if k == 0 || k == parts { 1.0 } else if k % 2 == 1 { 4.0 } else { 2.0 };
+        let weight = |k: i32| {
+            if k == 0 || k == parts {
+                1.0
+            } else if k % 2 == 1 {
+                4.0
+            } else {
+                2.0
+            }
+        };
         (0..=parts).map(|k| weight(k) * of(from + h * f64::from(k))).sum::<f64>() * h / 3.0
     };
     let closed = |p: f64| {
@@ -118,7 +126,12 @@ fn section(ei: f64, ea: f64) -> CrossSection {
     CrossSection { e: 1.0, g: 1.0, area: ea, iy: ei, iz: ei, j: ei, ..CrossSection::default() }
 }
 
-fn estimate(points: Vec<[f64; 3]>, section: CrossSection, clamped: &[usize], load: (usize, [f64; 3])) -> SecondOrderChange {
+fn estimate(
+    points: Vec<[f64; 3]>,
+    section: CrossSection,
+    clamped: &[usize],
+    load: (usize, [f64; 3]),
+) -> SecondOrderChange {
     let fixed = |point: &usize| Support { point: *point, fixed: [true; 6] };
     let model = Model {
         members: (1..points.len()).map(|k| Member::beam([k - 1, k], 0, [0.0, 0.0, 1.0])).collect(),
@@ -128,7 +141,8 @@ fn estimate(points: Vec<[f64; 3]>, section: CrossSection, clamped: &[usize], loa
         up: [0.0, 1.0, 0.0],
         ..Model::default()
     };
-    second_order_change(&model, &[], &Preload { points: vec![load], ..Preload::default() }).expect("it stands")
+    second_order_change(&model, &[], &Preload { points: vec![load], ..Preload::default() })
+        .expect("it stands")
 }
 
 fn cantilever(force: [f64; 3]) -> SecondOrderChange {
@@ -144,7 +158,8 @@ fn is_as_listed(found: [f64; 2], listed: [f64; 2]) {
 /// alone estimates it.
 #[test]
 fn estimate_of_a_cantilever_that_bends_far() {
-    let known = [(0.2, -0.00453, 0.005), (0.5, -0.02714, 0.03125), (1.0, -0.09484, 0.125), (2.0, -0.25981, 0.5)];
+    let known =
+        [(0.2, -0.00453, 0.005), (0.5, -0.02714, 0.03125), (1.0, -0.09484, 0.125), (2.0, -0.25981, 0.5)];
     for (p, exact, estimated) in known {
         let change = cantilever([0.0, p, 0.0]);
         let found = tip(p, 0.0)[1] / (p / 3.0) - 1.0;
@@ -193,7 +208,8 @@ fn estimate_of_the_toggle_of_williams() {
     let half = (length * length - rise * rise).sqrt();
     let points = vec![[0.0; 3], [half, rise, 0.0], [2.0 * half, 0.0, 0.0]];
     let linear = toggle(1e-3) / 1e-3;
-    let known = [(0.5, 0.00464, 0.00309), (2.0, 0.01906, 0.01247), (8.0, 0.08497, 0.05190), (16.0, 0.20314, 0.10975)];
+    let known =
+        [(0.5, 0.00464, 0.00309), (2.0, 0.01906, 0.01247), (8.0, 0.08497, 0.05190), (16.0, 0.20314, 0.10975)];
     for (load, exact, estimated) in known {
         let change = estimate(points.clone(), section(9.27e3, 1.885e6), &[0, 2], (1, [0.0, -load, 0.0]));
         let found = toggle(load) / (linear * load) - 1.0;

@@ -5,8 +5,8 @@
 //! modes, values of codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
-use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use sim::{Foundation, Status};
 

@@ -134,9 +134,7 @@ impl Alone<'_> {
         let rate = self.carrier.rate();
         let k = self.quantity as usize;
         let dead = self.dead.map_or(0.0, |dead| dead.bend(self.quantity, self.carrier.length));
-        move |&[stance, piece]| {
-            (self.over.bounds(stance).bulge(k, self.sign, piece) + dead) * rate * rate
-        }
+        move |&[stance, piece]| (self.over.bounds(stance).bulge(k, self.sign, piece) + dead) * rate * rate
     }
 
     /// The pieces that can exceed the value at the middle of the window, and what is known.

@@ -235,7 +235,8 @@ impl<'a> Analysis<'a> {
                                 size: 0.0,
                                 most: MOST,
                             };
-                            let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                            let known =
+                                entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
                             let (found, bound) = search.enclosed(None, known);
                             offer(&mut entry.governing, found, sign);
                             entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));

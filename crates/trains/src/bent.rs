@@ -187,6 +187,8 @@ mod tests {
         }
         // Half of a load along the part is passed at the middle: V = q sin(k s)/k.
         let q = bent.under(2, &[0.0, 0.0, 1.5, 0.0, 0.0, 0.0]).expect("it is bent");
-        assert!((q[0] + 0.02 * (q[1] + 0.02 * (q[2] + 0.02 * q[3])) - 1.5 * (k * 0.02).sin() / k).abs() < 1e-9);
+        assert!(
+            (q[0] + 0.02 * (q[1] + 0.02 * (q[2] + 0.02 * q[3])) - 1.5 * (k * 0.02).sin() / k).abs() < 1e-9
+        );
     }
 }

@@ -159,7 +159,8 @@ fn bent_bends(passage: &Passage, target: &Target<'_>, rate: f64) -> [f64; 2] {
     let factors: Vec<([f64; 3], usize)> = row
         .map(|(cubic, of)| {
             let [a, b, c, d] = *cubic;
-            let more = [a - f64::from(u8::from(of == target.k)), b - f64::from(u8::from(Some(of) == shear)), c, d];
+            let more =
+                [a - f64::from(u8::from(of == target.k)), b - f64::from(u8::from(Some(of) == shear)), c, d];
             (sizes(&more, length), of)
         })
         .collect();

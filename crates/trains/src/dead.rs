@@ -225,7 +225,8 @@ impl Structure {
                 let mut ends = [0, 1].map(|end| -dead.gravity * sign * ends[end]);
                 if carrier.bent.is_some() {
                     for (end, x) in ends.iter_mut().zip(carrier.x) {
-                        *end += sign * self.held_deflection(dead, carrier, Probe { rail: carrier.rail, x, axis })?;
+                        *end += sign
+                            * self.held_deflection(dead, carrier, Probe { rail: carrier.rail, x, axis })?;
                     }
                 }
                 for (end, x) in ends.iter_mut().zip(carrier.x) {
@@ -317,11 +318,7 @@ fn integral(cubic: &[f64; 4], [from, to]: [f64; 2]) -> f64 {
 }
 
 /// Quantities along a carrier by those at its first end and their jump per length.
-fn along(
-    carrier: &Carrier,
-    start: &[f64; QUANTITIES],
-    jump: &[f64; QUANTITIES],
-) -> [[f64; 4]; QUANTITIES] {
+fn along(carrier: &Carrier, start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES]) -> [[f64; 4]; QUANTITIES] {
     std::array::from_fn(|k| {
         let of = |bent: &Bent| Some((bent.passed(k, start)?, bent.under(k, jump)?));
         if let Some((of_ends, spread)) = carrier.bent.as_deref().and_then(of) {

@@ -212,7 +212,7 @@ impl State<'_> {
 
 /// A cubic of a place that is linear in the position.
 fn along([a, b, c, d]: &[f64; 4], place: &Polynomial) -> Polynomial {
-    [c, b, a].into_iter().fold(Polynomial::new(&[*d]), |sum, next| {
-        sum.times(place).plus(&Polynomial::new(&[*next]), 1.0)
-    })
+    [c, b, a]
+        .into_iter()
+        .fold(Polynomial::new(&[*d]), |sum, next| sum.times(place).plus(&Polynomial::new(&[*next]), 1.0))
 }

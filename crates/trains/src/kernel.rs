@@ -86,7 +86,8 @@ impl RailPoint {
         let finite = |x: f64| if x.is_finite() { x } else { 0.0 };
         let axes = &structure.rails[carrier.rail].axes;
         let shear = [given.axial, given.shear_y, given.shear_z].map(finite);
-        let tension = if carrier.bent.is_some() { structure.model.members[carrier.member].tension } else { 0.0 };
+        let tension =
+            if carrier.bent.is_some() { structure.model.members[carrier.member].tension } else { 0.0 };
         let stiffening = [1.0, 1.0 + shear[1] * tension, 1.0 + shear[2] * tension];
         let bending = [given.torsion, given.bending_y, given.bending_z].map(finite);
         let offset = structure.frame.line()?.elements()[carrier.element].offset;

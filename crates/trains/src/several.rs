@@ -36,7 +36,11 @@ pub(crate) fn enclosed(
     if is_extreme_at_ends(over, target) {
         return Ok(None);
     }
-    if slope_index(target.k).is_none() && !is_bent(over, target.k) && plan.is_one_queue() && has_one_rail(over) {
+    if slope_index(target.k).is_none()
+        && !is_bent(over, target.k)
+        && plan.is_one_queue()
+        && has_one_rail(over)
+    {
         let found = beside_wheels(plan, over, carrier, target);
         let value = found.as_ref().map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
         return Ok(Some((found, value)));

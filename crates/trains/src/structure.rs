@@ -553,7 +553,11 @@ impl Structure {
         let place = |&x: &f64| {
             let here = on(x)?;
             let s = here.start + here.place(x);
-            Some(carrier.coordinate_on_whole(if here.reversed == carrier.reversed { s } else { carrier.whole - s }))
+            Some(carrier.coordinate_on_whole(if here.reversed == carrier.reversed {
+                s
+            } else {
+                carrier.whole - s
+            }))
         };
         places.iter().filter_map(place).collect()
     }
@@ -614,7 +618,12 @@ fn bent_parts(element: &RailElement) -> usize {
 }
 
 /// What the axial force of an element does to moments along a part of it.
-fn bent(element: &RailElement, triad: &[Vector3<f64>; 3], local: &[Vector3<f64>; 3], length: f64) -> Option<Box<Bent>> {
+fn bent(
+    element: &RailElement,
+    triad: &[Vector3<f64>; 3],
+    local: &[Vector3<f64>; 3],
+    length: f64,
+) -> Option<Box<Bent>> {
     if bend_square(element) == 0.0 {
         return None;
     }

@@ -5,8 +5,8 @@ use std::f64::consts::PI;
 use fea::{BeamTheory, Effect, FactoredFrame, ForceComponent, Girder, Model, Rail};
 use splines::{Axis, Probe};
 use trains::{
-    CaseEnvelopes, DeadLoads, GirderResponse, Governing, Request, SpanExtreme, Structure, Train,
-    TrainCase, TrainWheel, envelopes,
+    CaseEnvelopes, DeadLoads, GirderResponse, Governing, Request, SpanExtreme, Structure, Train, TrainCase,
+    TrainWheel, envelopes,
 };
 
 fn wheel(x: f64, vertical: f64, lateral: f64) -> TrainWheel {
@@ -41,7 +41,8 @@ fn one_wheel_on_a_simple_beam() {
         let structure = Structure::new(&model, &[rail], false).expect("the girder is stable");
         let case = TrainCase { trains: vec![train(vec![wheel(0.0, f, 0.0)])], ..TrainCase::default() };
         let request = Request { spans: vec![vec![0.0, l]], ..Request::default() };
-        let found = envelopes(&structure, &DeadLoads::default(), &[case], &request).expect("it fits").remove(0);
+        let found =
+            envelopes(&structure, &DeadLoads::default(), &[case], &request).expect("it fits").remove(0);
         let u = 0.5 * PI * f64::abs(ratio).sqrt();
         let tangent = if ratio > 0.0 { u.tan() } else { u.tanh() };
         let deflection = f * l.powi(3) / (48.0 * ei) * 3.0 * (tangent - u).abs() / u.powi(3);
@@ -70,7 +71,8 @@ struct Reference<'a> {
 impl Reference<'_> {
     /// A response at x, `beside` the coordinate by a negligible distance, to loads (coordinate, downwards, along +z).
     fn value(&self, quantity: GirderResponse, x: f64, loads: &[(f64, f64, f64)]) -> f64 {
-        let both = |load: &(f64, f64, f64)| [(Axis::Vertical, load.0, -load.1), (Axis::Lateral, load.0, load.2)];
+        let both =
+            |load: &(f64, f64, f64)| [(Axis::Vertical, load.0, -load.1), (Axis::Lateral, load.0, load.2)];
         let all = loads.iter().flat_map(both).filter(|(_, _, force)| *force != 0.0);
         let (at, forces): (Vec<Probe>, Vec<f64>) =
             all.map(|(axis, x, force)| (Probe { rail: 0, x, axis }, force)).unzip();
@@ -138,10 +140,10 @@ fn extremes_enclose_all_states() {
         let structure = Structure::new(&model, std::slice::from_ref(&rail), false).expect("stable");
         let error = structure.error_of_lines().expect("there is a rail");
         assert!(error > 0.0 && error <= 1e-9, "{error}");
-        let case =
-            TrainCase { trains: vec![train(wheels.clone())], dead: 1.0, ..TrainCase::default() };
+        let case = TrainCase { trains: vec![train(wheels.clone())], dead: 1.0, ..TrainCase::default() };
         let dead = DeadLoads { gravity: 9.81, lines: Vec::new() };
-        let request = Request { spans: vec![vec![0.0, 6.0, 13.5]], places: vec![vec![2.2, 9.1]], ..Request::default() };
+        let request =
+            Request { spans: vec![vec![0.0, 6.0, 13.5]], places: vec![vec![2.2, 9.1]], ..Request::default() };
         let found = envelopes(&structure, &dead, &[case], &request).expect("it fits").remove(0);
         let frame = FactoredFrame::new(&model, &[rail]).expect("stable");
         let reference = Reference { model: &model, frame, ends: vec![0.0, 6.0, 13.5, 15.0], gravity: 9.81 };
@@ -165,7 +167,8 @@ fn extremes_enclose_all_states() {
         for e in found.extremes.iter().filter(|e| sizes[&e.quantity] > 1e-9) {
             let size = sizes[&e.quantity];
             let values = at_state(e.quantity, &e.governing);
-            let off = values.iter().map(|v| (v - e.governing.value).abs() / size).fold(f64::INFINITY, f64::min);
+            let off =
+                values.iter().map(|v| (v - e.governing.value).abs() / size).fold(f64::INFINITY, f64::min);
             assert!(off < 2e-9, "{n}: off by {off:e}: {e:?}, {values:?}");
             let open = (e.bound - e.governing.value).abs() / size;
             assert!(open <= 1e-9, "{n}: open by {open:e}: {e:?}");
@@ -185,7 +188,10 @@ fn extremes_enclose_all_states() {
                     let x = (from + (to - from) * f64::from(section) / 12.0).clamp(from + 1e-6, to - 1e-6);
                     for k in 0..=26 {
                         let value = reference.value(*quantity, x, &loads(0.5 * f64::from(k)));
-                        assert!(value <= most + slack && value >= least - slack, "{quantity:?} {x} {k}: {value}");
+                        assert!(
+                            value <= most + slack && value >= least - slack,
+                            "{quantity:?} {x} {k}: {value}"
+                        );
                     }
                 }
             }
@@ -214,7 +220,8 @@ fn extremes_of_two_trains_hold() {
         if second > 12.0 {
             continue;
         }
-        let loads = [(first, 100.0, 0.0), (first + 1.5, 80.0, 0.0), (second, 100.0, 0.0), (second + 1.5, 80.0, 0.0)];
+        let loads =
+            [(first, 100.0, 0.0), (first + 1.5, 80.0, 0.0), (second, 100.0, 0.0), (second + 1.5, 80.0, 0.0)];
         let x = 13.5 * random.f64();
         for quantity in quantities {
             let value = reference.value(quantity, x, &loads);
@@ -251,7 +258,8 @@ fn solved(model: &Model, rails: &[Rail], dead: &DeadLoads) -> CaseEnvelopes {
     let structure = Structure::new(model, rails, false).expect("stable");
     let wheels = vec![wheel(0.0, 180.0, 12.0), wheel(1.2, 140.0, -9.0)];
     let case = TrainCase { trains: vec![train(wheels)], dead: 1.0, ..TrainCase::default() };
-    let request = Request { spans: vec![vec![0.0, 5.0, 9.0]], places: vec![vec![2.2, 5.0, 7.1]], ..Request::default() };
+    let request =
+        Request { spans: vec![vec![0.0, 5.0, 9.0]], places: vec![vec![2.2, 5.0, 7.1]], ..Request::default() };
     envelopes(&structure, dead, &[case], &request).expect("it fits").remove(0)
 }
 
@@ -263,7 +271,13 @@ fn load_along_the_rail_is_the_weight() {
     let weight = solved(&model, &rails, &DeadLoads { gravity: 10.0, lines: Vec::new() });
     let line = solved(&model, &rails, &DeadLoads { gravity: 0.0, lines: vec![1.55] });
     for (a, b) in weight.envelopes.iter().zip(&line.envelopes) {
-        let size = 1e-9 * weight.envelopes.iter().filter(|e| e.quantity == a.quantity).map(|e| e.governing.dead.abs()).fold(1e-12, f64::max);
+        let size = 1e-9
+            * weight
+                .envelopes
+                .iter()
+                .filter(|e| e.quantity == a.quantity)
+                .map(|e| e.governing.dead.abs())
+                .fold(1e-12, f64::max);
         assert!((a.governing.dead - b.governing.dead).abs() < 3.0 * size, "{a:?}, not {b:?}");
     }
 }
@@ -277,7 +291,12 @@ fn members_that_run_backwards_change_nothing() {
     let dead = DeadLoads { gravity: 10.0, lines: Vec::new() };
     let [one, other] = [&model, &backwards].map(|model| solved(model, std::slice::from_ref(&rail), &dead));
     for (a, b) in one.extremes.iter().zip(&other.extremes) {
-        let size = one.extremes.iter().filter(|e| e.quantity == a.quantity).map(|e| e.governing.value.abs()).fold(1e-9, f64::max);
+        let size = one
+            .extremes
+            .iter()
+            .filter(|e| e.quantity == a.quantity)
+            .map(|e| e.governing.value.abs())
+            .fold(1e-9, f64::max);
         assert!((a.governing.value - b.governing.value).abs() < 2e-9 * size, "{a:?}, not {b:?}");
     }
     assert_eq!(one.extremes.len(), other.extremes.len());

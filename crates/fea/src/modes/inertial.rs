@@ -415,9 +415,8 @@ impl DistributedMass<'_> {
         let (v, turn, sign) = (plane.deflection, plane.rotation, plane.sign);
         let moved = [ends[v], sign * ends[turn], ends[v + 6], sign * ends[turn + 6]];
         let value = |powers: &[f64]| powers.iter().rev().fold(0.0, |sum, c| sum * at + c);
-        let sum = |k: usize| -> f64 {
-            shapes.iter().zip(moved).map(|(pair, moved)| value(&pair[k]) * moved).sum()
-        };
+        let sum =
+            |k: usize| -> f64 { shapes.iter().zip(moved).map(|(pair, moved)| value(&pair[k]) * moved).sum() };
         let own = added.map_or([0.0; 2], |motion| [value(&motion.deflection), value(&motion.rotation)]);
         [sum(0) + own[0], sum(1) + own[1]]
     }

@@ -82,9 +82,7 @@ impl InteriorMotion {
         let mass = density * integral_of_product(&deflection, &deflection)
             + rotary * integral_of_product(&rotation, &rotation);
         let mut coupling = Vector12::zeros();
-        for ((k, sign), [shape, turn]) in
-            end_degrees(plane).into_iter().zip(bending_shapes(plane, length))
-        {
+        for ((k, sign), [shape, turn]) in end_degrees(plane).into_iter().zip(bending_shapes(plane, length)) {
             coupling[k] = sign
                 * (density * integral_of_product(&shape, &deflection)
                     + rotary * integral_of_product(&turn, &rotation));

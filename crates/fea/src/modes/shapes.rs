@@ -134,8 +134,14 @@ mod tests {
     /// Identity: with a small axial force the series is the polynomial without one; analytic: the equations hold.
     #[test]
     fn bent_deflection_obeys_its_equations() {
-        let plane =
-            |tension: f64| BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: 0.3, shear: 0.7, tension };
+        let plane = |tension: f64| BendingPlane {
+            deflection: 1,
+            rotation: 5,
+            sign: 1.0,
+            bending: 0.3,
+            shear: 0.7,
+            tension,
+        };
         let length = 0.4;
         let loads = [polynomial(&[0.4, -1.0, 2.0]), polynomial(&[1.2, 0.7])];
         let (with, n) = (plane(-0.6), -0.6);
@@ -149,7 +155,10 @@ mod tests {
         let moment = derivative(&t).map(|x| x / with.bending);
         for s in [0.0, 0.3, 0.8] {
             assert!((value(&derivative(&transverse), s) + value(&loads[0], s)).abs() < 1e-7, "{s}");
-            assert!((value(&derivative(&moment), s) + value(&shear, s) + value(&loads[1], s)).abs() < 1e-7, "{s}");
+            assert!(
+                (value(&derivative(&moment), s) + value(&shear, s) + value(&loads[1], s)).abs() < 1e-7,
+                "{s}"
+            );
         }
         for end in [0.0, 1.0] {
             assert!(value(&w, end).abs() < 1e-15 && value(&t, end).abs() < 1e-15);

@@ -18,8 +18,8 @@ use splines::BeamColumn;
 use sprs::CsMat;
 
 use crate::assembly::{
-    Bodies, Element, Extended, Numbering, ScaledStiffness, bending_planes, inverse_iterations, irregular_vector,
-    symmetric_product,
+    Bodies, Element, Extended, Numbering, ScaledStiffness, bending_planes, inverse_iterations,
+    irregular_vector, symmetric_product,
 };
 use crate::dof::Dof;
 use crate::error::{Buckling, EntryAttribute, Error};

@@ -122,13 +122,17 @@ pub fn loaded_frame(m: &Model, rails: &[Rail], preload: &Preload) -> Result<Load
         let largest = forces.members.iter().fold(0.0_f64, |most, own| most.max(own.axial.abs()));
         let given: Vec<f64> = model.members.iter().map(|member| member.tension).collect();
         let found: Vec<f64> = forces.members.iter().map(|own| own.axial).collect();
-        let change = given.iter().zip(&found).fold(0.0_f64, |most, (given, found)| most.max((found - given).abs()));
+        let change =
+            given.iter().zip(&found).fold(0.0_f64, |most, (given, found)| most.max((found - given).abs()));
         let settled = change <= UNCHANGED * largest || (change <= ROUNDED * largest && change >= 0.5 * last);
         if settled && are_equal(&model.arms, &forces.arms) {
             check_turned(&forces.members)?;
             check_tension(&model)?;
             check_sag(&model, preload)?;
             let displacements = point_motions(&frame, &motions);
+            if frame.line().is_err() {
+                frame = frame.with_rails(rails)?;
+            }
             return Ok(LoadedFrame { model, frame, steps: step, forces: forces.members, displacements });
         }
         last = change;
@@ -137,7 +141,10 @@ pub fn loaded_frame(m: &Model, rails: &[Rail], preload: &Preload) -> Result<Load
             model.members.iter_mut().zip(next).for_each(|(member, n)| member.tension = n);
         }
         before = Some([given, found]);
-        frame = FactoredFrame::new(&model, rails).map_err(|error| buckled(&model, error))?;
+        frame = frame.reloaded(&model).map_err(|error| buckled(&model, error))?;
+        if !preload.rails.is_empty() {
+            frame = frame.with_rails(rails)?;
+        }
     }
     let (member, _) = model.members.iter().enumerate().fold((0, 0.0_f64), |most, (index, member)| {
         if member.tension.abs() > most.1 { (index, member.tension.abs()) } else { most }

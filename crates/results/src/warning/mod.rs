@@ -40,9 +40,8 @@ fn of_second_order<'a>(
     outcome: &'a CaseResult,
     is_warning: bool,
 ) -> impl Iterator<Item = String> + use<'a> {
-    let all = outcome
-        .second_order
-        .get_or_init(|| second::second_order(scene, &outcome.input, &outcome.columns));
+    let all =
+        outcome.second_order.get_or_init(|| second::second_order(scene, &outcome.input, &outcome.columns));
     all.iter().filter(move |doubt| doubt.is_warning == is_warning).map(|doubt| doubt.text.clone())
 }
 

@@ -14,7 +14,11 @@ const WARNED: f64 = 1e-2;
 
 /// What is to be told of the structures without preload: the estimates of [`fea::second_order_change`] for the forces of all
 /// wheels at the recorded time at which they are largest together, and for the weight of what has mass.
-pub(super) fn second_order(scene: &Scene, input: &SimulationInput, record: &NamedColumns) -> Vec<FirstOrderDoubt> {
+pub(super) fn second_order(
+    scene: &Scene,
+    input: &SimulationInput,
+    record: &NamedColumns,
+) -> Vec<FirstOrderDoubt> {
     (0..scene.structures.len()).filter_map(|index| of_structure(scene, index, input, record)).collect()
 }
 
@@ -55,7 +59,8 @@ fn of_structure(
     }
     let (model, own) = spec.unloaded_model().ok()?;
     let size = model.up.iter().map(|a| a * a).sum::<f64>().sqrt();
-    let weight = model.up.map(|a| if spec.has_mass() && size > 0.0 { -scene.gravity * a / size } else { 0.0 });
+    let weight =
+        model.up.map(|a| if spec.has_mass() && size > 0.0 { -scene.gravity * a / size } else { 0.0 });
     let loads = Preload { acceleration: weight, points: Vec::new(), rails };
     let time = number(rounded(times[row], 6));
     let change = match second_order_change(&model, &own, &loads) {

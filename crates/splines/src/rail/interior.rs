@@ -27,7 +27,8 @@ pub(crate) fn uniform_load(element: &RailElement, load: &AxisLoad, s: f64) -> [[
             let [deflection, slope, rotation, curvature] = column.clamped_under_load(s.min(rest));
             // seen from the last end slopes and rotations have the other sign
             let sign = if s <= rest { 1.0 } else { -1.0 };
-            out[k] = [force * deflection + moment * sign * rotation, force * sign * slope + moment * curvature];
+            out[k] =
+                [force * deflection + moment * sign * rotation, force * sign * slope + moment * curvature];
             continue;
         }
         let product = s * rest;
