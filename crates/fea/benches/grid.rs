@@ -127,7 +127,5 @@ fn searched_runway_800_loads(bencher: divan::Bencher, bays: usize) {
     let (model, rail) = runway(bays);
     let rails = [rail];
     let (at, preload) = (places(bays, 800), weights(bays));
-    let steps = loaded_frame(&model, &rails, &preload).expect("it stands").steps;
-    println!("{steps} steps");
     bencher.bench(|| loaded_frame(&model, &rails, &preload).map(|loaded| loaded.frame.grid(&at)));
 }

@@ -90,7 +90,6 @@ fn errors_are_squared(tension: f64) {
         let errors: Vec<[f64; 2]> = (0..count)
             .map(|k| [&before, &after].map(|of| of.modes.modes[k].omega / closed_form(k + 1, tension) - 1.0))
             .collect();
-        println!("{parts} parts: {errors:?}");
         for (k, [old, new]) in errors.into_iter().enumerate() {
             assert!(old > -1e-10 && new > -1e-10, "{parts} parts, mode {k}: from above, {old:e} {new:e}");
             assert!(new < 6.0 * old * old + 1e-10, "{parts} parts, mode {k}: {old:e} {new:e}");

@@ -37,7 +37,8 @@ impl SecondOrderChange {
 
 /// What second order would change under `loads`: the axial forces N of first order under all of them, weight included, give
 /// K + K_g(N), with which the forces on points and rails are solved once more. The changes are those of these forces
-/// alone; internal forces are compared for forces on rails.
+/// alone; internal forces are compared for forces on rails. A wheel does not move along with the rail that turns under it:
+/// forces on rails have no stiffness of their arms here.
 ///
 /// Two factorisations: this is an estimate, whose error is of the order of its square.
 ///
@@ -72,7 +73,8 @@ pub fn second_order_change(m: &Model, rails: &[Rail], loads: &Preload) -> Result
     loads.check(m)?;
     let own = m.unloaded();
     let first = FactoredFrame::new(&own, rails)?;
-    let BodyLoads { load, on_arms } = loads.loads(&own, &first)?;
+    let BodyLoads { load, .. } = loads.loads(&own, &first)?;
+    let BodyLoads { on_arms, .. } = Preload { rails: Vec::new(), ..loads.clone() }.loads(&own, &first)?;
     let forces = StateForces::new(&own, &first, &first.motions(&load), &on_arms);
     let model = with_forces(own.clone(), forces);
     let second = FactoredFrame::new(&model, rails).map_err(|error| buckled(&model, error))?;

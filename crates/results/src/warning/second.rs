@@ -2,15 +2,16 @@
 
 use fea::{Preload, RailForce, second_order_change};
 use formats::scene::motion::SimulationInput;
-use formats::scene::{Origin, Scene};
+use formats::scene::{Foundation, Origin, Scene};
 use formats::text::number::{number, rounded};
 
 use crate::case_result::FirstOrderDoubt;
 use crate::columns::NamedColumns;
 
-/// Relative change from which it is told, and from which it is a warning.
+/// Relative change from which it is told, and from which it is a warning, as codes ask for second order then (EN 1993-1-1,
+/// 5.2.1).
 const NOTED: f64 = 1e-3;
-const WARNED: f64 = 1e-2;
+const WARNED: f64 = 0.1;
 
 /// What is to be told of the structures without preload: the estimates of [`fea::second_order_change`] for the forces of all
 /// wheels at the recorded time at which they are largest together, and for the weight of what has mass.
@@ -30,7 +31,7 @@ fn of_structure(
 ) -> Option<FirstOrderDoubt> {
     let structure = &scene.structures[index];
     let Origin::Spec { spec, .. } = &structure.origin else { return None };
-    if spec.preload.is_some() {
+    if spec.preload.is_some() || structure.foundation == Foundation::Rigid {
         return None;
     }
     let wheels: Vec<(usize, [&[f64]; 3])> = input
