@@ -47,8 +47,9 @@ impl Progress {
     /// Shows a stage on a terminal until the returned value is dropped.
     #[must_use]
     pub fn stage(&self, message: &str) -> Bar {
-        let bar = Bar::new(self.hidden_or(ProgressBar::new_spinner()), message);
+        let bar = Bar::new(self.hidden_or(ProgressBar::new_spinner()));
         bar.without_end("");
+        bar.name(message);
         if self.draws {
             bar.bar.enable_steady_tick(TICK);
         }
@@ -58,8 +59,9 @@ impl Progress {
     /// Shows a bar of `length` steps on a terminal until the returned value is dropped.
     #[must_use]
     pub fn bar(&self, message: &str, length: u64) -> Bar {
-        let bar = Bar::new(self.hidden_or(ProgressBar::new(length)), message);
+        let bar = Bar::new(self.hidden_or(ProgressBar::new(length)));
         bar.with_end();
+        bar.name(message);
         if self.draws {
             // the times go on between two steps
             bar.bar.enable_steady_tick(TICK);
@@ -92,8 +94,7 @@ pub struct Bar {
 }
 
 impl Bar {
-    fn new(bar: ProgressBar, message: &str) -> Bar {
-        bar.set_message(message.to_owned());
+    fn new(bar: ProgressBar) -> Bar {
         Bar { bar, has_end: AtomicBool::new(false) }
     }
 

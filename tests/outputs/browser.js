@@ -46,7 +46,7 @@ setTimeout(() => {
   // on a narrow screen no picture is wider than its place
   found.sideways = [...document.querySelectorAll(".picture")].filter((box) => seen(box) && box.scrollWidth > box.clientWidth + 1).map((box) => said(box.parentElement.querySelector("figcaption")));
   // letters of pictures are neither huge nor too small to read
-  found.letters = [...document.querySelectorAll(".picture svg text")].filter(seen).filter((text) => { const { a, b } = text.getScreenCTM(); const size = Math.hypot(a, b) * Number(text.getAttribute("font-size")); return size < 6.5 || size > 20; }).map(said);
+  found.letters = [...document.querySelectorAll(".picture svg text")].filter(seen).filter((text) => { const { a, b } = text.getScreenCTM(); const size = Math.hypot(a, b) * Number(text.getAttribute("font-size")); return size < window.letters || size > 20; }).map(said);
   const light = (text) => {
     const [r, g, b] = text.match(/[\d.]+/g).map((part) => { const c = part / 255; return c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4; });
     return 0.2126 * r + 0.7152 * g + 0.0722 * b;

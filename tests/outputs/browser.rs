@@ -46,6 +46,11 @@ impl Medium {
         }
     }
 
+    /// Size of the smallest letters in pictures, pixels: on paper four points and more.
+    const fn least_letters(self) -> f64 {
+        if matches!(self, Medium::Paper) { 5.6 } else { 6.5 }
+    }
+
     const fn is_dark(self) -> bool {
         matches!(self, Medium::DarkDesktop | Medium::DarkPhone)
     }
@@ -61,8 +66,11 @@ fn probe(browser: &Path, page: &Path, medium: Medium) -> Value {
     if medium == Medium::Paper {
         text = text.replace("@media print", "@media all");
     }
-    let early =
-        "<script>window.failed = []; addEventListener('error', e => failed.push(e.message));</script></head>";
+    let early = format!(
+        "<script>window.letters = {}; window.failed = []; addEventListener('error', e => \
+         failed.push(e.message));</script></head>",
+        medium.least_letters()
+    );
     let late = format!("<script>{{{PROBE}}}</script></body>");
     let (head, rest) = text.split_once("</head>").expect("a head");
     let (body, end) = rest.rsplit_once("</body>").expect("a body");

@@ -47,10 +47,7 @@ fn extremes_on_demand_are_those_of_the_run_to_the_last_bit() {
 #[test]
 fn extremes_that_were_stopped_anywhere_are_found_when_they_are_asked_for_again() {
     // steps and modes, and rows whose run is repeated
-    for (example, changes) in [
-        ("runway", r#"{"end": {"time": 1}}"#),
-        ("bogie", r#"{"end": {"time": 1}}"#),
-    ] {
+    for (example, changes) in [("runway", r#"{"end": {"time": 1}}"#), ("bogie", r#"{"end": {"time": 1}}"#)] {
         let cache = StructureCache::default();
         let known = run(example, changes, &cache, GirderTime::OnDemand);
         let asked = AtomicUsize::new(0);
@@ -70,7 +67,10 @@ fn extremes_that_were_stopped_anywhere_are_found_when_they_are_asked_for_again()
             };
             let found = stopped.compute_girders(Some(1), &stop);
             // cases that were complete before are not computed again
-            assert!(matches!(found, Err(results::Error::Stopped)) || last > all / 7, "{example} after {last}");
+            assert!(
+                matches!(found, Err(results::Error::Stopped)) || last > all / 7,
+                "{example} after {last}"
+            );
         }
         stopped.compute_girders(Some(1), &|| ControlFlow::Continue(())).expect("nobody stops it");
         for (known, found) in known.cases.iter().zip(&stopped.cases) {

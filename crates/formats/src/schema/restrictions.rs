@@ -7,8 +7,8 @@
 use serde_json::{Value, json};
 
 use Restriction::{
-    Alternatives, AtLeastOne, Blocks, Fraction, Increasing, ListOf, ListOfNotNegative, ListOfPositive, NotNegative,
-    Pattern, Positive, Second, Words,
+    Alternatives, AtLeastOne, Blocks, Fraction, Increasing, ListOf, ListOfNotNegative, ListOfPositive,
+    NotNegative, Pattern, Positive, Second, Words,
 };
 
 /// What a property, or each item of its list, may be.

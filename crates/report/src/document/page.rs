@@ -127,7 +127,7 @@ fn section(
                         tbody {
                             @for (fact, value) in &facts {
                                 tr {
-                                    th scope="row" { (fact.name) }
+                                    th scope="row" { (raised(&fact.name)) }
                                     td class=[matches!(fact.value, TableCell::Number(_)).then_some("number")] { (value) }
                                     td.unit { (fact.unit) }
                                 }
@@ -229,9 +229,16 @@ fn is_numeral(text: &str) -> bool {
 fn words(text: &str) -> Markup {
     html! {
         @for (i, part) in text.split('`').enumerate() {
-            @if i % 2 == 1 { code { (part) } } @else { (part) }
+            @if i % 2 == 1 { code { (part) } } @else { (raised(part)) }
         }
     }
+}
+
+/// A text whose powers, such as `s^2`, are raised.
+fn raised(text: &str) -> String {
+    [("^2", "\u{b2}"), ("^3", "\u{b3}"), ("^4", "\u{2074}")]
+        .into_iter()
+        .fold(text.to_owned(), |text, (power, sign)| text.replace(power, sign))
 }
 
 fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Result<Markup, Error> {

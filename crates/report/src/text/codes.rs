@@ -97,7 +97,7 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
             line.extend(clause_cells(&value.clause));
             line.extend([
-                TableCell::from(value.formula.clone()),
+                TableCell::from(value.formula.replace("/s2", "/s\u{b2}")),
                 TableCell::from(rounded(factor * value.value, DIGITS)),
             ]);
             rows.push(line);
@@ -120,7 +120,7 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
             TableCell::from(unit),
         ];
         line.extend(clause_cells(&value.clause));
-        line.push(TableCell::from(value.formula.clone()));
+        line.push(TableCell::from(value.formula.replace("/s2", "/s\u{b2}")));
         line
     });
     let rows = factors.collect();
