@@ -352,7 +352,7 @@ function liveChart(box, number) {
 
 // A picture as wide as a narrow screen: letters as large as on a wide one where they have room; those that would cover others
 // are left out, except where a picture has many, which then goes on to the right. The readings of a moving view stand below it.
-const LETTERS = 10, CROWD = 0.4, FEW = 2, OVER = 9;
+const LETTERS = 9, CROWD = 0.4, FEW = 2, OVER = 9;
 function fitted(box) {
   const svg = box.querySelector("svg"), texts = [...svg.querySelectorAll("text")].filter((text) => !text.closest(".reading"));
   const plain = texts.map((text) => text.getAttribute("font-size"));
