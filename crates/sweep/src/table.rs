@@ -320,20 +320,27 @@ mod tests {
     }
 
     #[test]
-    fn a_table_takes_eight_bytes_for_each_number() {
+    fn a_table_takes_eight_bytes_for_each_number_also_where_results_alternate() {
         const RUNS: usize = 1000;
         const RESULTS: usize = 88;
         let names: Vec<String> = (0..RESULTS).map(|k| format!("girder.span {k}.bending.bottom")).collect();
         let run = |run: usize| {
-            let results: Vec<(&str, f64)> = names.iter().map(|name| (name.as_str(), run as f64)).collect();
-            record(run, &results)
+            let results = names.iter().map(|name| (name.as_str(), run as f64));
+            // the span that governs is that of one run or another
+            let last = if run.is_multiple_of(2) { "span 1.web" } else { "span 2.web" };
+            record(run, &results.chain([(last, 0.5)]).collect::<Vec<_>>())
         };
         let made = ResultTable::new(["/a", "/b"].map(str::to_owned).to_vec(), (1..=RUNS).map(run));
         // names once, and for each run its results, its number, its axes and its layout
-        assert_eq!((made.layouts.len(), made.columns.len(), made.results.len()), (1, RESULTS, RESULTS));
+        assert_eq!(
+            (made.layouts.len(), made.columns.len(), made.results.len()),
+            (2, RESULTS + 2, RESULTS + 2)
+        );
         let AxisColumn::Numbers(numbers) = &made.axis_values[0] else { panic!("not numbers") };
         let AxisColumn::Levels(levels, rows) = &made.axis_values[1] else { panic!("not words") };
         assert_eq!((numbers.len(), levels.len(), rows.len()), (RUNS, 2, RUNS));
-        assert_eq!(made.results.iter().map(Vec::capacity).sum::<usize>(), RUNS * RESULTS);
+        let room: usize = made.results.iter().map(Vec::capacity).sum();
+        assert_eq!(room, RUNS * (RESULTS + 2));
+        assert_eq!(made.runs.capacity() + made.layout_of.capacity(), 2 * RUNS);
     }
 }
