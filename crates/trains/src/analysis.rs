@@ -288,7 +288,7 @@ impl<'a> Analysis<'a> {
                             continue;
                         };
                         let found = EnvelopeValue { rail: carrier.rail, quantity, is_max, governing };
-                        offer_envelope(&mut out.envelopes, found, slack);
+                        offer_envelope(out, found, slack);
                     }
                 }
             }
@@ -309,20 +309,28 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// Adds a value of an envelope, or replaces that of the other side of the same place if it is better. Places come in
-/// increasing order, so that those at the same place are among the last.
-fn offer_envelope(all: &mut Vec<EnvelopeValue>, found: EnvelopeValue, slack: f64) {
-    let known = all.iter_mut().rev().take(4 * GirderResponse::ALL.len()).find(|known| {
+/// Adds a value of an envelope. Where the other side of the same place has one, the better of the two stays in the
+/// envelope, and the other one is kept beside it. Places come in increasing order, so that those at the same place are
+/// among the last.
+fn offer_envelope(out: &mut CaseEnvelopes, found: EnvelopeValue, slack: f64) {
+    let all = &mut out.envelopes;
+    let from = all.len().saturating_sub(4 * GirderResponse::ALL.len());
+    let known = (from..all.len()).rev().find(|&index| {
+        let known = &all[index];
         known.rail == found.rail
             && (known.governing.x - found.governing.x).abs() <= slack
             && known.quantity == found.quantity
             && known.is_max == found.is_max
     });
-    match known {
-        Some(known) if is_better(&found.governing, &known.governing, sign_of(found.is_max)) => *known = found,
-        Some(_) => {}
-        None => all.push(found),
+    let Some(index) = known else {
+        all.push(found);
+        return;
+    };
+    let (known, mut other) = (&mut all[index].governing, found.governing);
+    if is_better(&other, known, sign_of(found.is_max)) {
+        std::mem::swap(known, &mut other);
     }
+    out.other_sides.push((index, other));
 }
 
 /// A section of a carrier under the trains of a case.
