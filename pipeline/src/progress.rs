@@ -1,6 +1,7 @@
 //! Progress messages and, on a terminal, progress bars; both are written to standard error.
 
 use std::io::{IsTerminal, Write};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
@@ -9,6 +10,9 @@ use formats::text::inputs::Inputs;
 use study::{Observer, Steps};
 
 use crate::cli::Global;
+
+/// Time between two drawings of a bar.
+const TICK: Duration = Duration::from_millis(200);
 
 /// Output of messages and progress bars to standard error.
 #[derive(Clone, Copy, Debug)]
@@ -43,30 +47,26 @@ impl Progress {
     /// Shows a stage on a terminal until the returned value is dropped.
     #[must_use]
     pub fn stage(&self, message: &str) -> Bar {
-        let bar = self.hidden_or(ProgressBar::new_spinner());
-        if let Ok(style) = ProgressStyle::with_template("{spinner} {msg}, {elapsed} gone") {
-            bar.set_style(style);
-        }
-        bar.set_message(message.to_owned());
+        let bar = Bar::new(self.hidden_or(ProgressBar::new_spinner()));
+        bar.without_end("");
+        bar.name(message);
         if self.draws {
-            bar.enable_steady_tick(Duration::from_millis(100));
+            bar.bar.enable_steady_tick(TICK);
         }
-        Bar(bar)
+        bar
     }
 
     /// Shows a bar of `length` steps on a terminal until the returned value is dropped.
     #[must_use]
     pub fn bar(&self, message: &str, length: u64) -> Bar {
-        let bar = self.hidden_or(ProgressBar::new(length));
-        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}") {
-            bar.set_style(style.progress_chars("=> ").with_key("left", left));
-        }
-        bar.set_message(message.to_owned());
+        let bar = Bar::new(self.hidden_or(ProgressBar::new(length)));
+        bar.with_end();
+        bar.name(message);
         if self.draws {
             // the times go on between two steps
-            bar.enable_steady_tick(Duration::from_millis(500));
+            bar.bar.enable_steady_tick(TICK);
         }
-        Bar(bar)
+        bar
     }
 
     fn hidden_or(&self, bar: ProgressBar) -> ProgressBar {
@@ -87,23 +87,51 @@ fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
 
 /// A progress bar or a stage on the terminal.
 #[derive(Debug)]
-pub struct Bar(ProgressBar);
+pub struct Bar {
+    bar: ProgressBar,
+    /// Whether it shows how far the work is.
+    has_end: AtomicBool,
+}
 
 impl Bar {
+    fn new(bar: ProgressBar) -> Bar {
+        Bar { bar, has_end: AtomicBool::new(false) }
+    }
+
+    /// Shows a bar with the fraction that is done.
+    fn with_end(&self) {
+        if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}") {
+            self.bar.set_style(style.progress_chars("=> ").with_key("left", left));
+        }
+        self.has_end.store(true, Ordering::Relaxed);
+    }
+
+    /// Shows that the work goes on, without a fraction, until the bar is moved again; `what` follows the message.
+    pub fn without_end(&self, what: &str) {
+        let template = format!("{{spinner}} {{msg}}{what}, {{elapsed}} gone");
+        if let Ok(style) = ProgressStyle::with_template(&template) {
+            self.bar.set_style(style);
+        }
+        self.has_end.store(false, Ordering::Relaxed);
+    }
+
     /// Moves a bar to `position`.
     pub fn set(&self, position: u64) {
-        self.0.set_position(position);
+        if !self.has_end.load(Ordering::Relaxed) {
+            self.with_end();
+        }
+        self.bar.set_position(position);
     }
 
     /// Moves a bar to `position` of `length`.
     pub fn set_of(&self, position: u64, length: u64) {
-        self.0.set_length(length);
-        self.0.set_position(position);
+        self.bar.set_length(length);
+        self.set(position);
     }
 
     /// Changes the message of a bar.
     pub fn name(&self, message: &str) {
-        self.0.set_message(message.to_owned());
+        self.bar.set_message(message.to_owned());
     }
 }
 
@@ -125,6 +153,6 @@ impl Steps for Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.0.finish_and_clear();
+        self.bar.finish_and_clear();
     }
 }

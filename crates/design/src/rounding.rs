@@ -50,6 +50,9 @@ impl Sizes {
     /// Replaces what is only rounding by zero.
     pub fn clean_all(&self, envelopes: &mut CaseEnvelopes) {
         envelopes.envelopes.iter_mut().for_each(|e| self.clean(&mut e.governing, kind(e.quantity)));
+        for (index, governing) in &mut envelopes.other_sides {
+            self.clean(governing, kind(envelopes.envelopes[*index].quantity));
+        }
         for extreme in &mut envelopes.extremes {
             self.clean(&mut extreme.governing, kind(extreme.quantity));
             extreme.bound = self.cleaned(extreme.bound, kind(extreme.quantity));

@@ -66,7 +66,7 @@ impl TrialObserver for () {
 /// `input` is the simulation input made from `scene`; `known` has the solutions of its specs. The history contains
 /// the degrees of freedom of those structures for which `recorded` (index of the structure, its foundation) is true.
 /// `observer` gives the quantities by which the runs are judged. `watch` is called with the simulated time after every
-/// step of every trial, and can stop the run.
+/// step of every trial, and with the end of the scene after each trial, which is judged then; it can stop the run.
 ///
 /// ```
 /// use std::ops::ControlFlow;
@@ -191,7 +191,10 @@ impl FoundationProvider for SceneFoundations<'_> {
         foundations: &[sim::Foundation],
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Run, sim::Error> {
-        sim::run_by(self.scene.stepping, scene, foundations, watch)
+        let run = sim::run_by(self.scene.stepping, scene, foundations, watch)?;
+        // a run that has ended early is done as well; the next call can stop what follows
+        let _ = watch(self.scene.end);
+        Ok(run)
     }
 
     fn observe(&mut self, history: &History) -> Result<Record, Error> {

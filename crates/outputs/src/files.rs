@@ -116,7 +116,7 @@ pub fn write_together(files: &[(&Path, &[u8])]) -> Result<(), Error> {
 
 /// Creates a temporary file that is locked until it is closed, so that other runs do not take it for one that a dead
 /// run has left. It has the permissions that new files have.
-fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
+pub(crate) fn temporary(folder: &Path) -> io::Result<NamedTempFile> {
     let mut builder = tempfile::Builder::new();
     builder.prefix(TEMPORARY).rand_bytes(RANDOM);
     #[cfg(unix)]

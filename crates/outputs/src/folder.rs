@@ -1,14 +1,15 @@
 //! Output folders: which of their files belong to the program, and how a new result replaces an older one.
 
 use std::fs;
-use std::io::{self, Write};
+use std::io::{self, BufWriter, Write};
 use std::mem;
 use std::path::{Component, Path, PathBuf};
 
-use tempfile::TempDir;
+use tempfile::{NamedTempFile, TempDir};
 
 use crate::Error;
-use crate::files::{TEMPORARY, cannot_write, clear_dead_files, folder_of, sync, temporaries};
+use crate::files::{TEMPORARY, cannot_write, clear_dead_files, folder_of, sync, temporaries, temporary};
+use crate::hashed::HashedWriter;
 use crate::journal::Journal;
 use crate::manifest::{MANIFEST, Manifest, OutputEntry, listed_files};
 use formats::text::diagnostic::Diagnostic;
@@ -26,12 +27,12 @@ pub struct PlannedFiles {
     pub plots: Vec<String>,
 }
 
-/// An output folder that is locked for one run. The contents are kept in memory until [`OutputFolder::commit`]
-/// writes them. A run that does not commit leaves the folder as it was.
+/// An output folder that is locked for one run. The contents are kept in memory or in temporary files until
+/// [`OutputFolder::commit`] places them. A run that does not commit leaves the folder as it was.
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,
-    files: Vec<(String, Vec<u8>, bool)>,
+    files: Vec<(String, FileContents)>,
     journal: Journal,
     /// Files of the folder that the program wrote, by its manifest and by the journal of a run that has not ended.
     listed: Vec<OutputEntry>,
@@ -39,6 +40,43 @@ pub struct OutputFolder {
     /// Folders that did not exist before, outermost first.
     created: Vec<PathBuf>,
     keeps_journal: bool,
+}
+
+/// The contents of a file of the folder.
+#[derive(Debug)]
+enum FileContents {
+    /// In memory, with their hash in the manifest.
+    Fixed(Vec<u8>),
+    /// In memory; they may differ between equal runs.
+    Varying(Vec<u8>),
+    /// In a temporary file, with their number of bytes and SHA-256.
+    Written(NamedTempFile, usize, String),
+}
+
+impl FileContents {
+    /// The number of bytes and their SHA-256 in hexadecimal; `None` for those that may differ between equal runs.
+    fn hash(&self) -> Option<(usize, String)> {
+        match self {
+            FileContents::Fixed(bytes) => Some((bytes.len(), sha256(bytes))),
+            FileContents::Varying(_) => None,
+            FileContents::Written(_, bytes, sha256) => Some((*bytes, sha256.clone())),
+        }
+    }
+
+    /// Puts them on the disk under a path of the same file system.
+    fn put_at(&self, path: &Path) -> io::Result<()> {
+        match self {
+            FileContents::Fixed(bytes) | FileContents::Varying(bytes) => {
+                let mut file = fs::File::create(path)?;
+                file.write_all(bytes)?;
+                file.sync_all()
+            }
+            FileContents::Written(file, ..) => {
+                file.as_file().sync_all()?;
+                fs::rename(file.path(), path)
+            }
+        }
+    }
 }
 
 impl OutputFolder {
@@ -161,17 +199,36 @@ impl OutputFolder {
 
     /// Adds a file under its name in the folder, such as `plots/path.svg`, and replaces an earlier one of this name.
     pub fn add(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
-        self.put(name, bytes.into(), true);
+        self.put(name, FileContents::Fixed(bytes.into()));
     }
 
     /// Adds a file whose contents may differ between equal runs; the manifest does not contain its size and hash.
     pub fn add_varying(&mut self, name: &str, bytes: impl Into<Vec<u8>>) {
-        self.put(name, bytes.into(), false);
+        self.put(name, FileContents::Varying(bytes.into()));
     }
 
-    fn put(&mut self, name: &str, bytes: Vec<u8>, fixed: bool) {
-        self.files.retain(|(known, ..)| known != name);
-        self.files.push((name.to_owned(), bytes, fixed));
+    /// Adds a file that `write` writes piece by piece, so that its contents are never in memory as a whole.
+    ///
+    /// # Errors
+    /// An operation of the file system fails, or `write` does.
+    pub fn add_written(
+        &mut self,
+        name: &str,
+        write: impl FnOnce(&mut (dyn Write + Send)) -> io::Result<()>,
+    ) -> Result<(), Error> {
+        let written = temporary(&self.path).and_then(|file| {
+            let mut writer = HashedWriter::new(BufWriter::new(file));
+            write(&mut writer)?;
+            let (file, bytes, sha256) = writer.finish();
+            Ok(FileContents::Written(file.into_inner()?, bytes, sha256))
+        });
+        self.put(name, written.map_err(|error| cannot_write(&self.path.join(name), &error))?);
+        Ok(())
+    }
+
+    fn put(&mut self, name: &str, contents: FileContents) {
+        self.files.retain(|(known, _)| known != name);
+        self.files.push((name.to_owned(), contents));
     }
 
     /// Writes all files and then `manifest.json`, which lists them.
@@ -187,15 +244,11 @@ impl OutputFolder {
     /// contains the name of the file.
     pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Error> {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
-        for (name, bytes, fixed) in &self.files {
-            let sha256 = fixed.then(|| sha256(bytes));
-            manifest.outputs.push(OutputEntry {
-                name: name.clone(),
-                bytes: fixed.then_some(bytes.len()),
-                sha256,
-            });
+        for (name, contents) in &self.files {
+            let (bytes, sha256) = contents.hash().unzip();
+            manifest.outputs.push(OutputEntry { name: name.clone(), bytes, sha256 });
         }
-        let names = self.files.iter().map(|(name, ..)| name.as_str());
+        let names = self.files.iter().map(|(name, _)| name.as_str());
         self.check_owner(names.chain([MANIFEST]))?;
         self.write(&manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
         self.clear_older();
@@ -227,14 +280,12 @@ impl OutputFolder {
         let staging =
             tempfile::Builder::new().prefix(TEMPORARY).tempdir_in(&self.path).map_err(at(&self.path))?;
         let new = staging.path().join("new");
-        let text = manifest.text();
-        let all = self.files.iter().map(|(name, bytes, _)| (name.as_str(), bytes.as_slice()));
-        for (name, bytes) in all.chain([(MANIFEST, text.as_bytes())]) {
+        let manifest = [(MANIFEST.to_owned(), FileContents::Fixed(manifest.text().into_bytes()))];
+        for (name, contents) in self.files.iter().chain(&manifest) {
             let target = self.path.join(name);
             let staged = new.join(name);
             fs::create_dir_all(folder_of(&staged)).map_err(at(&target))?;
-            let mut file = fs::File::create(&staged).map_err(at(&target))?;
-            file.write_all(bytes).and_then(|()| file.sync_all()).map_err(at(&target))?;
+            contents.put_at(&staged).map_err(at(&target))?;
         }
         Ok(staging)
     }
@@ -244,7 +295,7 @@ impl OutputFolder {
         let manifest = self.path.join(MANIFEST);
         let mut folders = vec![self.path.clone()];
         exchange.take_away(&manifest).map_err(at(&manifest))?;
-        for (name, ..) in &self.files {
+        for (name, _) in &self.files {
             let target = self.path.join(name);
             let folder = folder_of(&target);
             if !folders.contains(&folder) {
@@ -265,7 +316,7 @@ impl OutputFolder {
         for entry in mem::take(&mut self.listed) {
             let name = entry.name.as_str();
             let is_inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-            if !is_inside || name == MANIFEST || self.files.iter().any(|(known, ..)| known == name) {
+            if !is_inside || name == MANIFEST || self.files.iter().any(|(known, _)| known == name) {
                 continue;
             }
             let path = self.path.join(name);

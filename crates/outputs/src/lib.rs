@@ -27,7 +27,7 @@
 //! # }
 //! ```
 //!
-//! Wings, lowest first: error, clock, manifest, files, journal, folder, planned, run_files, design_files, sweep_rows,
+//! Wings, lowest first: error, clock, hashed, manifest, files, journal, folder, planned, run_files, design_files, sweep_rows,
 //! shard, sweep_files
 
 pub mod clock;
@@ -35,6 +35,7 @@ pub mod design_files;
 mod error;
 pub mod files;
 pub mod folder;
+mod hashed;
 pub mod journal;
 pub mod manifest;
 pub mod planned;

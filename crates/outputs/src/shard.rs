@@ -1,17 +1,18 @@
 //! Shards of a sweep: what a shard's folder holds beside its results, and all shards read back.
 
 use std::collections::BTreeMap;
-use std::fs;
+use std::fs::{self, File};
+use std::io::{self, BufReader};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::{Value, json};
-use sweep::{RunRecord, SweepInfo, read_records};
+use sweep::{RecordReader, RunRecord, SweepInfo};
 
 use crate::Error;
+use crate::hashed::sha256_of;
 use crate::manifest::{InputEntry, MANIFEST, listed_files};
 use formats::text::diagnostic::Diagnostic;
-use formats::text::inputs::sha256;
 
 /// Name of the file that describes a shard.
 pub(crate) const SHARD: &str = "shard.json";
@@ -53,8 +54,26 @@ pub(crate) struct JoinedShards {
     pub info: SweepInfo,
     /// The files that it read.
     pub inputs: Vec<InputEntry>,
-    /// All runs, in the order of their numbers.
-    pub records: Vec<RunRecord>,
+    /// The files of their runs.
+    rows: Vec<PathBuf>,
+}
+
+impl JoinedShards {
+    /// All runs, shard after shard.
+    pub fn records(&self) -> impl Iterator<Item = io::Result<RunRecord>> {
+        self.rows.iter().flat_map(|path| {
+            let (records, error) = match records_of(path) {
+                Ok(records) => (Some(records), None),
+                Err(error) => (None, Some(Err(error))),
+            };
+            records.into_iter().flatten().chain(error)
+        })
+    }
+}
+
+/// The runs in the file of a shard.
+fn records_of(path: &Path) -> io::Result<RecordReader<BufReader<File>>> {
+    File::open(path).map(|file| RecordReader::new(BufReader::new(file)))
 }
 
 #[derive(Deserialize)]
@@ -74,17 +93,17 @@ struct ShardFile {
 /// missing; all faults of a kind at once.
 pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
     let mut wrong = Vec::new();
-    let mut read: Vec<(&Path, ShardFile, Vec<RunRecord>)> = Vec::new();
+    let mut read: Vec<(&Path, ShardFile, Vec<usize>)> = Vec::new();
     for folder in folders {
         match read_shard(folder) {
-            Ok((shard, records)) => read.push((folder, shard, records)),
+            Ok((shard, runs)) => read.push((folder, shard, runs)),
             Err(diagnostic) => wrong.push(*diagnostic),
         }
     }
     let Some((first, known, _)) = read.first() else { return Err(Error::Files(wrong)) };
-    let (of, runs) = (known.of, known.info.runs);
+    let (of, count) = (known.of, known.info.runs);
     let mut seen: BTreeMap<usize, &Path> = BTreeMap::new();
-    for (folder, shard, records) in &read {
+    for (folder, shard, runs) in &read {
         let fault = |expected: String| Diagnostic::of_file(folder.display().to_string(), expected);
         if shard.sweep != known.sweep || shard.of != of {
             let expected = format!(
@@ -95,8 +114,7 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
         } else if let Some(other) = seen.insert(shard.shard, folder) {
             wrong.push(fault(format!("is shard {} of {of}, as {} is", shard.shard, other.display())));
         }
-        let expected = (shard.shard..=runs).step_by(of.max(1));
-        if !records.iter().map(|record| record.run).eq(expected) {
+        if !runs.iter().copied().eq((shard.shard..=count).step_by(of.max(1))) {
             wrong.push(fault("does not have all its runs".to_owned()).hint("run the shard again"));
         }
     }
@@ -108,19 +126,13 @@ pub(crate) fn read_shards(folders: &[PathBuf]) -> Result<JoinedShards, Error> {
     if !wrong.is_empty() {
         return Err(Error::Files(wrong));
     }
-    let mut records = Vec::with_capacity(runs);
-    let mut description = None;
-    for (_, shard, own) in read {
-        records.extend(own);
-        description.get_or_insert((shard.info, shard.inputs));
-    }
-    records.sort_by_key(|record: &RunRecord| record.run);
-    let (info, inputs) = description.expect("there is a first shard");
-    Ok(JoinedShards { info, inputs, records })
+    let rows = read.iter().map(|(folder, ..)| folder.join(ROWS)).collect();
+    let (_, first, _) = read.swap_remove(0);
+    Ok(JoinedShards { info: first.info, inputs: first.inputs, rows })
 }
 
-/// Reads one shard, whose files must be as its manifest lists them.
-fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<RunRecord>), Box<Diagnostic>> {
+/// Reads one shard, whose files must be as its manifest lists them, and the numbers of its runs.
+fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<usize>), Box<Diagnostic>> {
     let fault = |expected: &str, hint: &str| {
         Box::new(Diagnostic::of_file(folder.display().to_string(), expected).hint(hint))
     };
@@ -128,17 +140,20 @@ fn read_shard(folder: &Path) -> Result<(ShardFile, Vec<RunRecord>), Box<Diagnost
         || fault("is not the folder of a finished shard", "girderway sweep SWEEP --shard K/N makes one");
     let manifest = fs::read(folder.join(MANIFEST)).map_err(|_| none())?;
     let listed = listed_files(&manifest).ok_or_else(none)?;
-    let file = |name: &str| {
-        let bytes = fs::read(folder.join(name)).map_err(|_| none())?;
+    for name in [SHARD, ROWS] {
+        let file = File::open(folder.join(name)).map_err(|_| none())?;
+        let found = sha256_of(file).map_err(|_| none())?;
         let entry = listed.iter().find(|entry| entry.name == name).ok_or_else(none)?;
-        if entry.sha256.as_deref() != Some(&sha256(&bytes)) {
+        if entry.sha256.as_deref() != Some(&found) {
             return Err(fault(&format!("has a {name} that was changed"), "run the shard again"));
         }
-        String::from_utf8(bytes).map_err(|_| none())
-    };
-    let shard: ShardFile = serde_json::from_str(&file(SHARD)?).map_err(|_| none())?;
+    }
+    let text = fs::read(folder.join(SHARD)).map_err(|_| none())?;
+    let shard: ShardFile = serde_json::from_slice(&text).map_err(|_| none())?;
     if shard.format != FORMAT {
         return Err(none());
     }
-    Ok((shard, read_records(&file(ROWS)?)))
+    let records = records_of(&folder.join(ROWS)).map_err(|_| none())?;
+    let runs = records.map(|record| record.map(|record| record.run)).collect::<io::Result<_>>();
+    Ok((shard, runs.map_err(|_| none())?))
 }

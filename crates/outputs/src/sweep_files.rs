@@ -1,11 +1,11 @@
 //! The files of a sweep: all its runs, those of a shard, and shards joined.
 
-use std::collections::BTreeSet;
+use std::io;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use sweep::{RecordLines, ResultTable, RunFailure, RunPlan, RunRecord, Runner, SweepInfo};
+use sweep::{RecordLines, RunFailure, RunPlan, RunRecord, Runner, SweepInfo, TableBuilder};
 
 use crate::Error;
 use crate::files::json as json_text;
@@ -94,14 +94,13 @@ pub fn make_sweep(
         }
     };
     let of_rows = shard.map_or_else(|| key.clone(), |(k, n)| format!("{key} {k}/{n}"));
-    let (mut rows, mut records) = SweepRows::open(path, &of_rows, force)?;
+    let (mut rows, made) = SweepRows::open(path, &of_rows, force)?;
     let stopped =
         || Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned());
-    if !records.is_empty() && progress(SweepProgress::Resumed(records.len(), wanted.len())).is_break() {
+    if !made.is_empty() && progress(SweepProgress::Resumed(made.len(), wanted.len())).is_break() {
         return Err(stopped());
     }
-    let made: BTreeSet<usize> = records.iter().map(|record| record.run).collect();
-    let left: Vec<usize> = wanted.iter().copied().filter(|run| !made.contains(run)).collect();
+    let left: Vec<usize> = wanted.into_iter().filter(|run| !made.contains(run)).collect();
     let work = |run: &usize| {
         let axes = plan.values(*run);
         let outcome = runner.run(&axes);
@@ -114,8 +113,6 @@ pub fn make_sweep(
             failed = Some(error);
             return false;
         }
-        let record = record.beside(records.last());
-        records.push(record);
         done += 1;
         if progress(SweepProgress::Made(done, left.len())).is_break() {
             failed = Some(stopped());
@@ -126,9 +123,9 @@ pub fn make_sweep(
     if let Some(error) = failed {
         return Err(error);
     }
-    records.sort_by_key(|record| record.run);
     let shard = shard.map(|(shard, of)| Shard { key, shard, of, info: info.clone() });
-    let written = write(folder, &info, inputs, records, (shard.as_ref(), threads))?;
+    let made = rows.records().map_err(unreadable)?;
+    let written = write(folder, &info, inputs, made, (shard.as_ref(), threads))?;
     rows.remove();
     Ok(written)
 }
@@ -145,28 +142,40 @@ pub fn join_shards(
 ) -> Result<WrittenSweep, Error> {
     let joined = read_shards(shards)?;
     let folder = OutputFolder::open(path, "sweep", force, &planned(false))?;
-    write(folder, &joined.info, joined.inputs, joined.records, (None, threads))
+    let (info, inputs) = (&joined.info, joined.inputs.clone());
+    write(folder, info, inputs, joined.records(), (None, threads))
 }
 
-/// Writes the results of runs, in the order of their numbers, into a folder.
+/// The error of a file of runs that cannot be read again.
+fn unreadable(error: io::Error) -> Error {
+    Error::NoResults(format!("the runs that were made cannot be read: {error}"))
+}
+
+/// Writes the results of runs, which come in any order, into a folder.
 fn write(
     mut folder: OutputFolder,
     info: &SweepInfo,
     inputs: Vec<InputEntry>,
-    records: Vec<RunRecord>,
+    records: impl Iterator<Item = io::Result<RunRecord>>,
     (shard, threads): (Option<&Shard>, Option<u16>),
 ) -> Result<WrittenSweep, Error> {
+    let axes = info.axes.iter().map(|[pointer, _]| pointer.clone()).collect();
+    let mut table = TableBuilder::new(axes, shard.map_or(info.runs, |shard| info.runs.div_ceil(shard.of)));
+    for record in records {
+        table.add(record.map_err(unreadable)?);
+    }
+    let table = table.finish();
     if let Some(shard) = shard {
         let mut lines = RecordLines::default();
-        folder.add(ROWS, records.iter().map(|record| lines.lines(record)).collect::<String>());
+        folder.add_written(ROWS, |file| {
+            table.records().try_for_each(|record| file.write_all(lines.lines(&record).as_bytes()))
+        })?;
         folder.add(SHARD, json_text(&shard.json(&inputs)));
     }
-    let axes = info.axes.iter().map(|[pointer, _]| pointer.clone()).collect();
-    let table = ResultTable::new(axes, records);
-    folder.add("results.csv", table.csv().map_err(Error::not_shown)?);
+    folder.add_written("results.csv", |file| table.write_csv(file))?;
     #[cfg(feature = "parquet")]
-    folder.add(PARQUET, sweep::parquet(&table).map_err(Error::not_shown)?);
-    folder.add("failures.csv", table.failures_csv().map_err(Error::not_shown)?);
+    folder.add_written(PARQUET, |file| sweep::write_parquet(&table, file).map_err(io::Error::other))?;
+    folder.add_written("failures.csv", |file| table.write_failures_csv(file))?;
     let summary = sweep::summary(info, &table);
     folder.add("summary.json", json_text(&summary));
     let figures = SweepFigures::new(info, &table);
@@ -179,7 +188,7 @@ fn write(
     folder.add("report.html", page.html(threads).map_err(Error::not_shown)?);
     let folder = folder.commit(Manifest::of_entries("sweep", inputs, json!({})))?;
     let failures = table.failures.into_iter().map(|(run, _, why)| (run, why)).collect();
-    Ok(WrittenSweep { folder, summary, rows: table.rows.len(), failures })
+    Ok(WrittenSweep { folder, summary, rows: table.runs.len(), failures })
 }
 
 fn planned(is_shard: bool) -> PlannedFiles {

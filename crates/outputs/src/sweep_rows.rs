@@ -1,12 +1,13 @@
 //! The runs of a sweep that are made: a file in the output folder to which each run is appended, from which an
 //! interrupted sweep resumes.
 
+use std::collections::BTreeSet;
 use std::fs::{self, File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use sweep::{RecordLines, RunRecord, read_records};
+use sweep::{RecordLines, RecordReader, RunRecord};
 
 use crate::Error;
 use crate::files::cannot_write;
@@ -26,33 +27,48 @@ pub(crate) struct SweepRows {
 }
 
 impl SweepRows {
-    /// Opens the file in a folder for the sweep with a key, and returns the runs that it has. A line that an
-    /// interrupted process left unfinished is removed.
+    /// Opens the file in a folder for the sweep with a key, and returns the numbers of the runs that it has. A line that
+    /// an interrupted process left unfinished is removed.
     ///
     /// # Errors
     /// The file belongs to a sweep with another key, unless it may be discarded; an operation of the file system fails.
-    pub fn open(folder: &Path, key: &str, may_discard: bool) -> Result<(SweepRows, Vec<RunRecord>), Error> {
+    pub fn open(folder: &Path, key: &str, may_discard: bool) -> Result<(SweepRows, BTreeSet<usize>), Error> {
         let path = folder.join(ROWS);
         let fail = |error: io::Error| cannot_write(&path, &error);
-        let text = match fs::read(&path) {
-            Ok(bytes) => String::from_utf8_lossy(&bytes).into_owned(),
-            Err(error) if error.kind() == io::ErrorKind::NotFound => String::new(),
-            Err(error) => return Err(fail(error)),
-        };
+        let opened = OpenOptions::new().read(true).append(true).create(true).open(&path);
+        let mut file = opened.map_err(fail)?;
         let head = format!("{}\n", json!({ "format": FORMAT, "sweep": key }));
-        let records = match text.split_once('\n') {
-            Some((first, rest)) if format!("{first}\n") == head => read_records(rest),
-            // a process that was interrupted before it had written the first line
-            None => Vec::new(),
-            Some((first, _)) if !may_discard => return Err(other_sweep(folder, first)),
-            Some(_) => Vec::new(),
-        };
+        let mut first = Vec::new();
+        let mut reader = BufReader::new(&file);
+        reader.read_until(b'\n', &mut first).map_err(fail)?;
+        let mut made = BTreeSet::new();
         let mut lines = RecordLines::default();
-        let kept: String = records.iter().map(|record| lines.lines(record)).collect();
-        fs::write(&path, format!("{head}{kept}")).map_err(fail)?;
-        let file = OpenOptions::new().append(true).open(&path).map_err(fail)?;
+        if first == head.as_bytes() {
+            let mut records = RecordReader::new(reader);
+            for record in records.by_ref() {
+                made.insert(record.map_err(fail)?.run);
+            }
+            lines = records.writer();
+            file.set_len(head.len() as u64 + records.whole()).map_err(fail)?;
+        } else {
+            // without a newline it is that of a process that was interrupted before it had written the first line
+            if first.ends_with(b"\n") && !may_discard {
+                return Err(other_sweep(folder, &String::from_utf8_lossy(&first)));
+            }
+            file.set_len(0).and_then(|()| file.write_all(head.as_bytes())).map_err(fail)?;
+        }
         keeps_runs();
-        Ok((SweepRows { path, file, lines }, records))
+        Ok((SweepRows { path, file, lines }, made))
+    }
+
+    /// The runs that the file has, in the order in which they were made.
+    ///
+    /// # Errors
+    /// The file cannot be read.
+    pub fn records(&self) -> io::Result<RecordReader<BufReader<File>>> {
+        let mut reader = BufReader::new(File::open(&self.path)?);
+        reader.skip_until(b'\n')?;
+        Ok(RecordReader::new(reader))
     }
 
     /// Appends a run.
@@ -104,9 +120,11 @@ mod tests {
         let text = fs::read_to_string(&path).expect("readable");
         fs::write(&path, &text[..text.len() - 5]).expect("writable");
         let (mut rows, known) = SweepRows::open(folder.path(), "key", false).expect("writable");
-        assert_eq!(known, [record(1)]);
+        assert_eq!(known, BTreeSet::from([1]));
         rows.add(&record(2)).expect("writable");
         assert_eq!(fs::read_to_string(&path).expect("readable"), text);
+        let made: Result<Vec<RunRecord>, io::Error> = rows.records().expect("readable").collect();
+        assert_eq!(made.expect("readable"), [record(1), record(2)]);
         drop(rows);
         assert!(SweepRows::open(folder.path(), "other", false).is_err());
         let (rows, known) = SweepRows::open(folder.path(), "other", true).expect("writable");

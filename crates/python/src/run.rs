@@ -52,43 +52,34 @@ impl Run {
         Run { run: Mutex::new(run), clock, cases, why_incomplete }
     }
 
-    /// Calls `read` with the whole run, without the lock of the interpreter.
-    fn with_columns<R: Send>(
+    /// Calls `read` with the whole run and the extremes of its girders, without the lock of the interpreter; the clock
+    /// counts the time that the extremes take. Ctrl-C stops their computation, and they can be asked for again.
+    fn with_girders<R: Send>(
         &self,
         py: Python<'_>,
         read: impl FnOnce(&SceneRun, StageClock) -> R + Send,
-    ) -> R {
+    ) -> PyResult<R> {
         let copy = |array: &Py<PyArray1<f64>>| array.bind(py).readonly().as_array().to_vec();
         let copies: Vec<Vec<Vec<f64>>> =
             self.cases.iter().map(|case| case.arrays.iter().map(copy).collect()).collect();
-        let clock = self.clock.clone();
-        py.detach(move || {
+        let mut clock = self.clock.clone();
+        let made = without_lock(py, None, move |state| {
             let mut run = self.run.lock().unwrap_or_else(PoisonError::into_inner);
             for (case, copies) in run.cases.iter_mut().zip(copies) {
                 for (column, values) in case.columns.columns.iter_mut().zip(copies) {
                     column.values = values;
                 }
             }
-            let made = read(&run, clock);
+            clock.resume();
+            let computed = run.compute_girders(None, &|| state.go_on());
+            clock.prolong();
+            let made = computed.map(|()| read(&run, clock));
             for case in &mut run.cases {
                 case.columns.columns.iter_mut().for_each(|column| column.values = Vec::new());
             }
             made
-        })
-    }
-
-    /// Calls `read` as [`Run::with_columns`] does, with the extremes of girders computed; the clock counts the time they take.
-    fn with_girders<R: Send>(
-        &self,
-        py: Python<'_>,
-        read: impl FnOnce(&SceneRun, StageClock) -> R + Send,
-    ) -> R {
-        self.with_columns(py, |run, mut clock| {
-            clock.resume();
-            run.compute_girders(None);
-            clock.prolong();
-            read(run, clock)
-        })
+        })?;
+        made.map_err(|error| Refusal::from(error).exception(py))
     }
 
     /// Calls `read` with the run without the values of its columns.
@@ -139,15 +130,16 @@ impl Run {
 
     /// The contents of `summary.json`.
     fn summary<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let summary = self.with_girders(py, |run, _| run.summary(&run.comparison(None)));
+        let summary = self.with_girders(py, |run, _| run.summary(&run.comparison(None)))?;
         python(py, &summary)
     }
 
     /// The columns of the envelope of the girders of a case; empty without girders.
     fn envelope<'py>(&self, py: Python<'py>, case: usize) -> PyResult<Bound<'py, PyDict>> {
         self.case(case)?;
-        let text =
-            self.with_run(py, |run| run.cases[case].girders().csv(&run.document.cases[case].scene, case + 1));
+        let text = self.with_girders(py, |run, _| {
+            run.cases[case].girders().csv(&run.document.cases[case].scene, case + 1)
+        })?;
         match text.map_err(internal)? {
             Some(text) => table(py, &text),
             None => Ok(PyDict::new(py)),
@@ -159,13 +151,13 @@ impl Run {
         let messages = self.with_girders(py, |run, _| {
             let all = warning::messages(&run.cases, &run.document);
             all.iter().map(ToString::to_string).collect::<Vec<_>>()
-        });
+        })?;
         PyList::new(py, messages)
     }
 
     /// Writes the files of `girderway run` to a folder.
     fn save(&self, py: Python<'_>, path: PathBuf, force: bool) -> PyResult<PathBuf> {
-        let saved = self.with_girders(py, |run, clock| save_run(run, &path, force, None, clock));
+        let saved = self.with_girders(py, |run, clock| save_run(run, &path, force, None, clock))?;
         saved.map(|written| written.folder).map_err(|error| Refusal::from(error).exception(py))
     }
 }

@@ -188,6 +188,22 @@ def test_ctrl_c_stops_a_run():
     signal.signal(signal.SIGINT, before)
 
 
+def test_ctrl_c_stops_extremes_that_are_computed_when_they_are_asked_for():
+    import _thread
+
+    crane, changes = EXAMPLES / "bridge_crane" / "scene.json", {"end": {"time": 20}}
+    run = gw.run(crane, changes, comparisons=False)
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    # they take more than a second
+    timer = threading.Timer(0.1, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        run.summary
+    timer.join()
+    signal.signal(signal.SIGINT, before)
+    assert run.summary["extremes"] == gw.run(crane, changes, comparisons=False).summary["extremes"]
+
+
 def test_the_lock_is_released_while_a_scene_runs():
     """Another thread of Python goes on: it counts as far as without a run, up to the share of the processor."""
     stop, counts = threading.Event(), [0]

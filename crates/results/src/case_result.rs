@@ -1,5 +1,8 @@
 //! The result of one case of a scene.
 
+use std::ops::ControlFlow;
+use std::sync::OnceLock;
+
 use formats::scene::motion::SimulationInput;
 use sim::{History, Run};
 
@@ -46,6 +49,15 @@ pub struct CaseResult {
     pub codes: Option<CodeCheck>,
     /// Damage at the stress points that have a detail category.
     pub fatigue: Vec<FatigueResult>,
+    /// What first order leaves out, once it has been asked for.
+    pub(crate) second_order: OnceLock<Vec<FirstOrderDoubt>>,
+}
+
+/// How far first order does not hold for a structure, where that is to be told: as a warning or a note.
+#[derive(Clone, Debug)]
+pub(crate) struct FirstOrderDoubt {
+    pub is_warning: bool,
+    pub text: String,
 }
 
 impl CaseResult {
@@ -54,6 +66,12 @@ impl CaseResult {
     #[must_use]
     pub fn girders(&self) -> &GirderExtremes {
         self.girders.get(&self.input, &self.run.history, &self.response.envelopes)
+    }
+
+    /// The extremes and envelopes of the girders as [`CaseResult::girders`] returns them; `None` where `go_on` has broken
+    /// off. Who asks again computes them from the beginning.
+    pub fn girders_while(&self, go_on: &dyn Fn() -> ControlFlow<()>) -> Option<&GirderExtremes> {
+        self.girders.get_while(&self.input, &self.run.history, &self.response.envelopes, &mut |_| go_on())
     }
 
     /// Drops the history of the run, whose values are in the columns. Its rows are kept as long as extremes of girders

@@ -5,8 +5,8 @@
 //! modes, values of codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use sim::{Foundation, Status};
 
@@ -23,10 +23,11 @@ use formats::scene::motion::simulation_input;
 use formats::scene::{Case, Document, Scene};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
-/// SimulationProgress of a simulation.
+/// How far a simulation is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum SimulationProgress<'a> {
-    /// Fraction of all simulated time that is done, 0 to 1; that of a case begins again with each trial.
+    /// Fraction of all simulated time that is done, 0 to 1; that of a case begins again with each trial. At 1 all runs
+    /// have ended and are evaluated.
     Fraction(f64),
     /// A run with these foundations begins, as one of several from which "auto" chooses.
     Trial(&'a str),
@@ -190,11 +191,24 @@ fn run_case(
     let girders = match when {
         GirderTime::OnDemand => DeferredGirders::of(inputs),
         GirderTime::WithRun => {
-            let found = inputs.extremes(&input, &run.history, &response.envelopes, watch);
-            found.ok_or(Error::Stopped)?.into()
+            let found = Box::new(inputs).extremes(&input, &run.history, &response.envelopes, watch);
+            found.map_err(|_| Error::Stopped)?.into()
         }
     };
-    Ok(CaseResult { label, input, run, columns: record, choices, lines, response, girders, codes, fatigue })
+    let second_order = OnceLock::new();
+    Ok(CaseResult {
+        label,
+        input,
+        run,
+        columns: record,
+        choices,
+        lines,
+        response,
+        girders,
+        codes,
+        fatigue,
+        second_order,
+    })
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

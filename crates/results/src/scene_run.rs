@@ -87,11 +87,17 @@ impl SceneRun {
     }
 
     /// Computes the extremes of girders that the runs have left ([`GirderTime::OnDemand`](crate::cases::GirderTime::OnDemand)),
-    /// on at most `threads` threads.
-    pub fn compute_girders(&self, threads: Option<u16>) {
-        parallel_map(&self.cases, threads, |_, case| {
-            let _ = case.girders();
-        });
+    /// on at most `threads` threads. `go_on`, which is called from any thread, can break off.
+    ///
+    /// # Errors
+    /// [`Error::Stopped`] where `go_on` has broken off; the extremes can be asked for again.
+    pub fn compute_girders(
+        &self,
+        threads: Option<u16>,
+        go_on: &(dyn Fn() -> ControlFlow<()> + Sync),
+    ) -> Result<(), Error> {
+        let found = parallel_map(&self.cases, threads, |_, case| case.girders_while(&|| go_on()).is_some());
+        if found.into_iter().all(|found| found) { Ok(()) } else { Err(Error::Stopped) }
     }
 
     /// The reason why the run of a case did not reach its end, with the label of the first such case; `None` where all

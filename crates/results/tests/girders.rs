@@ -1,6 +1,7 @@
 //! Extremes of girders that are computed with a run, and those that are computed when they are asked for.
 
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use formats::scene::SceneSource;
 use formats::text::source::Source;
@@ -24,7 +25,7 @@ fn assert_same(example: &str, changes: &str) {
     let with_run = run(example, changes, &cache, GirderTime::WithRun);
     let mut dropped = run(example, changes, &cache, GirderTime::OnDemand);
     let asked = run(example, changes, &cache, GirderTime::OnDemand);
-    asked.compute_girders(Some(2));
+    asked.compute_girders(Some(2), &|| ControlFlow::Continue(())).expect("nobody stops it");
     dropped.cases.iter_mut().for_each(|case| case.drop_history());
     assert_eq!(with_run.cases.len(), dropped.cases.len());
     assert!(!with_run.cases[0].girders().extremes.is_empty(), "{example} has a girder");
@@ -41,6 +42,41 @@ fn extremes_on_demand_are_those_of_the_run_to_the_last_bit() {
     assert_same("runway", r#"{"end": {"time": 2}}"#);
     // stations of tables, chains of parts, and steps that no history records
     assert_same("bogie", r#"{"end": {"time": 2}}"#);
+}
+
+#[test]
+fn extremes_that_were_stopped_anywhere_are_found_when_they_are_asked_for_again() {
+    // steps and modes, and rows whose run is repeated
+    for (example, changes) in [("runway", r#"{"end": {"time": 1}}"#), ("bogie", r#"{"end": {"time": 1}}"#)] {
+        let cache = StructureCache::default();
+        let known = run(example, changes, &cache, GirderTime::OnDemand);
+        let asked = AtomicUsize::new(0);
+        let count = || {
+            asked.fetch_add(1, Ordering::Relaxed);
+            ControlFlow::Continue(())
+        };
+        known.compute_girders(Some(1), &count).expect("nobody stops it");
+        let all = asked.load(Ordering::Relaxed);
+        assert!(all > 20, "{example} asks {all} times whether to go on");
+        let stopped = run(example, changes, &cache, GirderTime::OnDemand);
+        for last in [0, 1, all / 7, all / 3, all / 2, all - 2] {
+            let asked = AtomicUsize::new(0);
+            let stop = || match asked.fetch_add(1, Ordering::Relaxed) {
+                number if number < last => ControlFlow::Continue(()),
+                _ => ControlFlow::Break(()),
+            };
+            let found = stopped.compute_girders(Some(1), &stop);
+            // cases that were complete before are not computed again
+            assert!(
+                matches!(found, Err(results::Error::Stopped)) || last > all / 7,
+                "{example} after {last}"
+            );
+        }
+        stopped.compute_girders(Some(1), &|| ControlFlow::Continue(())).expect("nobody stops it");
+        for (known, found) in known.cases.iter().zip(&stopped.cases) {
+            assert_eq!(known.girders(), found.girders(), "{example} {}", known.label);
+        }
+    }
 }
 
 #[test]

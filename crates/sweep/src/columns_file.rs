@@ -1,5 +1,6 @@
 //! The table of results as a Parquet file.
 
+use std::io::Write;
 use std::sync::Arc;
 
 use formats::sweep::AxisValue;
@@ -11,18 +12,19 @@ use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::Type;
 
+use crate::axis_column::AxisColumn;
 use crate::table::ResultTable;
 
 /// Rows of a group, which readers take at once.
 const GROUP: usize = 1 << 17;
 
-/// The results as a Parquet file with the columns of [`ResultTable::csv`]: `run` as an integer, axes as numbers, strings
-/// or true and false, results as numbers that may be missing.
+/// Writes the results as a Parquet file with the columns of [`ResultTable::write_csv`]: `run` as an integer, axes as
+/// numbers, strings or true and false, results as numbers that may be missing.
 ///
 /// # Errors
-/// None in practice: writing to memory does not fail.
-pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
-    let kinds: Vec<Physical> = (0..table.axes.len()).map(|axis| kind(table, axis)).collect();
+/// Those of the writer.
+pub fn write_parquet(table: &ResultTable, to: impl Write + Send) -> Result<(), ParquetError> {
+    let kinds: Vec<Physical> = table.axis_values.iter().map(kind).collect();
     let mut fields = vec![field("run", Physical::INT64, Repetition::REQUIRED)?];
     for (name, kind) in table.axes.iter().zip(&kinds) {
         fields.push(field(name, *kind, Repetition::REQUIRED)?);
@@ -32,8 +34,9 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
     }
     let schema = Type::group_type_builder("results").with_fields(fields).build()?;
     let properties = WriterProperties::builder().set_created_by("girderway".to_owned()).build();
-    let mut writer = SerializedFileWriter::new(Vec::new(), Arc::new(schema), Arc::new(properties))?;
-    for rows in table.rows.chunks(GROUP) {
+    let mut writer = SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))?;
+    for from in (0..table.runs.len()).step_by(GROUP) {
+        let rows = from..table.runs.len().min(from + GROUP);
         let mut group = writer.next_row_group()?;
         let mut next =
             |write: &mut dyn FnMut(&mut SerializedColumnWriter<'_>) -> Result<(), ParquetError>| {
@@ -41,19 +44,19 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
                 write(&mut column)?;
                 column.close()
             };
-        let runs: Vec<i64> = rows.iter().map(|row| row.run as i64).collect();
+        let runs: Vec<i64> = table.runs[rows.clone()].iter().map(|&run| run as i64).collect();
         next(&mut |column| column.typed::<Int64Type>().write_batch(&runs, None, None).map(drop))?;
-        for (axis, kind) in kinds.iter().enumerate() {
-            let values = rows.iter().map(|row| &row.axes[axis]);
+        for (axis, kind) in table.axis_values.iter().zip(&kinds) {
+            let values = rows.clone().map(|row| axis.value(row));
             match kind {
                 Physical::DOUBLE => {
-                    let numbers: Vec<f64> = values.filter_map(AxisValue::number).collect();
+                    let numbers: Vec<f64> = values.filter_map(|value| value.number()).collect();
                     next(&mut |column| {
                         column.typed::<DoubleType>().write_batch(&numbers, None, None).map(drop)
                     })?;
                 }
                 Physical::BOOLEAN => {
-                    let flags: Vec<bool> = values.map(|value| *value == AxisValue::Flag(true)).collect();
+                    let flags: Vec<bool> = values.map(|value| value == AxisValue::Flag(true)).collect();
                     next(&mut |column| column.typed::<BoolType>().write_batch(&flags, None, None).map(drop))?;
                 }
                 _ => {
@@ -66,8 +69,9 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
             }
         }
         for result in 0..table.columns.len() {
-            let there: Vec<i16> = rows.iter().map(|row| i16::from(row.values[result].is_some())).collect();
-            let numbers: Vec<f64> = rows.iter().filter_map(|row| row.values[result]).collect();
+            let values = || rows.clone().map(|row| table.result(result, row));
+            let there: Vec<i16> = values().map(|value| i16::from(value.is_some())).collect();
+            let numbers: Vec<f64> = values().flatten().collect();
             next(&mut |column| match column.untyped() {
                 ColumnWriter::DoubleColumnWriter(writer) => {
                     writer.write_batch(&numbers, Some(&there), None).map(drop)
@@ -77,12 +81,12 @@ pub fn parquet(table: &ResultTable) -> Result<Vec<u8>, ParquetError> {
         }
         group.close()?;
     }
-    writer.into_inner()
+    writer.close().map(drop)
 }
 
 /// The type of an axis: that of its values in the first run.
-fn kind(table: &ResultTable, axis: usize) -> Physical {
-    match table.rows.first().map(|row| &row.axes[axis]) {
+fn kind(axis: &AxisColumn) -> Physical {
+    match (!axis.is_empty()).then(|| axis.value(0)) {
         Some(AxisValue::Text(_)) => Physical::BYTE_ARRAY,
         Some(AxisValue::Flag(_)) => Physical::BOOLEAN,
         Some(AxisValue::Number(_)) | None => Physical::DOUBLE,
@@ -101,27 +105,36 @@ mod tests {
     use parquet::record::RowAccessor;
 
     use super::*;
-    use crate::table::TableRow;
+    use crate::outcome::RunRow;
+    use crate::records::RunRecord;
 
     #[test]
     fn a_parquet_file_has_the_values_of_the_table() {
-        let row = |run: usize, word: &str, value: Option<f64>| TableRow {
+        let record = |run: usize, word: &str, results: &[(&str, f64)]| RunRecord {
             run,
             axes: vec![
                 AxisValue::Number(0.1 * run as f64),
                 AxisValue::Text(word.to_owned()),
                 AxisValue::Flag(run == 1),
             ],
-            values: vec![value, Some(-1.5)],
+            outcome: Ok(RunRow {
+                names: Arc::new(results.iter().map(|(name, _)| (*name).to_owned()).collect()),
+                values: results.iter().map(|(_, value)| *value).collect(),
+                dimensions: Vec::new(),
+            }),
         };
-        let table = ResultTable {
-            axes: ["/a", "/b", "/c"].map(str::to_owned).to_vec(),
-            columns: ["x.max", "x.min"].map(str::to_owned).to_vec(),
-            rows: vec![row(1, "influence", Some(0.1)), row(3, "rigid", None)],
-            failures: Vec::new(),
+        let records = [
+            record(1, "influence", &[("x.max", 0.1), ("x.min", -1.5)]),
+            record(3, "rigid", &[("x.min", -1.5)]),
+        ];
+        let table = ResultTable::new(["/a", "/b", "/c"].map(str::to_owned).to_vec(), records);
+        let written = || {
+            let mut bytes = Vec::new();
+            write_parquet(&table, &mut bytes).expect("memory");
+            bytes
         };
-        let bytes = parquet(&table).expect("memory");
-        assert_eq!(bytes, parquet(&table).expect("memory"), "equal tables give equal bytes");
+        let bytes = written();
+        assert_eq!(bytes, written(), "equal tables give equal bytes");
         let reader = SerializedFileReader::new(bytes::Bytes::from(bytes)).expect("a Parquet file");
         let rows: Vec<_> = reader.get_row_iter(None).expect("rows").map(|row| row.expect("a row")).collect();
         assert_eq!(rows.len(), 2);

@@ -22,19 +22,20 @@
 //! let plan = RunPlan::new(&sweep);
 //! let runner = Runner::new(&sweep);
 //! let record = |run| RunRecord { run, axes: plan.values(run), outcome: runner.run(&plan.values(run)) };
-//! let table = ResultTable::new(sweep.pointers(), (1..=plan.runs()).map(record).collect());
+//! let table = ResultTable::new(sweep.pointers(), (1..=plan.runs()).map(record));
 //! assert_eq!(table.columns, ["girder.midspan.max", "girder.midspan.min"]);
-//! assert_eq!(table.rows.len(), 2);
+//! assert_eq!(table.runs, [1, 2]);
 //! ```
 //!
-//! Wings, lowest first: points, plan, outcome, info, values, runner, records, table, statistics, sensitivity, summary, columns_file
+//! Wings, lowest first: points, plan, outcome, info, values, runner, records, axis_column, table, statistics, sensitivity, summary, columns_file
 //!
 //! 1. `points`, `plan`: points of the unit hypercube; the values of the axes in each run;
 //! 2. `outcome`, `info`, `values`, `runner`: what a run gives; what a sweep is; results by name; one run;
-//! 3. `records`, `table`: runs as lines of text; the results of all runs;
+//! 3. `records`, `axis_column`, `table`: runs as lines of text; the values of an axis and the results of all runs;
 //! 4. `statistics`, `sensitivity`, `summary`: what follows from the table;
 //! 5. `columns_file`: the table as a Parquet file.
 
+mod axis_column;
 #[cfg(feature = "parquet")]
 mod columns_file;
 mod info;
@@ -49,14 +50,15 @@ mod summary;
 mod table;
 mod values;
 
+pub use axis_column::AxisColumn;
 #[cfg(feature = "parquet")]
-pub use columns_file::parquet;
+pub use columns_file::write_parquet;
 pub use info::SweepInfo;
 pub use outcome::{RunFailure, RunOutcome, RunRow};
 pub use plan::RunPlan;
-pub use records::{RecordLines, RunRecord, read_records};
+pub use records::{RecordLines, RecordReader, RunRecord};
 pub use runner::Runner;
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use statistics::{Interval, QUANTILES, ResultDistribution};
 pub use summary::summary;
-pub use table::{ResultTable, TableRow};
+pub use table::{ResultTable, TableBuilder};

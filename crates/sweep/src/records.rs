@@ -4,6 +4,8 @@
 //! that follow; a line `{"run": 7, "axes": [...], "values": [...]}` is a run, and `{"run": 7, "axes": [...], "failure":
 //! "..."}` one without results. Numbers have as many digits as their doubles need.
 
+use std::collections::BTreeSet;
+use std::io::{self, BufRead};
 use std::sync::Arc;
 
 use formats::sweep::AxisValue;
@@ -20,24 +22,6 @@ pub struct RunRecord {
     pub axes: Vec<AxisValue>,
     /// Its results.
     pub outcome: RunOutcome,
-}
-
-impl RunRecord {
-    /// The run in little memory beside another one: equal names are shared, and dimensions, which are those of the input
-    /// as written, are left out.
-    #[must_use]
-    pub fn beside(mut self, other: Option<&RunRecord>) -> RunRecord {
-        if let Ok(row) = &mut self.outcome {
-            row.dimensions = Vec::new();
-            row.values.shrink_to_fit();
-            if let Some(Ok(known)) = other.map(|other| &other.outcome)
-                && known.names == row.names
-            {
-                row.names = Arc::clone(&known.names);
-            }
-        }
-        self
-    }
 }
 
 /// Writes runs as lines.
@@ -65,25 +49,68 @@ impl RecordLines {
     }
 }
 
-/// The runs in a text of lines; each run once, the first of those with the same number. Reading ends at the first line
-/// that is not whole, which an interrupted writer leaves.
-#[must_use]
-pub fn read_records(text: &str) -> Vec<RunRecord> {
-    let mut names: Arc<Vec<String>> = Arc::default();
-    let mut seen = std::collections::BTreeSet::new();
-    let mut records = Vec::new();
-    for line in text.split_inclusive('\n').filter(|line| line.ends_with('\n')) {
-        let Ok(value) = serde_json::from_str::<Value>(line) else { break };
-        if let Some(list) = value["names"].as_array() {
-            names = Arc::new(list.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect());
-            continue;
-        }
-        let Some(record) = record(&value, &names) else { break };
-        if seen.insert(record.run) {
-            records.push(record);
+/// Reads the runs of a file of lines, one after the other; each run once, the first of those with the same number.
+/// Reading ends at the first line that is not whole, which an interrupted writer leaves.
+#[derive(Debug)]
+pub struct RecordReader<R> {
+    lines: R,
+    line: Vec<u8>,
+    names: Arc<Vec<String>>,
+    seen: BTreeSet<usize>,
+    whole: u64,
+}
+
+impl<R: BufRead> RecordReader<R> {
+    /// A reader of lines that begin here.
+    pub fn new(lines: R) -> RecordReader<R> {
+        RecordReader { lines, line: Vec::new(), names: Arc::default(), seen: BTreeSet::new(), whole: 0 }
+    }
+
+    /// Bytes of the whole lines that were read.
+    pub const fn whole(&self) -> u64 {
+        self.whole
+    }
+
+    /// A writer that goes on after the lines that were read.
+    #[must_use]
+    pub fn writer(&self) -> RecordLines {
+        RecordLines { names: Some(Arc::clone(&self.names)).filter(|_| self.whole > 0) }
+    }
+
+    /// The next run; `None` after the last whole line.
+    fn read(&mut self) -> io::Result<Option<RunRecord>> {
+        loop {
+            self.line.clear();
+            let read = self.lines.read_until(b'\n', &mut self.line)?;
+            if self.line.last() != Some(&b'\n') {
+                return Ok(None);
+            }
+            let Ok(value) = serde_json::from_slice::<Value>(&self.line) else { return Ok(None) };
+            let found = match value["names"].as_array() {
+                Some(list) => {
+                    let names = list.iter().filter_map(|name| name.as_str().map(str::to_owned)).collect();
+                    self.names = Arc::new(names);
+                    None
+                }
+                None => match record(&value, &self.names) {
+                    Some(record) => Some(record),
+                    None => return Ok(None),
+                },
+            };
+            self.whole += read as u64;
+            if let Some(record) = found.filter(|record| self.seen.insert(record.run)) {
+                return Ok(Some(record));
+            }
         }
     }
-    records
+}
+
+impl<R: BufRead> Iterator for RecordReader<R> {
+    type Item = io::Result<RunRecord>;
+
+    fn next(&mut self) -> Option<io::Result<RunRecord>> {
+        self.read().transpose()
+    }
 }
 
 fn record(value: &Value, names: &Arc<Vec<String>>) -> Option<RunRecord> {
@@ -132,12 +159,21 @@ mod tests {
         let mut writer = RecordLines::default();
         let text: String = records.iter().map(|record| writer.lines(record)).collect();
         assert_eq!(text.matches("names").count(), 2);
-        assert_eq!(read_records(&text), records);
+        let read = |text: &str| -> Vec<RunRecord> {
+            RecordReader::new(text.as_bytes()).map(|record| record.expect("memory")).collect()
+        };
+        assert_eq!(read(&text), records);
         let twice = format!("{text}{text}");
-        assert_eq!(read_records(&twice), records);
+        assert_eq!(read(&twice), records);
         for cut in 0..text.len() {
-            let found = read_records(&text[..cut]);
+            let mut reader = RecordReader::new(&text.as_bytes()[..cut]);
+            let found: Vec<RunRecord> = reader.by_ref().map(|record| record.expect("memory")).collect();
             assert_eq!(found, records[..found.len()], "cut at {cut}");
+            // what was cut off is written again
+            let mut whole = text[..reader.whole() as usize].to_owned();
+            let mut writer = reader.writer();
+            whole.extend(records[found.len()..].iter().map(|record| writer.lines(record)));
+            assert_eq!(whole, text, "cut at {cut}");
         }
     }
 }

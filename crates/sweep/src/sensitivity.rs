@@ -2,6 +2,7 @@
 
 use formats::sweep::AxisValue;
 
+use crate::axis_column::AxisColumn;
 use crate::statistics::chance_of_correlation;
 use crate::table::ResultTable;
 
@@ -39,25 +40,25 @@ pub struct Sensitivity {
 /// measures from given data (2013); Ezekiel's adjustment of the correlation ratio.
 #[must_use]
 pub fn sensitivities(table: &ResultTable, column: usize) -> Vec<Sensitivity> {
-    let rows: Vec<_> = table.rows.iter().filter_map(|row| Some((row, row.values[column]?))).collect();
-    let results: Vec<f64> = rows.iter().map(|(_, value)| *value).collect();
+    let (rows, results): (Vec<usize>, Vec<f64>) =
+        (0..table.runs.len()).filter_map(|row| Some((row, table.result(column, row)?))).unzip();
     let is_constant = results.windows(2).all(|pair| pair[0] == pair[1]);
     if results.len() < FEWEST || is_constant {
         return Vec::new();
     }
     let ranks_of_results = ranks(&results);
-    let axis = |k: usize| {
-        let values: Vec<&AxisValue> = rows.iter().map(|(row, _)| &row.axes[k]).collect();
-        let numbers: Option<Vec<f64>> = values.iter().map(|value| value.number()).collect();
+    let axis = |values: &AxisColumn| {
+        let values = || rows.iter().map(|&row| values.value(row));
+        let numbers: Option<Vec<f64>> = values().map(|value| value.number()).collect();
         let rank_correlation =
             numbers.as_deref().and_then(|numbers| correlation(&ranks(numbers), &ranks_of_results));
         Sensitivity {
             rank_correlation,
             chance: rank_correlation.map(|r| chance_of_correlation(r, results.len())),
-            first_order: first_order(&classes(&values, numbers.as_deref()), &results),
+            first_order: first_order(&classes(values(), numbers.as_deref()), &results),
         }
     };
-    (0..table.axes.len()).map(axis).collect()
+    table.axis_values.iter().map(axis).collect()
 }
 
 /// Ranks from 1; equal values have the mean of their ranks.
@@ -88,10 +89,11 @@ fn correlation(a: &[f64], b: &[f64]) -> Option<f64> {
 }
 
 /// The class of each run by the value of an axis, from 0.
-fn classes(values: &[&AxisValue], numbers: Option<&[f64]>) -> Vec<usize> {
-    let mut distinct: Vec<&AxisValue> = Vec::new();
-    let mut own: Vec<usize> = Vec::with_capacity(values.len());
-    for &value in values {
+fn classes(values: impl ExactSizeIterator<Item = AxisValue>, numbers: Option<&[f64]>) -> Vec<usize> {
+    let count = values.len();
+    let mut distinct: Vec<AxisValue> = Vec::new();
+    let mut own: Vec<usize> = Vec::with_capacity(count);
+    for value in values {
         let found = distinct.iter().position(|known| *known == value);
         if found.is_none() && distinct.len() == CLASSES {
             break;
@@ -101,17 +103,17 @@ fn classes(values: &[&AxisValue], numbers: Option<&[f64]>) -> Vec<usize> {
             distinct.push(value);
         }
     }
-    let is_complete = own.len() == values.len();
-    if is_complete && values.len() >= IN_CLASS * distinct.len() {
+    let is_complete = own.len() == count;
+    if is_complete && count >= IN_CLASS * distinct.len() {
         return own;
     }
     let Some(numbers) = numbers else { return own };
-    let count = CLASSES.min(((values.len() as f64).sqrt()) as usize).max(2);
+    let groups = CLASSES.min(((count as f64).sqrt()) as usize).max(2);
     let mut order: Vec<usize> = (0..numbers.len()).collect();
     order.sort_by(|&a, &b| numbers[a].total_cmp(&numbers[b]).then(a.cmp(&b)));
     let mut class = vec![0; numbers.len()];
     for (place, &index) in order.iter().enumerate() {
-        class[index] = place * count / numbers.len();
+        class[index] = place * groups / numbers.len();
     }
     class
 }
@@ -139,22 +141,21 @@ fn first_order(classes: &[usize], results: &[f64]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use std::f64::consts::PI;
+    use std::sync::Arc;
 
     use super::*;
+    use crate::outcome::RunRow;
     use crate::points::UnitPoints;
-    use crate::table::TableRow;
+    use crate::records::RunRecord;
 
     fn table(points: &UnitPoints, runs: usize, f: impl Fn([f64; 3]) -> f64) -> ResultTable {
-        let row = |run: usize| {
+        let names = Arc::new(vec!["f".to_owned()]);
+        let record = |run: usize| {
             let x = [0, 1, 2].map(|axis| PI * (2.0 * points.coordinate(axis, run - 1) - 1.0));
-            TableRow { run, axes: x.map(AxisValue::Number).to_vec(), values: vec![Some(f(x))] }
+            let row = RunRow { names: Arc::clone(&names), values: vec![f(x)], dimensions: Vec::new() };
+            RunRecord { run, axes: x.map(AxisValue::Number).to_vec(), outcome: Ok(row) }
         };
-        ResultTable {
-            axes: ["/a", "/b", "/c"].map(str::to_owned).to_vec(),
-            columns: vec!["f".to_owned()],
-            rows: (1..=runs).map(row).collect(),
-            failures: Vec::new(),
-        }
+        ResultTable::new(["/a", "/b", "/c"].map(str::to_owned).to_vec(), (1..=runs).map(record))
     }
 
     #[test]

@@ -55,7 +55,7 @@ pub fn summary(info: &SweepInfo, table: &ResultTable) -> Value {
         "seed": info.seed,
         "axes": axes,
         "runs": info.runs,
-        "with_results": table.rows.len(),
+        "with_results": table.runs.len(),
         "failures": table.failures.len(),
         "results": results,
     })

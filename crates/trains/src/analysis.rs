@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
+use crate::alone::Alone;
 use crate::collect::{Accumulated, Entry, entry, is_better, offer, sign_of, spans_of, standings};
 use crate::dead::{DeadLoad, DeadLoads};
-use crate::deflection::Deflections;
+use crate::deflection::{Deflections, GAP, MOST};
 use crate::effect::{extremes_of_effects, plans};
 use crate::error::Error;
 use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtreme, TrainPosition};
@@ -220,6 +221,26 @@ impl<'a> Analysis<'a> {
                     if plan.trains.len() == 1 {
                         let found = follow_one(plan, over, carrier, &target, entry.governing.as_ref());
                         offer(&mut entry.governing, found, sign);
+                        if over.all().any(|passage| passage.on.bent_row(target.k).is_some()) {
+                            let search = Alone {
+                                plan,
+                                over,
+                                carrier,
+                                quantity: *quantity,
+                                sign,
+                                window: ends,
+                                dead: Some(dead),
+                                kinks: 0.0,
+                                gap: GAP,
+                                size: 0.0,
+                                most: MOST,
+                            };
+                            let known =
+                                entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                            let (found, bound) = search.enclosed(None, known);
+                            offer(&mut entry.governing, found, sign);
+                            entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
+                        }
                         continue;
                     }
                     let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
@@ -267,7 +288,7 @@ impl<'a> Analysis<'a> {
                             continue;
                         };
                         let found = EnvelopeValue { rail: carrier.rail, quantity, is_max, governing };
-                        offer_envelope(&mut out.envelopes, found, slack);
+                        offer_envelope(out, found, slack);
                     }
                 }
             }
@@ -288,20 +309,28 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// Adds a value of an envelope, or replaces that of the other side of the same place if it is better. Places come in
-/// increasing order, so that those at the same place are among the last.
-fn offer_envelope(all: &mut Vec<EnvelopeValue>, found: EnvelopeValue, slack: f64) {
-    let known = all.iter_mut().rev().take(4 * GirderResponse::ALL.len()).find(|known| {
+/// Adds a value of an envelope. Where the other side of the same place has one, the better of the two stays in the
+/// envelope, and the other one is kept beside it. Places come in increasing order, so that those at the same place are
+/// among the last.
+fn offer_envelope(out: &mut CaseEnvelopes, found: EnvelopeValue, slack: f64) {
+    let all = &mut out.envelopes;
+    let from = all.len().saturating_sub(4 * GirderResponse::ALL.len());
+    let known = (from..all.len()).rev().find(|&index| {
+        let known = &all[index];
         known.rail == found.rail
             && (known.governing.x - found.governing.x).abs() <= slack
             && known.quantity == found.quantity
             && known.is_max == found.is_max
     });
-    match known {
-        Some(known) if is_better(&found.governing, &known.governing, sign_of(found.is_max)) => *known = found,
-        Some(_) => {}
-        None => all.push(found),
+    let Some(index) = known else {
+        all.push(found);
+        return;
+    };
+    let (known, mut other) = (&mut all[index].governing, found.governing);
+    if is_better(&other, known, sign_of(found.is_max)) {
+        std::mem::swap(known, &mut other);
     }
+    out.other_sides.push((index, other));
 }
 
 /// A section of a carrier under the trains of a case.

@@ -94,8 +94,10 @@ pub struct SpanDeflection {
 /// The results of one case.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct CaseEnvelopes {
-    /// Envelopes by rail and coordinate.
+    /// Envelopes by rail and coordinate; where the two sides of a place differ, the more extreme one.
     pub envelopes: Vec<EnvelopeValue>,
+    /// Of places at which two members meet: an index among the envelopes, and the value at the other side of that place.
+    pub other_sides: Vec<(usize, Governing)>,
     /// Extremes by rail, span, quantity, largest first.
     pub extremes: Vec<SpanExtreme>,
     /// Deflections from chords.

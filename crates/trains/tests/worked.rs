@@ -111,6 +111,35 @@ fn dead_load_adds_its_own() {
     assert!(least.value.abs() < 1e-11, "{least:?}");
 }
 
+/// At the middle support of two equal spans L the shear force jumps. Analytic, by the equation of three moments: a wheel P
+/// beside the support causes a shear of P on its side and none on the other, where each wheel position has the same sign;
+/// a dead load w has 5/8 w L of opposite signs.
+#[test]
+fn shear_envelopes_have_both_sides_of_a_support() {
+    let (length, load, dead) = (8.0, 100.0, 3.0);
+    let girder = Girder {
+        spans: vec![length, length],
+        e: 2.1e8,
+        i_vertical: 5e-4,
+        mass_per_length: Some(0.2),
+        ..Girder::default()
+    };
+    let loads = DeadLoads { gravity: 10.0, lines: vec![1.0] };
+    let found = solve(&girder, vec![train(&[(0.0, load)])], &loads, vec![length]);
+    let of_dead = 0.625 * dead * length;
+    for (is_max, sign) in [(true, 1.0), (false, -1.0)] {
+        let is_own = |e: &trains::EnvelopeValue| {
+            (e.governing.x, e.quantity, e.is_max) == (length, GirderResponse::VerticalShear, is_max)
+        };
+        let index = found.envelopes.iter().position(is_own).expect("the place was asked for");
+        let one = &found.envelopes[index].governing;
+        let (_, other) = found.other_sides.iter().find(|(of, _)| *of == index).expect("two members meet");
+        assert!((one.value - sign * (load + of_dead)).abs() < 1e-9, "{one:?}");
+        assert!((other.value + sign * of_dead).abs() < 1e-9, "{other:?}");
+        assert!(one.side != other.side && one.x == other.x);
+    }
+}
+
 /// Classical results for trains that fit on a simple beam entirely: the moment under a wheel is largest where midspan halves
 /// the distance of the wheel from the resultant of the train. Analytic: with the resultant R at a distance e from the wheel,
 /// the moment is R (L/2 - e/2)^2/L less the moment of the wheels before it.

@@ -76,6 +76,8 @@ fn whole(
     let options = RunOptions { threads: global.threads, ..RunOptions::default() };
     let run = SceneRun::on(document, known, options, &|now| {
         match now {
+            // nobody knows how long an evaluation takes
+            SimulationProgress::Fraction(share) if share >= 1.0 => bar.without_end(": evaluating the run"),
             SimulationProgress::Fraction(share) => bar.set((1000.0 * share) as u64),
             SimulationProgress::Trial(foundations) => {
                 bar.name(&format!("simulating, trial on {foundations}"))
@@ -85,7 +87,9 @@ fn whole(
     })?;
     drop(bar);
     clock.lap("simulation");
+    let stage = progress.stage("writing the results");
     let written = write_run(&run, name, folder, global.threads, clock)?;
+    drop(stage);
     for warning in &written.warnings {
         progress.say(&format!("warning: {warning}"));
     }

@@ -55,6 +55,14 @@ pub fn design() -> Value {
         json!({ "if": { "properties": { "code": code }, "required": ["code"] }, "then": then })
     });
     schema["$defs"]["DesignPractice"]["allOf"] = json!(conditions);
+    let spans = &mut schema["properties"]["spans"]["additionalProperties"];
+    spans["minItems"] = json!(2);
+    restrictions::increasing(spans, None);
+    // the wheels of each rail increase: where no wheel names its rail, all are on one
+    let wheels = &mut schema["$defs"]["Train"]["properties"]["wheels"];
+    restrictions::increasing(wheels, Some("x"));
+    wheels["if"]["items"] = json!({ "not": { "required": ["rail"] } });
+    wheels["if"]["prefixItems"][0]["not"] = json!({ "required": ["rail"] });
     schema
 }
 

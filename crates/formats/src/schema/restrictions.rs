@@ -7,8 +7,8 @@
 use serde_json::{Value, json};
 
 use Restriction::{
-    Alternatives, AtLeastOne, Blocks, Fraction, ListOf, ListOfNotNegative, ListOfPositive, NotNegative,
-    Pattern, Positive, Second, Words,
+    Alternatives, AtLeastOne, Blocks, Fraction, Increasing, ListOf, ListOfNotNegative, ListOfPositive,
+    NotNegative, Pattern, Positive, Second, Words,
 };
 
 /// What a property, or each item of its list, may be.
@@ -28,6 +28,8 @@ enum Restriction {
     ListOfNotNegative,
     /// A pair whose second number is positive.
     Second,
+    /// Increasing numbers: where the first is not negative, the others are positive. More a schema cannot say.
+    Increasing,
     /// A string, or a list of strings, with this regular expression.
     Pattern(&'static str),
 }
@@ -54,6 +56,8 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Units", "time", Words(&["s"])),
     // beam specs
     ("Spec", "theory", Words(THEORIES)),
+    ("Spec", "stations", Increasing),
+    ("Rail", "stations", Increasing),
     ("Girder", "spans", ListOfPositive),
     ("Girder", "overhangs", ListOfNotNegative),
     ("Girder", "E", Positive),
@@ -202,6 +206,7 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Sweep", "sampling", Words(&["grid", "latin", "sobol"])),
     ("Sweep", "count", AtLeastOne),
     ("Sweep", "results", Pattern(r"^(peaks|extremes|fatigue|ratios)$|\.")),
+    ("Law", "uniform", Increasing),
     ("Law", "normal", Second),
     ("Law", "lognormal", ListOfPositive),
     // grids
@@ -255,6 +260,7 @@ fn restrict(property: &mut Value, restriction: Restriction) {
             property["prefixItems"] =
                 json!([{ "type": "number" }, { "type": "number", "exclusiveMinimum": 0 }]);
         }
+        Increasing => increasing(property, None),
         Pattern(text) => match property.get_mut("items") {
             Some(items) => items["pattern"] = json!(text),
             None => property["pattern"] = json!(text),
@@ -262,6 +268,17 @@ fn restrict(property: &mut Value, restriction: Restriction) {
         ListOfPositive => property["items"]["exclusiveMinimum"] = json!(0),
         ListOfNotNegative => property["items"]["minimum"] = json!(0),
     }
+}
+
+/// Adds to the schema of a list that the numbers, or the members `key` of the objects in it, increase: where the first is
+/// not negative, the others are positive.
+pub(super) fn increasing(list: &mut Value, key: Option<&str>) {
+    let number = |range: Value| match key {
+        Some(key) => json!({ "properties": { key: range }, "required": [key] }),
+        None => range,
+    };
+    list["if"] = json!({ "prefixItems": [number(json!({ "minimum": 0 }))] });
+    list["then"] = json!({ "prefixItems": [true], "items": number(json!({ "exclusiveMinimum": 0 })) });
 }
 
 #[cfg(test)]

@@ -19,6 +19,15 @@ for (const source of document.querySelectorAll(".animation > script")) {
   bar.className = "control";
   bar.append(button, slider, label);
   box.append(bar);
+  // the numbers once more as text, for narrow screens
+  const list = element("dl", { className: "readings" });
+  const readings = [...svg.querySelectorAll(".reading")].map((group) => {
+    const [name, value] = group.querySelectorAll("text");
+    const own = element("dd", {});
+    list.append(element("dt", { textContent: name.textContent }), own);
+    return [value, own];
+  });
+  bar.before(list);
 
   const show = (now) => {
     let low = 0, high = time.length - 1;
@@ -35,6 +44,7 @@ for (const source of document.querySelectorAll(".animation > script")) {
       else if (track.a === "text") node.textContent = mix(track.v).toFixed(track.d);
       else node.setAttribute(track.a, mix(track.v));
     });
+    for (const [value, own] of readings) own.textContent = value.textContent;
     slider.value = now;
     label.textContent = now.toFixed(2) + " s";
   };

@@ -119,24 +119,26 @@ fn section(
     let figures = drawn.take(section.figures.len()).collect::<Result<Vec<Markup>, Error>>()?;
     Ok(html! {
         section id=(format!("section-{}", index + 1)) .ends-page[section.ends_page] {
-            h2 { (section.heading) }
-            @for text in &section.paragraphs { p { (words(text)) } }
-            @if !facts.is_empty() {
-                table.facts {
-                    tbody {
-                        @for (fact, value) in &facts {
-                            tr {
-                                th scope="row" { (fact.name) }
-                                td class=[matches!(fact.value, TableCell::Number(_)).then_some("number")] { (value) }
-                                td.unit { (fact.unit) }
+            details open {
+                summary { h2 { (section.heading) } }
+                @for text in &section.paragraphs { p { (words(text)) } }
+                @if !facts.is_empty() {
+                    table.facts {
+                        tbody {
+                            @for (fact, value) in &facts {
+                                tr {
+                                    th scope="row" { (raised(&fact.name)) }
+                                    td class=[matches!(fact.value, TableCell::Number(_)).then_some("number")] { (value) }
+                                    td.unit { (fact.unit) }
+                                }
                             }
                         }
                     }
                 }
-            }
-            @for body in &tables { (body) }
-            @if !figures.is_empty() {
-                div .pictures[figures.len() > 1] { @for body in &figures { (body) } }
+                @for body in &tables { (body) }
+                @if !figures.is_empty() {
+                    div .pictures[figures.len() > 1] { @for body in &figures { (body) } }
+                }
             }
         }
     })
@@ -171,7 +173,7 @@ fn table(section: usize, index: usize, table: &ReportTable, running: usize) -> R
     let is_short = table.rows.len() <= SHORT;
     Ok(html! {
         div.scroll .short[is_short] .roomy[is_roomy(table)] .wide[table.columns.len() > WIDE] .wider[table.columns.len() > WIDER] {
-            table .stacked[is_stacked] .lead[is_stacked && table.columns[0].name.is_empty()] style=[is_stacked.then(|| column_names(&table.columns))] {
+            table .stacked[is_stacked] style=[is_stacked.then(|| column_names(&table.columns))] {
                 caption { b { "Table " (running) ". " } (table.caption) }
                 thead {
                     tr {
@@ -227,9 +229,16 @@ fn is_numeral(text: &str) -> bool {
 fn words(text: &str) -> Markup {
     html! {
         @for (i, part) in text.split('`').enumerate() {
-            @if i % 2 == 1 { code { (part) } } @else { (part) }
+            @if i % 2 == 1 { code { (part) } } @else { (raised(part)) }
         }
     }
+}
+
+/// A text whose powers, such as `s^2`, are raised.
+fn raised(text: &str) -> String {
+    [("^2", "\u{b2}"), ("^3", "\u{b3}"), ("^4", "\u{2074}")]
+        .into_iter()
+        .fold(text.to_owned(), |text, (power, sign)| text.replace(power, sign))
 }
 
 fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Result<Markup, Error> {
@@ -265,9 +274,14 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
 /// for each column instead of in every cell.
 fn column_names(columns: &[TableColumn]) -> String {
     let mut style = String::new();
-    for (i, TableColumn { name, unit }) in columns.iter().enumerate().filter(|(_, one)| !one.name.is_empty())
-    {
-        let text = if unit.is_empty() { name.clone() } else { format!("{name} ({unit})") };
+    for (i, TableColumn { name, unit }) in columns.iter().enumerate() {
+        let text = match (name.is_empty(), unit.is_empty()) {
+            // the first column is the head of a row, and others have room for a name, so that values stand in line
+            (true, _) if i == 0 => continue,
+            (true, _) => "\u{a0}".to_owned(),
+            (false, true) => name.clone(),
+            (false, false) => format!("{name} ({unit})"),
+        };
         style.push_str(&format!("--c{}:\"{}\";", i + 1, css_text(&text)));
     }
     style
@@ -339,6 +353,7 @@ fn data(chart: &Chart, drawing: &Drawing) -> String {
     let places: Vec<_> = places.iter().map(|own| list(own, &chart.x_axis, x)).collect();
     let place = [frame.left, frame.top, frame.width, frame.height].map(|v| (v * 100.0).round() / 100.0);
     let all = json!({
+        "note": chart.note,
         "frame": place,
         "x": axis(&chart.x_axis, x),
         "y": axis(&chart.y_axis, y),

@@ -171,11 +171,12 @@ function liveChart(box, number) {
   const csv = element("button", { type: "button", textContent: "Data (CSV)" });
   const picture = element("button", { type: "button", textContent: "Picture (SVG)" });
   const tools = element("div", { className: "tools" }, reset, csv, picture);
+  const note = element("p", { className: "note", textContent: chart.note });
   const line = shape("line", { stroke: "#888888", "stroke-width": 8, visibility: "hidden" });
   const selection = shape("rect", { fill: "#0B55A4", "fill-opacity": 0.15, visibility: "hidden" });
   box.classList.add("live");
   box.append(readout);
-  box.after(legend, tools);
+  box.after(legend, note, tools);
 
   const isWhole = () => ranges.x === whole.x;
   const show = () => {
@@ -188,6 +189,7 @@ function liveChart(box, number) {
     view.svg.append(selection, line);
     legend.hidden = isStill || chart.series.length < 2;
     reset.hidden = isWhole();
+    note.hidden = isStill || !chart.note;
     keys.forEach((key, index) => key.setAttribute("aria-pressed", String(!hidden.has(index))));
     for (const part of still.querySelectorAll("[data-series]")) {
       const off = hidden.has(Number(part.dataset.series));
@@ -345,15 +347,14 @@ function liveChart(box, number) {
       toggle(index);
     });
   }
-  show();
   return show;
 }
 
 // A picture as wide as a narrow screen: letters as large as on a wide one where they have room; those that would cover others
-// are left out, except where a picture has many, which then goes on to the right.
-const LETTERS = 10, CROWD = 0.4, FEW = 2;
+// are left out, except where a picture has many, which then goes on to the right. The readings of a moving view stand below it.
+const LETTERS = 9, CROWD = 0.4, FEW = 2, OVER = 9;
 function fitted(box) {
-  const svg = box.querySelector("svg"), texts = [...svg.querySelectorAll("text")];
+  const svg = box.querySelector("svg"), texts = [...svg.querySelectorAll("text")].filter((text) => !text.closest(".reading"));
   const plain = texts.map((text) => text.getAttribute("font-size"));
   const restore = () => texts.forEach((text, index) => {
     if (plain[index] !== null) text.setAttribute("font-size", plain[index]);
@@ -374,35 +375,72 @@ function fitted(box) {
     let left = 0;
     for (const text of texts) {
       const own = text.getBoundingClientRect();
-      const isOutside = own.left < room.left - 1 || own.right > room.right + 1;
+      const isOutside = own.left < room.left - 1 || own.right > room.right + 1 || own.top < room.top - OVER || own.bottom > room.bottom + OVER;
       if (isOutside || kept.some((other) => covers(own, other))) { text.style.display = "none"; left++; } else kept.push(own);
     }
-    // a reading of a moving view without its value is none
-    const most = box.classList.contains("animation") ? FEW : Math.max(FEW, CROWD * texts.length);
-    if (left > most) { box.classList.remove("fitted"); restore(); }
+    const most = Math.max(FEW, CROWD * texts.length);
+    if (left > most && !box.classList.contains("animation")) { box.classList.remove("fitted"); restore(); }
   };
 }
 
+// On a narrow screen the parts after the first two are folded, and of long tables the first rows are shown, so that a reader
+// reaches the end.
+const OPEN = 2, LONG = 12;
+const parts = [...document.querySelectorAll("main details")];
+const open = (address) => {
+  const target = address.length > 1 && document.getElementById(address.slice(1));
+  if (target && target.querySelector("details")) target.querySelector("details").open = true;
+};
+const isNarrow = () => document.documentElement.clientWidth < NARROW;
+if (isNarrow()) parts.slice(OPEN).forEach((part) => { part.open = false; });
+document.querySelector("nav").addEventListener("click", (event) => event.target.closest("a") && open(event.target.closest("a").hash));
+addEventListener("hashchange", () => open(location.hash));
+open(location.hash);
+for (const table of document.querySelectorAll("section + section .stacked")) {
+  const count = table.tBodies[0].rows.length;
+  if (count <= LONG) continue;
+  const rest = element("button", { type: "button", className: "rest" });
+  const cut = (isCut) => {
+    table.classList.toggle("cut", isCut);
+    rest.textContent = isCut ? `All ${count} rows` : "Fewer rows";
+  };
+  rest.addEventListener("click", () => cut(!table.classList.contains("cut")));
+  cut(true);
+  table.after(rest);
+}
+
 const charts = [];
+const add = (box, show) => charts.push({ box, show });
+const showAll = () => charts.forEach(({ show }) => show());
 document.querySelectorAll("figure").forEach((figure, index) => {
   const box = figure.querySelector(".picture");
-  if (box.classList.contains("chart")) charts.push(liveChart(box, index + 1));
-  else if (!box.classList.contains("animation")) {
+  if (box.classList.contains("chart")) return add(box, liveChart(box, index + 1));
+  if (!box.classList.contains("animation")) {
     const picture = element("button", { type: "button", textContent: "Picture (SVG)" });
     picture.addEventListener("click", () => {
       box.restoreLetters();
       saveSvg(box.querySelector("svg"), `${NAME}-figure-${index + 1}.svg`);
-      charts.forEach((show) => show());
+      showAll();
     });
     box.after(element("div", { className: "tools" }, picture));
   }
-  if (!box.classList.contains("chart")) charts.push(fitted(box));
+  add(box, fitted(box));
 });
-charts.forEach((show) => show());
-addEventListener("beforeprint", () => document.querySelectorAll(".fitted").forEach((box) => box.restoreLetters()));
-addEventListener("afterprint", () => charts.forEach((show) => show()));
+showAll();
+// figures have no size while their part is folded
+for (const part of parts) part.addEventListener("toggle", () => part.open && charts.forEach(({ box, show }) => part.contains(box) && show()));
+let folded = [];
+addEventListener("beforeprint", () => {
+  folded = parts.filter((part) => !part.open);
+  folded.forEach((part) => { part.open = true; });
+  document.querySelectorAll(".fitted").forEach((box) => box.restoreLetters());
+});
+addEventListener("afterprint", () => {
+  folded.forEach((part) => { part.open = false; });
+  showAll();
+});
 let waiting = 0;
 addEventListener("resize", () => {
   clearTimeout(waiting);
-  waiting = setTimeout(() => charts.forEach((show) => show()), 150);
+  waiting = setTimeout(showAll, 150);
 });

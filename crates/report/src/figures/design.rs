@@ -1,5 +1,7 @@
 //! Figures of a design: envelopes along its rails; values, units and positions as engineers read them.
 
+use std::collections::BTreeMap;
+
 use crate::chart::{Chart, ChartAxis, Series, Style};
 use ::design::{DesignResult, plane_word, quantity_word};
 use formats::design::Design;
@@ -113,6 +115,16 @@ pub(crate) fn positions(governing: &Governing) -> String {
     each.collect::<Vec<_>>().join("; ")
 }
 
+/// A value of an envelope and that at the other side of its place, the one just before it first, so that a jump is drawn
+/// as one; alone where both sides are equal.
+fn in_order<'g>(governing: &'g Governing, other: Option<&'g Governing>) -> Vec<&'g Governing> {
+    match other.filter(|other| other.value != governing.value) {
+        Some(other) if governing.side == SectionSide::Before => vec![governing, other],
+        Some(other) => vec![other, governing],
+        None => vec![governing],
+    }
+}
+
 /// Charts of the envelopes of a case along a rail, in the order of an engineer's interest; quantities that are zero are
 /// left out.
 pub(crate) fn envelope_charts(
@@ -131,13 +143,17 @@ pub(crate) fn envelope_charts(
         GirderResponse::Normal,
         GirderResponse::Torsion,
     ];
-    let rows = &result.cases[case].envelopes.envelopes;
+    let envelopes = &result.cases[case].envelopes;
+    let other_sides: BTreeMap<usize, &Governing> =
+        envelopes.other_sides.iter().map(|(index, other)| (*index, other)).collect();
     let mut out = Vec::new();
     for quantity in order {
         let (unit, factor) = unit_of(design.units, quantity);
         let points = |is_max: bool| -> Vec<[f64; 2]> {
-            let own = rows.iter().filter(|e| (e.rail, e.quantity, e.is_max) == (rail, quantity, is_max));
-            own.map(|e| [e.governing.x, factor * e.governing.value]).collect()
+            let all = envelopes.envelopes.iter().enumerate();
+            let own = all.filter(|(_, e)| (e.rail, e.quantity, e.is_max) == (rail, quantity, is_max));
+            let sides = own.flat_map(|(index, e)| in_order(&e.governing, other_sides.get(&index).copied()));
+            sides.map(|one| [one.x, factor * one.value]).collect()
         };
         let (largest, smallest) = (points(true), points(false));
         if largest.iter().chain(&smallest).all(|point| point[1] == 0.0) {

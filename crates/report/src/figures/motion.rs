@@ -14,7 +14,8 @@ const WHEELS: usize = 6;
 /// Largest number of wheels in the chart of vertical forces.
 const VERTICAL_WHEELS: usize = 8;
 
-/// Charts of the path of every body along its rail, with all runs in each chart.
+/// Charts of the path of every body along its rail, with all runs in each chart; of the deflection over time where a body
+/// stays at its place.
 #[must_use]
 pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
     let scene = runs[0].scene;
@@ -24,18 +25,26 @@ pub fn paths(runs: &[LabelledRun]) -> Vec<RunFigure> {
         let values = runs.iter().flat_map(|run| run.record.part(&body.name, "deflection"));
         let largest = values.fold(0.0_f64, |most, value| most.max(value.abs()));
         let (unit, factor) = column_unit(scene.units, Dimension::LENGTH, largest);
-        let mut chart = Chart::new(
-            format!("Path of {}", body.name),
-            ChartAxis::new("position along the rail", &length),
-            ChartAxis::new("deflection", &unit).downwards(),
-        );
+        let stays =
+            |run: &LabelledRun| run.record.part(&body.name, "x").windows(2).all(|pair| pair[0] == pair[1]);
+        let (abscissa, title, x, over) = if runs.iter().all(stays) {
+            ("time".to_owned(), format!("Deflection of {}", body.name), ChartAxis::new("time", "s"), "time")
+        } else {
+            let axis = ChartAxis::new("position along the rail", &length);
+            (
+                format!("{}.x", body.name),
+                format!("Path of {}", body.name),
+                axis,
+                "its position along the rail",
+            )
+        };
+        let mut chart = Chart::new(title, x, ChartAxis::new("deflection", &unit).downwards());
         for (index, run) in runs.iter().enumerate() {
-            let points = run.record.points(&format!("{}.x", body.name), &format!("{}.deflection", body.name));
+            let points = run.record.points(&abscissa, &format!("{}.deflection", body.name));
             let style = if index == 0 { Style::Line } else { Style::Dashed };
             chart = chart.with(Series::new(&run.label, style, scaled(points, factor)));
         }
-        let caption =
-            format!("Deflection of {} below the unloaded rail, over its position along the rail.", body.name);
+        let caption = format!("Deflection of {} below the unloaded rail, over {over}.", body.name);
         figures.push(RunFigure::chart(format!("path-{}", body.name), caption, chart));
     }
     figures

@@ -142,13 +142,13 @@ fn influences(scene: &Scene, response: &Response, lines: &[Option<ColumnInfluenc
                 lines.columns().iter().enumerate().filter(|(_, column)| column.kind == Kind::Section)
             {
                 let [from, to] = outline.range;
-                let point = |i: usize| {
-                    let x = from + (to - from) * i as f64 / (SAMPLES - 1) as f64;
+                let point = |x: f64| {
                     let value = lines.unit(Probe { rail, x, axis: Direction::Vertical })?;
                     // a wheel load acts downward
                     Some([x, 0.0 - value[index]])
                 };
-                let points: Vec<[f64; 2]> = (0..SAMPLES).filter_map(point).collect();
+                let place = |i: usize| from + (to - from) * i as f64 / (SAMPLES - 1) as f64;
+                let points = with_jumps((0..SAMPLES).map(place).filter_map(point).collect(), &point);
                 let largest = points.iter().fold(0.0_f64, |most, point| most.max(point[1].abs()));
                 if largest < 1e-9 {
                     continue;
@@ -208,6 +208,32 @@ fn moment_envelope(
     RunFigure::chart(format!("moments-{rail}"), caption, chart)
 }
 
+/// Parts into which the distance of two points is divided until what is left of their difference is a jump.
+const HALVINGS: usize = 30;
+
+/// Points of a function of x, in order, with both sides of each jump between them: of shear forces at their section.
+fn with_jumps(points: Vec<[f64; 2]>, point: &dyn Fn(f64) -> Option<[f64; 2]>) -> Vec<[f64; 2]> {
+    let values = || points.iter().map(|[_, y]| *y);
+    let range = values().fold(f64::NEG_INFINITY, f64::max) - values().fold(f64::INFINITY, f64::min);
+    let is_large = |[a, b]: [[f64; 2]; 2]| (b[1] - a[1]).abs() > 0.25 * range;
+    let jump = |mut ends: [[f64; 2]; 2]| {
+        for _ in 0..HALVINGS {
+            let middle = point(0.5 * (ends[0][0] + ends[1][0]))?;
+            // the half with the larger difference
+            let is_first = (middle[1] - ends[0][1]).abs() > (ends[1][1] - middle[1]).abs();
+            ends[usize::from(is_first)] = middle;
+        }
+        is_large(ends).then_some(ends)
+    };
+    let mut all = Vec::with_capacity(points.len() + 2);
+    for (index, own) in points.iter().enumerate() {
+        let ends = index.checked_sub(1).map(|before| [points[before], *own]);
+        all.extend(ends.filter(|ends| is_large(*ends)).and_then(jump).into_iter().flatten());
+        all.push(*own);
+    }
+    all
+}
+
 /// An influence line over the girder, with the extremes of the run.
 fn influence(
     scene: &Scene,
@@ -255,4 +281,25 @@ fn over_time(scene: &Scene, title: &str, dimension: Dimension) -> (Chart, f64) {
 
 fn largest_magnitude(values: &[f64]) -> f64 {
     values.iter().fold(0.0_f64, |most, value| most.max(value.abs()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_jump_between_two_points_has_both_sides_and_a_kink_none() {
+        // the shear force and the moment at x = 0.3 of a simple beam of length 1 under a unit load at x
+        let shear = |x: f64| Some([x, if x < 0.3 { -x } else { 1.0 - x }]);
+        let moment = |x: f64| Some([x, if x < 0.3 { 0.7 * x } else { 0.3 * (1.0 - x) }]);
+        let points = |of: &dyn Fn(f64) -> Option<[f64; 2]>| -> Vec<[f64; 2]> {
+            (0..=7).filter_map(|i| of(f64::from(i) / 7.0)).collect()
+        };
+        let found = with_jumps(points(&shear), &shear);
+        assert_eq!(found.len(), 10);
+        let [before, behind] = [found[3], found[4]];
+        assert!((before[0] - 0.3).abs() < 1e-9 && (before[1] + 0.3).abs() < 1e-9, "{before:?}");
+        assert!((behind[0] - 0.3).abs() < 1e-9 && (behind[1] - 0.7).abs() < 1e-9, "{behind:?}");
+        assert_eq!(with_jumps(points(&moment), &moment), points(&moment));
+    }
 }

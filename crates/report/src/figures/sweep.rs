@@ -40,8 +40,6 @@ pub(crate) struct SweptResult<'t> {
     pub unit: String,
     /// Its index among the columns.
     pub column: usize,
-    /// Runs and values.
-    pub values: Vec<(usize, f64)>,
     /// Its distribution.
     pub statistics: ResultDistribution,
     /// Its value for the input as it is written, where that has it.
@@ -69,8 +67,7 @@ impl<'t> SweptResult<'t> {
         let own = table.columns.iter().enumerate().filter(|(_, name)| parent(name).is_none());
         let mut all: Vec<SweptResult<'t>> = own
             .filter_map(|(column, name)| {
-                let values = table.column(column);
-                let statistics = ResultDistribution::new(&values)?;
+                let statistics = ResultDistribution::new(&table.column(column))?;
                 let written = info.as_written.iter().find(|(known, ..)| known == name);
                 let beside = table.columns.iter().enumerate().filter(|(_, one)| parent(one) == Some(name));
                 let codes = beside.filter_map(|(index, one)| {
@@ -90,7 +87,6 @@ impl<'t> SweptResult<'t> {
                     as_written: written.map(|(.., value)| *value),
                     sensitivities: sweep::sensitivities(table, column),
                     codes: codes.collect(),
-                    values,
                     size: 0.0,
                 })
             })
@@ -159,18 +155,18 @@ impl<'t> SweepFigures<'t> {
         let mut varying: Vec<SweptResult<'t>> = all.into_iter().filter(SweptResult::varies).collect();
         varying.sort_by_key(SweptResult::order);
         let constant = count - varying.len();
-        let is_line = info.axes.len() == 1 && info.sampling == "grid" && table.rows.len() >= LINE;
+        let is_line = info.axes.len() == 1 && info.sampling == "grid" && table.runs.len() >= LINE;
         let mut figures = Vec::new();
         for (index, result) in shown(&varying).into_iter().enumerate() {
             let mut add = |kind: &str, (chart, caption): (Chart, String)| {
                 figures.push(RunFigure::chart(format!("{kind}-{}", index + 1), caption, chart));
             };
             if !is_line {
-                add("distribution", histogram(result));
+                add("distribution", histogram(table, result));
             }
-            let is_sample = info.sampling != "grid" && result.values.len() >= FEWEST;
+            let is_sample = info.sampling != "grid" && result.statistics.count >= FEWEST;
             if result.is_damage() && is_sample {
-                add("mean", mean_over_runs(result));
+                add("mean", mean_over_runs(table, result));
             }
             let axis = if is_line { Some(0) } else { result.strongest() };
             if let Some(chart) = axis.and_then(|axis| over_axis(table, result, axis, is_line)) {
@@ -202,16 +198,16 @@ fn shown<'a, 't>(varying: &'a [SweptResult<'t>]) -> Vec<&'a SweptResult<'t>> {
 pub const SWEEP_FIGURES: [&str; 3] = ["distribution-", "mean-", "dependence-"];
 
 /// The histogram of a result, with its median, its quantile of 95 %, the value as written, and values by codes.
-fn histogram(result: &SweptResult<'_>) -> (Chart, String) {
+fn histogram(table: &ResultTable, result: &SweptResult<'_>) -> (Chart, String) {
     let found = &result.statistics;
     let (low, high) = (found.least.0, found.most.0);
-    let classes = ((result.values.len() as f64).sqrt() as usize).clamp(5, CLASSES);
+    let classes = ((found.count as f64).sqrt() as usize).clamp(5, CLASSES);
     let width = (high - low) / classes as f64;
     let mut counts = vec![0_usize; classes];
-    for (_, value) in &result.values {
+    for (_, value) in table.column(result.column) {
         counts[(((value - low) / width) as usize).min(classes - 1)] += 1;
     }
-    let share = |count: usize| 100.0 * count as f64 / result.values.len() as f64;
+    let share = |count: usize| 100.0 * count as f64 / found.count as f64;
     // values by codes near the runs are shown as well
     let near = |value: &f64| (2.0 * low - high..=2.0 * high - low).contains(value);
     let marked = || result.codes.iter().map(|(_, value)| *value).chain(result.as_written).filter(near);
@@ -254,8 +250,9 @@ fn over_axis(
     axis: usize,
     is_line: bool,
 ) -> Option<(Chart, String)> {
-    let rows =
-        table.rows.iter().filter_map(|row| Some((row.axes[axis].number()?, row.values[result.column]?)));
+    let values = &table.axis_values[axis];
+    let point = |row| Some((values.value(row).number()?, table.result(result.column, row)?));
+    let rows = (0..table.runs.len()).filter_map(point);
     let mut points: Vec<[f64; 2]> = rows.take(POINTS).map(|(x, y)| [x, y]).collect();
     if points.is_empty() {
         return None;
@@ -268,7 +265,7 @@ fn over_axis(
     let count = points.len();
     let chart =
         Chart::new(format!("{} over {name}", result.name), x, y).with(Series::new("runs", style, points));
-    let all = table.rows.len();
+    let all = table.runs.len();
     let caption = if count < all {
         format!("The first {count} of {all} runs; the axis in the units of its file.")
     } else {
@@ -279,12 +276,13 @@ fn over_axis(
 
 /// The mean of a damage over the first runs, with the interval that contains the mean of all possible runs with a
 /// confidence of 95 %: the mean is the damage of a life whose crossings scatter like the runs.
-fn mean_over_runs(result: &SweptResult<'_>) -> (Chart, String) {
-    let count = result.values.len();
+fn mean_over_runs(table: &ResultTable, result: &SweptResult<'_>) -> (Chart, String) {
+    let values = table.column(result.column);
+    let count = values.len();
     let step = count.div_ceil(MEANS);
     let numbers = (FEWEST..=count).filter(|n| (count - n).is_multiple_of(step));
     let found: Vec<ResultDistribution> =
-        numbers.filter_map(|n| ResultDistribution::new(&result.values[..n])).collect();
+        numbers.filter_map(|n| ResultDistribution::new(&values[..n])).collect();
     let at = |one: &ResultDistribution, value: f64| [one.count as f64, value];
     let curve = |of: fn(&ResultDistribution) -> f64| found.iter().map(|one| at(one, of(one))).collect();
     let [x, y] = [ChartAxis::new("runs", ""), ChartAxis::new(result.name, &result.unit)];

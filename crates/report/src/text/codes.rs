@@ -97,7 +97,7 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
             line.extend(clause_cells(&value.clause));
             line.extend([
-                TableCell::from(value.formula.clone()),
+                TableCell::from(value.formula.replace("/s2", "/s\u{b2}")),
                 TableCell::from(rounded(factor * value.value, DIGITS)),
             ]);
             rows.push(line);
@@ -120,7 +120,7 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
             TableCell::from(unit),
         ];
         line.extend(clause_cells(&value.clause));
-        line.push(TableCell::from(value.formula.clone()));
+        line.push(TableCell::from(value.formula.replace("/s2", "/s\u{b2}")));
         line
     });
     let rows = factors.collect();
@@ -169,14 +169,27 @@ fn limits(scene: &Scene, all: &[StaticDeflection]) -> ReportTable {
     }
 }
 
+/// Loads with their factors as a sum, without those of factor zero.
+fn sum_of_loads(factors: &[(&str, f64)]) -> String {
+    let mut sum = String::new();
+    for (name, factor) in factors.iter().filter(|(_, factor)| *factor != 0.0) {
+        sum.push_str(match (sum.is_empty(), *factor < 0.0) {
+            (true, false) => "",
+            (false, false) => " + ",
+            (true, true) => "\u{2212}",
+            (false, true) => " \u{2212} ",
+        });
+        sum.push_str(&format!("{} {name}", rounded(factor.abs(), DIGITS)));
+    }
+    sum
+}
+
 /// Groups of loads with the factors of this crane.
 fn groups(first: &CodeCheck) -> ReportTable {
     let mut columns = ["group", "loads and factors"].map(|name| TableColumn::new(name, "")).to_vec();
     columns.extend(CLAUSE_HEADS.map(|name| TableColumn::new(name, "")));
     let rows = first.groups.iter().map(|group| {
-        let factor = |(name, factor): &(&str, f64)| format!("{} {name}", rounded(*factor, DIGITS));
-        let factors: Vec<String> = group.factors.iter().map(factor).collect();
-        let mut line = vec![TableCell::from(group.group.name), TableCell::from(factors.join(" + "))];
+        let mut line = vec![TableCell::from(group.group.name), TableCell::from(sum_of_loads(&group.factors))];
         line.extend(clause_cells(&group.group.clause));
         line
     });

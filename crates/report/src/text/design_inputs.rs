@@ -21,7 +21,7 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
     }
     let gravity = design.dead.gravity;
     let weight = if gravity > 0.0 {
-        format!("acts, g = {}", digits(gravity, DIGITS))
+        format!("acts, g = {} {length}/s\u{b2}", digits(gravity, DIGITS))
     } else {
         "does not act".to_owned()
     };
@@ -36,10 +36,9 @@ pub(super) fn inputs(design: &Design) -> ReportSection {
     let mut cases = ReportTable {
         caption: "Load cases; factors not listed are 1, those of skewing, buffer and tilting forces 0"
             .to_owned(),
-        columns: ["case", "name", "trains", "gap", "factors"]
-            .iter()
-            .map(|name| TableColumn::new(*name, ""))
-            .collect(),
+        columns: [("case", ""), ("name", ""), ("trains", ""), ("gap", &length), ("factors", "")]
+            .map(|(name, unit)| TableColumn::new(name, unit))
+            .to_vec(),
         rows: Vec::new(),
     };
     for (index, case) in design.cases.iter().enumerate() {

@@ -110,22 +110,21 @@ fn deflections(design: &Design, result: &DesignResult) -> ReportTable {
 
 /// All extremes of a case.
 fn extremes(design: &Design, case: &SolvedCase, index: usize) -> ReportSection {
+    let length = design.units.label(Dimension::LENGTH);
+    let columns = [
+        ("rail", ""),
+        ("span", ""),
+        ("quantity", ""),
+        ("", ""),
+        ("value", ""),
+        ("of dead load", ""),
+        ("x", &length),
+        ("side", ""),
+        ("position of the train", &length),
+    ];
     let mut table = ReportTable {
         caption: format!("Extremes of case {} over each span, dead load and factors included", index + 1),
-        columns: [
-            "rail",
-            "span",
-            "quantity",
-            "",
-            "value",
-            "of dead load",
-            "x",
-            "side",
-            "position of the train",
-        ]
-        .iter()
-        .map(|name| TableColumn::new(*name, ""))
-        .collect(),
+        columns: columns.map(|(name, unit)| TableColumn::new(name, unit)).to_vec(),
         rows: Vec::new(),
     };
     let rails = design.spec.rails();

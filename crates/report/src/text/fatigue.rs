@@ -20,7 +20,7 @@ pub fn section(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> Option<Repor
     let section = ReportSection::new("Fatigue").paragraph(format!(
         "Direct stresses N/A + My z/Iy - Mz y/Iz of the moving loads at the stress points of the sections, counted \
          by rainflow (ASTM E1049) and summed by Miner's rule over the run; gamma_Ff = {}, gamma_Mf = {}. Numbers are \
-         detail categories of EN 1993-1-9 (N/mm2), letters are those of AISC 360 (ksi). A history whose ranges are \
+         detail categories of EN 1993-1-9 (N/mm\u{b2}), letters are those of AISC 360 (ksi). A history whose ranges are \
          all within the limit does no damage.",
         fatigue.loads, fatigue.material
     ));
@@ -62,7 +62,7 @@ fn points(scene: &Scene, runs: &[(&str, &[FatigueResult])]) -> ReportTable {
 /// Cells of one stress point in one run, from its detail category to the number of runs to failure.
 fn result(scene: &Scene, verdict: &FatigueResult) -> [TableCell; 8] {
     let (unit, length, force) = match verdict.detail {
-        Detail::Eurocode(_) => ("N/mm2", Length::Millimetre, Force::Newton),
+        Detail::Eurocode(_) => ("N/mm\u{b2}", Length::Millimetre, Force::Newton),
         Detail::Aisc(_) => ("ksi", Length::Inch, Force::Kip),
     };
     let scale = Scale { from: scene.units, to: Units { length, force } }.factor(Dimension::STRESS);

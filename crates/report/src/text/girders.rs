@@ -148,7 +148,9 @@ fn reactions(scene: &Scene, outcome: &CaseResult) -> ReportTable {
         let sizes = all.iter().filter(|found| is_moment(found) == is_wanted).map(|found| found.value.abs());
         sizes.fold(0.0, f64::max)
     };
-    let largest_of = [most(false), most(true)];
+    // a moment is rounding beside the largest force at the farthest place
+    let length = outcome.girders().extremes.iter().map(|found| found.x.abs()).fold(0.0, f64::max);
+    let largest_of = [most(false), most(true).max(length * most(false))];
     let shown = |found: &GirderReaction| cleared(found.value, largest_of[usize::from(is_moment(&found))]);
     let (mut rows, mut zero) = (Vec::new(), Vec::new());
     for pair in all.chunks_exact(2) {

@@ -153,7 +153,7 @@ fn envelopes(scene: &Scene, label: &str, response: &Response) -> ReportTable {
         let (unit, factor) = column_unit(scene.units, column.dimension, most);
         let range = envelope.max.value - envelope.min.value;
         let mut head = vec![TableCell::from(envelope.column.clone()), TableCell::from(unit)];
-        let mut weight = TableCell::from(factor * *dead);
+        let mut weight = TableCell::from(factor * cleared(*dead, most));
         for (word, extreme) in [("max", &envelope.max), ("min", &envelope.min)] {
             let mut row = std::mem::replace(&mut head, vec![TableCell::Empty; 2]);
             let value = TableCell::from(factor * cleared(extreme.value, range));

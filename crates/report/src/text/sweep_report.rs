@@ -41,10 +41,10 @@ fn overview(info: &SweepInfo, table: &ResultTable) -> ReportSection {
         "latin" => format!("a Latin hypercube with seed {}", info.seed),
         _ => format!("a Sobol sequence with seed {}", info.seed),
     };
-    let made = table.rows.len() + table.failures.len();
+    let made = table.runs.len() + table.failures.len();
     let mut section = ReportSection::new("Overview").paragraph(format!(
         "{} of {} runs have results, {} have none. The runs are {how}.",
-        table.rows.len(),
+        table.runs.len(),
         info.runs,
         table.failures.len()
     ));

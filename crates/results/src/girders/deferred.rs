@@ -1,5 +1,6 @@
 //! Extremes of girders that are computed when they are first asked for, from what the run has left.
 
+use std::cell::{Cell, RefCell};
 use std::mem::take;
 use std::ops::ControlFlow;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -35,13 +36,28 @@ impl DeferredGirders {
         history: &History,
         columns: &[ColumnEnvelope],
     ) -> &GirderExtremes {
-        self.found.get_or_init(|| {
-            let inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner).take();
-            let found = inputs
-                .and_then(|own| own.extremes(input, history, columns, &mut |_| ControlFlow::Continue(())));
-            // nobody stops it, and nobody else has taken what it needs
-            found.unwrap_or_default()
-        })
+        let found = self.get_while(input, history, columns, &mut |_| ControlFlow::Continue(()));
+        // nobody stops it
+        found.unwrap_or_else(|| self.found.get_or_init(GirderExtremes::default))
+    }
+
+    /// The extremes as [`DeferredGirders::get`] returns them; `None` where `watch` has broken off. Who asks again computes
+    /// them from the beginning.
+    pub fn get_while(
+        &self,
+        input: &SimulationInput,
+        history: &History,
+        columns: &[ColumnEnvelope],
+        watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Option<&GirderExtremes> {
+        let mut inputs = self.inputs.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(own) = inputs.take() {
+            match own.extremes(input, history, columns, watch) {
+                Ok(found) => return Some(self.found.get_or_init(|| found)),
+                Err(own) => *inputs = Some(own),
+            }
+        }
+        self.found.get()
     }
 
     /// Takes what is needed of a history before its owner drops it.
@@ -91,42 +107,57 @@ impl GirderInputs {
         GirderInputs { scene, built, members, steps, has_rows, rows: None, repetitions }
     }
 
-    /// Computes the extremes; `None` where `watch`, which is called with the time in repetitions of the run, breaks off.
+    /// Computes the extremes. `watch` is called with the time in repetitions of the run, and many times between them.
+    ///
+    /// # Errors
+    /// The same inputs where `watch` breaks off.
     pub fn extremes(
-        self,
+        self: Box<Self>,
         input: &SimulationInput,
         history: &History,
         columns: &[ColumnEnvelope],
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
-    ) -> Option<GirderExtremes> {
-        let GirderInputs { scene, built, members, steps, has_rows, rows, repetitions: mut left } = self;
+    ) -> Result<GirderExtremes, Box<GirderInputs>> {
+        let GirderInputs { scene, built, members, steps, has_rows, rows, repetitions } = *self;
         let solved: Vec<Option<&SolvedModel>> = scene
             .structures
             .iter()
             .map(|structure| solution_of(members.known(), &structure.origin))
             .collect();
-        let prepared = Prepared::new(&scene, &built, &solved, &members);
-        let foundations: Vec<Foundation> = built.into_iter().map(|built| built.foundation).collect();
-        let recorded = match steps.is_empty() {
-            true => Recorded::Rows(rows.as_ref().unwrap_or(history)),
-            false => Recorded::Steps(&steps),
+        let (watch, stop) = (RefCell::new(watch), Cell::new(false));
+        let ask = |t: f64| {
+            let now = (*watch.borrow_mut())(t);
+            if now.is_break() {
+                stop.set(true);
+            }
+            now
         };
-        let mut is_stopped = false;
-        let mut repeat = |rows: usize| {
-            left = left.checked_sub(1)?;
-            let mut watch = |t: f64| {
-                let now = watch(t);
-                is_stopped |= now.is_break();
-                now
+        let is_stopped = || stop.get() || ask(0.0).is_break();
+        let (foundations, bases): (Vec<Foundation>, Vec<_>);
+        let mut found = {
+            let prepared = Prepared::new(&scene, &built, &solved, &members, &is_stopped);
+            (foundations, bases) = built.into_iter().map(|built| (built.foundation, built.basis)).unzip();
+            let recorded = match steps.is_empty() {
+                true => Recorded::Rows(rows.as_ref().unwrap_or(history)),
+                false => Recorded::Steps(&steps),
             };
-            repeated(&scene, input, &foundations, rows, &mut watch)
+            let mut left = repetitions;
+            let mut repeat = |rows: usize| {
+                left = left.checked_sub(1)?;
+                repeated(&scene, input, &foundations, rows, &mut |t| ask(t))
+            };
+            match has_rows {
+                true => of_run(&prepared, (&scene, input), recorded, &foundations, &mut repeat),
+                false => prepared.without_rows(),
+            }
         };
-        let mut found = match has_rows {
-            true => of_run(&prepared, (&scene, input), recorded, &foundations, &mut repeat),
-            false => prepared.without_rows(),
-        };
+        if stop.get() {
+            let built = foundations.into_iter().zip(bases);
+            let built = built.map(|(foundation, basis)| BuiltFoundation { foundation, basis }).collect();
+            return Err(Box::new(GirderInputs { scene, built, members, steps, has_rows, rows, repetitions }));
+        }
         found.reactions.iter_mut().for_each(|reaction| reaction.extend_to(columns));
-        (!is_stopped).then_some(found)
+        Ok(found)
     }
 }
 

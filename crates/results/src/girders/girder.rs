@@ -19,6 +19,8 @@ pub(super) struct LoadedGirders<'a> {
     pub states: LoadStates,
     /// The deflections of all points.
     pub points: &'a PointDeflections<'a>,
+    /// Whether nobody wants the results any more: loops over rows and points end early.
+    pub is_stopped: &'a dyn Fn() -> bool,
     /// Every how many rows deflections are evaluated: they change more slowly than forces.
     pub deflection_stride: usize,
 }
@@ -37,7 +39,15 @@ pub(super) fn passing(side: SectionSide, is_forward: bool) -> Vec<(bool, bool)> 
     }
 }
 
+/// Number of rows between two questions whether the work is still wanted.
+const ROWS_BETWEEN: usize = 16;
+
 impl LoadedGirders<'_> {
+    /// The rows, or the first of them where the results are not wanted any more.
+    pub fn rows(&self) -> impl Iterator<Item = usize> {
+        (0..self.states.len()).take_while(|row| !row.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
+    }
+
     /// The quantities of a section at a distance from the first end of a member.
     pub fn forces_in(&self, member: usize, place: f64, state: &LoadState<'_>, own: OwnLoad) -> Quantities {
         let mut passed = PassedLoads::default();

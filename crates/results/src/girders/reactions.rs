@@ -299,7 +299,7 @@ impl Refinement<'_> {
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
         let mut sizes = [0.0_f64; 2];
         let mut before: Option<LoadState> = None;
-        for row in 0..states.len() {
+        for row in self.girders.rows() {
             let state = states.at_row(row);
             reactions.fill(&state, &mut ordinates, &mut values);
             for ((peaks, value), reaction) in peaks.iter_mut().zip(&values).zip(&reactions.all) {
@@ -317,6 +317,9 @@ impl Refinement<'_> {
             before = Some(state);
         }
         let mut out = Vec::new();
+        if (self.girders.is_stopped)() {
+            return out;
+        }
         for (index, mut peaks) in peaks.into_iter().enumerate() {
             peaks.iter_mut().for_each(Peak::finish);
             let reaction = &reactions.all[index];

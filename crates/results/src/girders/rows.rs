@@ -28,17 +28,19 @@ pub(super) struct Prepared<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Prepares the girders of every structure with a spec. A structure that cannot be evaluated has a note instead.
+    /// Prepares the girders of every structure with a spec. A structure that cannot be evaluated has a note instead. Once
+    /// `is_stopped` says so, what is found of the girders is incomplete.
     pub fn new(
         scene: &'a Scene,
         built: &[BuiltFoundation],
         solved: &[Option<&SolvedModel>],
         members: &'a SolvedMembers,
+        is_stopped: &'a dyn Fn() -> bool,
     ) -> Prepared<'a> {
         let (mut girders, mut notes) = (Vec::new(), Vec::new());
         for (s, (built, solved)) in built.iter().zip(solved).enumerate() {
             let Some(solved) = solved else { continue };
-            match PreparedGirders::new(scene, s, built, solved, members) {
+            match PreparedGirders::new(scene, s, built, solved, (members, is_stopped)) {
                 Ok(prepared) => girders.extend(prepared),
                 Err(error) => notes.push(format!("extremes of girders are missing: {error}")),
             }

@@ -67,7 +67,7 @@ impl Scan {
     pub fn both(fine: &LoadedGirders<'_>, coarse: &LoadedGirders<'_>, chosen: &[usize]) -> [Scan; 2] {
         let [mut all, mut few] = [Scan::empty(fine, true), Scan::empty(coarse, true)];
         let mut next = 0;
-        for row in 0..fine.states.len() {
+        for row in fine.rows() {
             let mut targets = vec![Target::new(&mut all, fine, row)];
             if chosen.get(next) == Some(&row) {
                 targets.push(Target::new(&mut few, coarse, next));
@@ -81,7 +81,7 @@ impl Scan {
     /// Scans all rows for the sections and points alone: without the places of loads.
     pub fn of_sections(girders: &LoadedGirders<'_>) -> Scan {
         let mut scan = Scan::empty(girders, false);
-        for row in 0..girders.states.len() {
+        for row in girders.rows() {
             add_row(&mut [Target::new(&mut scan, girders, row)], girders, &girders.states.at_row(row));
         }
         scan.finished(girders)
@@ -110,7 +110,7 @@ impl Scan {
 
     /// Ends all sequences, and adds the sections that loads pass between the rows.
     fn finished(mut self, girders: &LoadedGirders<'_>) -> Scan {
-        for row in 1..girders.states.len() {
+        for row in girders.rows().skip(1) {
             let [before, after] = [row - 1, row].map(|row| girders.states.at_row(row));
             self.add_passages(girders, row - 1, &before, &after);
         }

@@ -32,6 +32,9 @@ impl Refinement<'_> {
                     continue;
                 }
                 for quantity in (0..FORCES + 2).filter(|quantity| !self.is_zero(*quantity)) {
+                    if (self.girders.is_stopped)() {
+                        return out;
+                    }
                     for kind in 0..2 {
                         let found = match quantity.checked_sub(FORCES) {
                             None => self.span_force(rail, span, quantity, kind),

@@ -39,6 +39,8 @@ pub(super) struct PreparedGirders<'a> {
     sections: Sections,
     distributed: DistributedForces,
     reactions: Reactions,
+    /// Whether nobody wants the results any more.
+    is_stopped: &'a dyn Fn() -> bool,
 }
 
 /// The history of a run from which extremes are found.
@@ -94,7 +96,7 @@ impl<'a> PreparedGirders<'a> {
         s: usize,
         built: &BuiltFoundation,
         solved: &SolvedModel,
-        all: &'a SolvedMembers,
+        (all, is_stopped): (&'a SolvedMembers, &'a dyn Fn() -> bool),
     ) -> Result<Option<PreparedGirders<'a>>, Error> {
         let failed =
             |source: trains::Error| Error::Girders { structure: scene.structures[s].name.clone(), source };
@@ -109,7 +111,7 @@ impl<'a> PreparedGirders<'a> {
             .map_err(|source| failed(source.into()))?;
         let reactions = Reactions::new((scene, s), solved, built, members, load)
             .map_err(|source| failed(source.into()))?;
-        Ok(Some(PreparedGirders { scene, s, members, sections, distributed, reactions }))
+        Ok(Some(PreparedGirders { scene, s, members, sections, distributed, reactions, is_stopped }))
     }
 
     /// Index of the structure.
@@ -172,6 +174,7 @@ impl<'a> PreparedGirders<'a> {
             distributed: &self.distributed,
             sections,
             points,
+            is_stopped: self.is_stopped,
             deflection_stride: (states.len() / most_deflections).max(1),
             states,
         }
@@ -268,6 +271,9 @@ fn envelopes(refinement: &Refinement<'_>) -> Vec<GirderEnvelope> {
     let quantities: Vec<usize> = (0..FORCES + 2).filter(|quantity| !refinement.is_zero(*quantity)).collect();
     let mut out = Vec::new();
     for (index, (point, sections)) in all.points.iter().zip(&at_point).enumerate() {
+        if (girders.is_stopped)() {
+            break;
+        }
         for &quantity in &quantities {
             for (kind, sign) in SIGNS.into_iter().enumerate() {
                 let found = match quantity.checked_sub(FORCES) {

@@ -167,9 +167,9 @@ impl PlanDrawing {
         let (name, unit) = (escaped(name), escaped(unit));
         let end = x + 196.0;
         self.add(&format!(
-            "<text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{GREY}\" font-size=\"12\">{name}</text>\
+            "<g class=\"reading\"><text x=\"{x:.2}\" y=\"{y:.2}\" fill=\"{GREY}\" font-size=\"12\">{name}</text>\
              <text x=\"{end:.2}\" y=\"{y:.2}\" fill=\"{INK}\" font-size=\"12\" text-anchor=\"end\"><tspan \
-             {mark}>{now:.digits$}</tspan> {unit}</text>"
+             {mark}>{now:.digits$}</tspan> {unit}</text></g>"
         ));
     }
 
