@@ -3,8 +3,9 @@
 use std::f64::consts::PI;
 
 use fea::{
-    BeamTheory, CriticalFactor, CrossSection, Dof, EntryFault, Error, FactoredFrame, GroundSpring, Member,
-    MemberKind, Model, ModelEntry, Preload, PreloadedState, Rail, RailSegment, RigidLink, Support, preloaded,
+    BeamTheory, CautionKind, CriticalFactor, CrossSection, Dof, EntryFault, Error, FactoredFrame,
+    GroundSpring, Member, MemberKind, Model, ModelEntry, Preload, PreloadedState, Rail, RailSegment,
+    RigidLink, Support, preloaded,
 };
 use splines::{Axis, Probe};
 
@@ -461,4 +462,40 @@ fn certificate_bounds_the_error_for_given_axial_forces() {
             }
         }
     }
+}
+
+/// Ratios by hand for EI = 1: L sqrt(N/EI), M L/(pi sqrt(EI GJ)), N i_p^2/GJ, N/(G As).
+#[test]
+fn what_the_state_leaves_out_is_named_with_its_ratio() {
+    let named = |m: &Model, forces: &[(usize, [f64; 3])]| {
+        let state = preloaded(m, &[], &at_points(forces)).expect("stable");
+        state.cautions.iter().map(|own| (own.member, own.kind, own.ratio)).collect::<Vec<_>>()
+    };
+    let m = straight(3.0, 1, &[(0, FIXED), (1, GUIDED)]);
+    let tension = |u: f64| [(1, [u * u / 9.0, 0.0, 0.0])];
+    assert!(named(&m, &tension(24.9)).is_empty());
+    let found = named(&m, &tension(30.0));
+    assert!(
+        matches!(found[..], [(0, CautionKind::Slender, ratio)] if (ratio - 30.0).abs() < 1e-9),
+        "{found:?}"
+    );
+    // A cantilever of length 2 with the force 0.01 at its tip has the moment 0.02; GJ = 0.01.
+    let mut m = straight(2.0, 1, &[(0, FIXED)]);
+    m.sections[0].j = 0.01;
+    let found = named(&m, &[(1, [0.0, -0.01, 0.0])]);
+    let by_hand = 0.02 * 2.0 / (PI * 0.1);
+    assert!(
+        matches!(found[..], [(0, CautionKind::Moments, ratio)] if (ratio - by_hand).abs() < 1e-9),
+        "{found:?}"
+    );
+    // i_p^2 = (Iy + Iz)/A = 0.2, and G As = 8.
+    let mut m = straight(1.0, 1, &[(0, FIXED), (1, GUIDED)]);
+    m.theory = BeamTheory::Timoshenko;
+    let own = &mut m.sections[0];
+    (own.area, own.g, own.j, own.shear_y, own.shear_z) = (10.0, 8.0, 0.125, Some(1.0), Some(1.0));
+    let found = named(&m, &[(1, [1.6, 0.0, 0.0])]);
+    let [(_, CautionKind::Twist, twist), (_, CautionKind::Shear, shear)] = found[..] else {
+        panic!("{found:?}")
+    };
+    assert!((twist - 0.32).abs() < 1e-12 && (shear - 0.2).abs() < 1e-12, "{twist} {shear}");
 }

@@ -8,6 +8,9 @@ use crate::model::{MemberKind, Model};
 
 /// Ratio from which what is left out is named.
 const NOTED: f64 = 0.1;
+/// (lambda l) of a member in tension from which rounding between its ends is named: doubles lose a factor exp(lambda l/2), here
+/// 3e5, which leaves ten digits.
+const SLENDER: f64 = 25.0;
 
 /// Something that the state of a preload leaves out, and that may matter for a member.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +19,7 @@ pub struct Caution {
     pub member: usize,
     /// What is left out.
     pub kind: CautionKind,
-    /// The ratio that says how much it matters; from 0.1 (1 for `TrussBuckles`) it is named.
+    /// The ratio that says how much it matters; from 0.1 (1 for `TrussBuckles`, 25 for `Slender`) it is named.
     pub ratio: f64,
 }
 
@@ -31,6 +34,8 @@ pub enum CautionKind {
     TrussBuckles,
     /// Where theories of shear under axial force differ: |N|/(G As).
     Shear,
+    /// Digits between the ends of a member in strong tension: L sqrt(N/EI_min).
+    Slender,
 }
 
 impl Caution {
@@ -55,6 +60,7 @@ impl Caution {
                 add(CautionKind::Twist, n.abs() * polar / gj, NOTED);
                 let f = &element.flexibility;
                 add(CautionKind::Shear, n.abs() * f.shear_y.max(f.shear_z), NOTED);
+                add(CautionKind::Slender, l * (n.max(0.0) / bending).sqrt(), SLENDER);
             } else if own.kind != MemberKind::Cable && n < 0.0 {
                 let euler = PI * PI * section.e * least / (l * l);
                 add(CautionKind::TrussBuckles, -n / euler, 1.0);

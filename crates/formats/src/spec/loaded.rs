@@ -53,6 +53,13 @@ impl Spec {
                 fea::CautionKind::Shear => format!(
                     "{member}: its axial force under the preload is {ratio} of its shear stiffness, where theories differ"
                 ),
+                fea::CautionKind::Slender => format!(
+                    "{member}: L sqrt(N/EI) is {:.0} under the preload, so strong a tension that values between its ends have \
+                     only about {:.0} digits; divide it into {:.0} members",
+                    caution.ratio,
+                    (15.5 - 0.5 * caution.ratio * std::f64::consts::LOG10_E).max(0.0),
+                    (caution.ratio / 12.0).ceil()
+                ),
             });
         }
         all
