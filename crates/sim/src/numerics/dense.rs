@@ -7,8 +7,6 @@ use faer::linalg::solvers::Solve;
 use faer::reborrow::{Reborrow, ReborrowMut};
 use faer::{MatMut, MatRef, Par};
 
-use super::lu::BLOCKED;
-
 /// Scalar product of two vectors of equal length. It uses four partial sums in a fixed order, so the result is the
 /// same on every machine.
 #[inline]
@@ -29,6 +27,8 @@ pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
     dot(&rows[i * n..(i + 1) * n], vector)
 }
 
+/// Order of a matrix from which blocked factorization is faster.
+pub(crate) const BLOCKED: usize = 64;
 /// Order of a matrix from which scalar products use `LANES` partial sums; below it the plain loop is faster.
 const WIDE: usize = 16;
 /// Number of partial sums of a scalar product, large enough to hide the latency of an addition.

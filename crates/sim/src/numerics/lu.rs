@@ -5,8 +5,7 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{MatMut, MatRef};
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-/// Order of a matrix from which blocks are faster.
-pub(crate) const BLOCKED: usize = 64;
+use super::dense::BLOCKED;
 
 /// The factors of a matrix.
 pub(crate) enum LuFactors {
@@ -41,7 +40,8 @@ impl LuFactors {
 
 #[cfg(test)]
 mod tests {
-    use super::{BLOCKED, LuFactors};
+    use super::LuFactors;
+    use crate::numerics::dense::BLOCKED;
     use nalgebra::{DMatrix, DVector};
 
     #[test]
