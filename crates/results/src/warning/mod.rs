@@ -1,7 +1,8 @@
 //! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
-//! Files, lowest first: tension, slack, scene, scope, this one.
+//! Files, lowest first: tension, slack, scene, scope, bounces, this one.
 
+mod bounces;
 mod scene;
 mod scope;
 mod slack;
@@ -37,6 +38,7 @@ const FAST: f64 = 0.5;
 #[must_use]
 pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
+    all.extend(bounces::cycles_of_bounces(scene, outcome));
     all.extend(outcome.choices.iter().filter_map(|choice| {
         let structure = &scene.structures[choice.structure];
         foundations::selection_doubt(&structure.name, choice, structure.tolerance)
