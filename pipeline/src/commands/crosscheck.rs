@@ -175,8 +175,7 @@ fn sheared(spec: &mut Spec) -> Option<String> {
 
 /// Creates the failure of another code or of its environment.
 fn broken(error: &Error) -> Failure {
-    let hint =
-        "the first use needs python3 (3.11 or newer, with venv) and PyPI; later ones need neither network";
+    let hint = "the first use needs python3 (3.11 or newer, with venv) and PyPI, later ones no network; all other commands go on without";
     Diagnostic::of_file("python3", format!("nothing compared: {error}")).hint(hint).into()
 }
 
