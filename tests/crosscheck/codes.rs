@@ -90,6 +90,42 @@ fn a_girder_on_rods_agrees_with_both_frame_codes() {
     }
 }
 
+/// A girder of two spans that its axial force softens, and the monorail on hangers, which has no lateral stiffness without its
+/// weight: PyNite's geometric stiffness of cubic elements errs by their fourth power, OpenSees' PDelta transformation by the
+/// square of their length.
+#[test]
+fn structures_about_their_preload_agree_with_p_delta() {
+    if environment().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a temporary folder");
+    let girder = folder.path().join("girder.json");
+    let spec = json!({
+        "format": "girderway-beam/1", "units": {"length": "m", "force": "kN", "time": "s"}, "theory": "euler-bernoulli",
+        "girder": {"spans": [6, 7.5], "E": 2.1e8, "G": 8.1e7, "A": 0.0198, "I_vertical": 5.768e-4,
+                   "I_lateral": 1.08e-4, "J": 3.6e-6},
+        "stations": [0, 2, 3, 6, 9, 9.75, 13.5],
+        "preload": {"loads": [{"x": 13.5, "force": [-2200, 0, 0]}]},
+    });
+    std::fs::write(&girder, spec.to_string()).expect("a writable folder");
+    let monorail = root().join("examples/monorail/spec.json");
+    for (spec, most) in [(&girder, [5e-3, 1e-6]), (&monorail, [1e-3, 1e-8])] {
+        let output = crosscheck(spec, &[]);
+        let result = result(&output);
+        assert!(output.status.success(), "{result:#}");
+        for (code, most) in ["OpenSees", "PyNite"].into_iter().zip(most) {
+            for grid in ["vertical", "lateral"] {
+                let relative = difference(&result, code, grid);
+                assert!(
+                    relative > 0.0 && relative < most,
+                    "{}, {code}, {grid}: {relative:e}",
+                    spec.display()
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn solids_agree_with_timoshenko_beams() {
     // Source: external; 0.002 to 0.004 % at L/h = 20 and 0.07 to 0.15 % at L/h = 5 for the vertical midspan.

@@ -290,3 +290,25 @@ fn limits_follow_the_code_and_its_class() {
         assert_eq!(output.status.code(), Some(if within { 0 } else { 1 }), "{practice}");
     }
 }
+
+/// Timoshenko and Gere (1961), section 1.3: under half of the Euler load a wheel at mid-span has the moment F l/4 tan(u)/u, u =
+/// (pi/2) sqrt(1/2). The design says nothing of an error.
+#[test]
+fn a_design_about_a_preload_has_the_closed_moment() {
+    let mut spec = spec();
+    spec["theory"] = json!("euler-bernoulli");
+    spec["girder"]["spans"] = json!([6]);
+    spec["stations"] = json!([0, 3, 6]);
+    let euler = (std::f64::consts::PI / 6.0).powi(2) * 2.1e8 * 5.768e-4;
+    spec["preload"] = json!({"loads": [{"x": 6, "force": [-0.5 * euler, 0, 0]}]});
+    let mut design = design();
+    design["trains"][0]["wheels"] = json!([{"x": 0, "vertical": 180}]);
+    let (folder, output) = run(&spec, &design, &[]);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let summary = summary(&folder);
+    let u = 0.5 * std::f64::consts::PI * 0.5_f64.sqrt();
+    let wanted = [("quantity", json!("moment")), ("plane", json!("vertical")), ("kind", json!("max"))];
+    let found = extreme(&summary, &wanted)["value"].as_f64().expect("a number");
+    assert!((found / (0.25 * 180.0 * 6.0 * u.tan() / u) - 1.0).abs() < 1e-9, "{found}");
+    assert!(!summary["warnings"].to_string().contains("err by"), "{}", summary["warnings"]);
+}

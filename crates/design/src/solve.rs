@@ -69,14 +69,12 @@ pub fn solve_on(
     let in_files = |error: trains::Error| solve_error(&error, design, inputs);
     let solved = structures.of(design).map_err(in_files)?;
     let DesignStructure { model, rails, structure } = &*solved;
-    let lateral = design.trains.iter().any(|train| train.has_lateral_forces());
-    let between = structure.error_between_ends(lateral);
-    if between > MOST_BETWEEN_ENDS {
-        let times = (between / MOST_BETWEEN_ENDS).sqrt().ceil();
+    let error = structure.error_of_lines().map_err(in_files)?;
+    if error > MOST_ERROR {
+        let times = (error / NOTED_ERROR).powf(0.25).ceil();
         return Err(SolveError::NoSolution(format!(
-            "{}: moments between the ends of its cells may err by {between:.1e} of their size under the preload, more than \
-             {MOST_BETWEEN_ENDS:e}  hint: cut the cells that carry rails into {times} times as many `cell_data.parts`, in \
-             the general form",
+            "{}: influence lines under the preload may err by {error:.1e} of their size, more than {MOST_ERROR:e}  hint: cut \
+             the cells that carry rails into {times} times as many `cell_data.parts`, in the general form",
             design.spec_file
         )));
     }
@@ -111,10 +109,10 @@ pub fn solve_on(
         });
     }
     let mut warnings = warnings(design, &solved);
-    if between > NOTED_BETWEEN_ENDS {
+    if error > NOTED_ERROR {
         warnings.push(format!(
-            "{}: between the ends of cells, moments under the preload may err by {between:.1e} of their size; more \
-             `cell_data.parts` lower this with their square",
+            "{}: influence lines under the preload may err by {error:.1e} of their size; more `cell_data.parts` lower this \
+             with their fourth power",
             design.spec_file
         ));
     }
@@ -138,10 +136,10 @@ pub fn solve_on(
     })
 }
 
-/// Error of moments between ends of members under a preload, relative, from which it is named.
-const NOTED_BETWEEN_ENDS: f64 = 1e-9;
+/// Error of influence lines under a preload, relative, from which it is named.
+const NOTED_ERROR: f64 = 1.001e-9;
 /// The same from which a design is refused.
-const MOST_BETWEEN_ENDS: f64 = 1e-3;
+const MOST_ERROR: f64 = 1e-3;
 
 /// Reactions under each kind of load alone that the case has.
 fn by_load(

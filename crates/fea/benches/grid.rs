@@ -1,6 +1,9 @@
 //! Time from a model to its influence grid.
 
-use fea::{BeamTheory, CrossSection, Girder, Member, Model, Rail, RailSegment, Support, grid, surface};
+use fea::{
+    BeamTheory, CrossSection, Girder, Member, Model, Preload, Rail, RailSegment, Support, grid, loaded_frame,
+    surface,
+};
 use splines::{Axis, Probe};
 
 fn main() {
@@ -78,13 +81,51 @@ fn runway(bays: usize) -> (Model, Rail) {
     (model, rail)
 }
 
+fn places(bays: usize, count: u32) -> Vec<Probe> {
+    let end = 40.0 * bays as f64;
+    let at =
+        |k: u32| Probe { rail: 0, x: end * (f64::from(k) + 0.5) / f64::from(count), axis: Axis::Vertical };
+    (0..count).map(at).collect()
+}
+
 #[divan::bench(args = [10, 104, 1040], sample_count = 10)]
 fn runway_400_loads(bencher: divan::Bencher, bays: usize) {
     let (model, rail) = runway(bays);
     let rails = [rail];
-    let end = 40.0 * bays as f64;
-    let at: Vec<Probe> = (0..400)
-        .map(|k| Probe { rail: 0, x: end * (f64::from(k) + 0.5) / 400.0, axis: Axis::Vertical })
-        .collect();
+    let at = places(bays, 400);
     bencher.bench(|| grid(&model, &rails, &at));
+}
+
+/// Weights on all points of the rail, under which the columns have about a tenth of their critical load.
+fn weights(bays: usize) -> Preload {
+    let points = (0..=10 * bays).map(|point| (point, [0.0, -2e3, 0.0])).collect();
+    Preload { points, ..Preload::default() }
+}
+
+/// The grid about a state that is known.
+#[divan::bench(args = [20, 120], sample_count = 10)]
+fn loaded_runway_800_loads(bencher: divan::Bencher, bays: usize) {
+    let (model, rail) = runway(bays);
+    let rails = [rail];
+    let at = places(bays, 800);
+    let loaded = loaded_frame(&model, &rails, &weights(bays)).expect("it stands");
+    bencher.bench(|| grid(&loaded.model, &rails, &at));
+}
+
+/// The grid without a state, for comparison.
+#[divan::bench(args = [20, 120], sample_count = 10)]
+fn unloaded_runway_800_loads(bencher: divan::Bencher, bays: usize) {
+    let (model, rail) = runway(bays);
+    let rails = [rail];
+    let at = places(bays, 800);
+    bencher.bench(|| grid(&model, &rails, &at));
+}
+
+/// The grid with the search for the axial forces.
+#[divan::bench(args = [20, 120], sample_count = 10)]
+fn searched_runway_800_loads(bencher: divan::Bencher, bays: usize) {
+    let (model, rail) = runway(bays);
+    let rails = [rail];
+    let (at, preload) = (places(bays, 800), weights(bays));
+    bencher.bench(|| loaded_frame(&model, &rails, &preload).map(|loaded| loaded.frame.grid(&at)));
 }

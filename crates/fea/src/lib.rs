@@ -46,7 +46,8 @@
 //! 4. `factor`: sparse Cholesky in doubles and double-doubles, certificate, limits of memory;
 //! 5. `influence`: rails laid over members, grids, surfaces, reactions and internal forces;
 //! 6. `modes`: mass, natural modes, effects of inertia;
-//! 7. `preload`: axial forces of a loaded state, critical factors, and what such a state leaves out.
+//! 7. `preload`: axial forces of a loaded state, critical factors, what such a state leaves out, and what second order would
+//!    change.
 
 mod assembly;
 mod dof;
@@ -73,7 +74,7 @@ pub use modes::{
     full_modes, modes, refined_modes, rigid_mass,
 };
 pub use preload::{
-    BucklingMode, Caution, CautionKind, CriticalFactor, MOST_CRITICAL, Preload, PreloadedState, RailForce,
-    preloaded,
+    BucklingMode, Caution, CautionKind, CriticalFactor, LoadedFrame, MOST_CRITICAL, Preload, PreloadedState,
+    RailForce, SecondOrderChange, loaded_frame, preloaded, second_order_change,
 };
 pub use splines::ForceComponent;

@@ -44,24 +44,41 @@ fn modes(model: &Model, axes: &[Axis], parts: usize) -> RefinedModes {
     refined
 }
 
-/// Closed form: (EI k^2 + GAs - m r^2 w^2)(GAs k^2 - m w^2) = (GAs k)^2 of a beam on two supports, k = n pi/L, its lower root.
+/// Closed form: (EI k^2 + GAs - m r^2 w^2)((GAs + N) k^2 - m w^2) = (GAs k)^2 of a beam on two supports, k = n pi/L, with the
+/// axial force N, its lower root.
 ///
-/// Source: Timoshenko, Vibration Problems in Engineering (1955), section 55.
-fn closed_form(n: usize) -> f64 {
+/// Source: Timoshenko, Vibration Problems in Engineering (1955), section 55; with N the strain energy of Engesser, Timoshenko
+/// and Gere, Theory of Elastic Stability (1961), section 2.17.
+fn closed_form(n: usize, tension: f64) -> f64 {
     let s = section();
     let k = n as f64 * PI / SPAN;
     let (gas, ei, m) = (s.g * s.shear_y.expect("given"), s.e * s.iz, s.mass);
     let j = m * s.iz / s.area;
-    let (p, q) = (gas * k * k / m, (ei * k * k + gas) / j);
+    let (p, q) = ((gas + tension) * k * k / m, (ei * k * k + gas) / j);
     let half = 0.5 * (p + q);
-    let product = (gas * k * k) * (ei * k * k) / (m * j);
+    let product = k * k * (gas * (ei * k * k + tension) + tension * ei * k * k) / (m * j);
     (product / (half + (half * half - product).sqrt())).sqrt()
 }
 
 /// By Rayleigh's quotient an error e of the frequencies of a mesh becomes one of the order of e^2.
 #[test]
 fn iteration_squares_the_errors_of_frequencies() {
+    errors_are_squared(0.0);
+}
+
+/// The same about a state with half of the Euler load, and with three times as much in tension.
+#[test]
+fn iteration_squares_the_errors_about_a_loaded_state() {
+    let euler = PI * PI * section().e * section().iz / (SPAN * SPAN);
+    errors_are_squared(-0.5 * euler);
+    errors_are_squared(3.0 * euler);
+}
+
+fn errors_are_squared(tension: f64) {
     let mut model = chain(&[0.0, SPAN], &[false], [0.0, 1.0, 0.0]);
+    model.members[0].tension = tension;
+    // stiff enough beside the plane of the modes
+    model.sections[0].iy = if tension == 0.0 { model.sections[0].iy } else { 1e-3 };
     for point in 0..2 {
         model.supports.push(Support { point, fixed: [point == 0, true, true, true, false, false] });
     }
@@ -71,9 +88,8 @@ fn iteration_squares_the_errors_of_frequencies() {
         after.iterate().expect("it has eigenvalues");
         let count = before.modes.modes.len();
         let errors: Vec<[f64; 2]> = (0..count)
-            .map(|k| [&before, &after].map(|of| of.modes.modes[k].omega / closed_form(k + 1) - 1.0))
+            .map(|k| [&before, &after].map(|of| of.modes.modes[k].omega / closed_form(k + 1, tension) - 1.0))
             .collect();
-        println!("{parts} parts: {errors:?}");
         for (k, [old, new]) in errors.into_iter().enumerate() {
             assert!(old > -1e-10 && new > -1e-10, "{parts} parts, mode {k}: from above, {old:e} {new:e}");
             assert!(new < 6.0 * old * old + 1e-10, "{parts} parts, mode {k}: {old:e} {new:e}");

@@ -218,6 +218,17 @@ fn weight_on_a_rigid_arm_falls_at_the_closed_factor() {
     assert!((found * w * (h + 1.0) / k - 1.0).abs() < 2e-6, "{found}");
 }
 
+/// Closed form: a bar of four members, 1e12 times stiffer than the rotational spring that holds it, falls at k/(W h).
+#[test]
+fn counts_are_certain_where_doubles_are_not() {
+    let (h, k, w) = (1.7, 11.0, 2.0);
+    let mut bar = straight(h, 4, &[(0, [true, true, true, true, false, false])]);
+    bar.sections[0] = CrossSection { e: 1e12 * k, ..section() };
+    bar.springs = [Dof::Ry, Dof::Rz].map(|dof| GroundSpring { point: 0, dof, stiffness: k }).to_vec();
+    let found = critical(&bar, &at_points(&[(4, [-w, 0.0, 0.0])]));
+    assert!((found * w * h / k - 1.0).abs() < 1e-9, "{found}");
+}
+
 /// The same by a force on a rail above its members, which may stand between the nodes.
 #[test]
 fn force_on_a_rail_above_the_axis_turns_the_girder() {

@@ -50,7 +50,8 @@ impl std::fmt::Display for SystemSize {
 /// # Errors
 /// An entry that cannot be used, a mechanism, or a solution whose error bound exceeds [`fea::DEFAULT_ACCURACY`].
 pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
-    solve_to(spec, fea::DEFAULT_ACCURACY, usize::MAX)
+    let (model, rails, frame) = spec.factored()?;
+    solved(spec, model, rails, &frame, usize::MAX)
 }
 
 /// Solves a spec like [`solve`], with a relative error bound of the compliances of at most `accuracy`. The surface is
@@ -62,7 +63,18 @@ pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
 pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = FactoredFrame::with_accuracy(&model, &rails, accuracy)?;
-    let grid = StationGrid::of(spec, &frame)?.with_effects(spec, &model, &frame)?;
+    solved(spec, model, rails, &frame, most)
+}
+
+/// What is kept of a factored frame of the model of a spec.
+fn solved(
+    spec: &Spec,
+    model: fea::Model,
+    rails: Vec<fea::Rail>,
+    frame: &FactoredFrame,
+    most: usize,
+) -> Result<SolvedModel, fea::Error> {
+    let grid = StationGrid::of(spec, frame)?.with_effects(spec, &model, frame)?;
     let mut grid = grid.with_critical_factor(spec)?;
     let dofs = 6 * frame.line()?.state_count();
     let surface = if dofs <= most {

@@ -1,6 +1,7 @@
 //! The result of one case of a scene.
 
 use std::ops::ControlFlow;
+use std::sync::OnceLock;
 
 use formats::scene::motion::SimulationInput;
 use sim::{History, Run};
@@ -48,6 +49,15 @@ pub struct CaseResult {
     pub codes: Option<CodeCheck>,
     /// Damage at the stress points that have a detail category.
     pub fatigue: Vec<FatigueResult>,
+    /// What first order leaves out, once it has been asked for.
+    pub(crate) second_order: OnceLock<Vec<FirstOrderDoubt>>,
+}
+
+/// How far first order does not hold for a structure, where that is to be told: as a warning or a note.
+#[derive(Clone, Debug)]
+pub(crate) struct FirstOrderDoubt {
+    pub is_warning: bool,
+    pub text: String,
 }
 
 impl CaseResult {

@@ -5,8 +5,8 @@
 //! modes, values of codes and fatigue are then computed from these columns.
 
 use std::ops::ControlFlow;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
 
 use sim::{Foundation, Status};
 
@@ -195,7 +195,20 @@ fn run_case(
             found.map_err(|_| Error::Stopped)?.into()
         }
     };
-    Ok(CaseResult { label, input, run, columns: record, choices, lines, response, girders, codes, fatigue })
+    let second_order = OnceLock::new();
+    Ok(CaseResult {
+        label,
+        input,
+        run,
+        columns: record,
+        choices,
+        lines,
+        response,
+        girders,
+        codes,
+        fatigue,
+        second_order,
+    })
 }
 
 /// Label of the run of the scene itself: the foundations of its structures.

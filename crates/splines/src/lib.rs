@@ -64,7 +64,7 @@ pub use probe::{Axis, Probe};
 pub use quality::{StationSearch, StationSet, fewest_stations};
 pub use rail::{
     BeamColumn, ElementFunctions, ElementMember, Flexibility, MemberMotion, RailElement, Rails,
-    RoundingSizes, ShapeRow,
+    RoundingSizes, ShapeRow, lowered,
 };
 pub use surface::{
     Couplings, DisplacementLines, ElementResidual, ExactSurface, ForceComponent, InfluenceLines,

@@ -1,4 +1,5 @@
-//! The largest deflection of a carrier under a single train, enclosed by bisection of the places.
+//! The largest deflection of a carrier under a single train, or the largest moment or shear force under axial force, enclosed
+//! by bisection of the places.
 //!
 //! Between two places the deflection w of one state bulges: minus its second derivative is at most k, except for kinks
 //! under wheels. The largest deflection W under the wheels is exact (`under_wheels`); what exceeds it is smooth where it
@@ -7,6 +8,10 @@
 //! max(W, w at both ends + k h^2/2),    without kinks    w at both ends + k h^2/8.
 //!
 //! With n kinks in the interval, s being the sum of the jumps of the slope, w at both ends + k h^2/8 + s h/4 holds as well.
+//! A force under axial force jumps at wheels. With W, its largest value on either side of all wheels, known, no state exceeds
+//!
+//! max(W, both ends) + k h^2/8,    and on an interval shorter than the distance between wheels    max(W, ends + k h^2/2).
+//!
 //! This is true of each piece of the positions by itself, so that an interval keeps only those pieces that can hold more
 //! than the best value, and the deeper the bisection is, the fewer are evaluated.
 
@@ -18,12 +23,12 @@ use crate::extremes::{Governing, TrainPosition};
 use crate::follow::SectionSide;
 use crate::overrun::Overrun;
 use crate::plan::{CasePlan, Standing};
-use crate::structure::{Carrier, GirderResponse};
+use crate::structure::{Carrier, GirderResponse, QUANTITIES};
 
 /// Parts of a window from which the bisection starts.
 const PARTS: usize = 4;
 
-/// What is sought: the largest value of sign times a deflection within a window of places.
+/// What is sought: the largest value of sign times a deflection, or a force, within a window of places.
 pub(crate) struct Alone<'a> {
     pub plan: &'a CasePlan,
     pub over: &'a Overrun,
@@ -65,7 +70,8 @@ impl Alone<'_> {
     /// The governing state, and what sign times the deflection nowhere exceeds. `under_wheels` is the largest value under
     /// the wheels, where the slope has kinks; `known` is sign times a value below which nothing is sought.
     pub fn enclosed(&self, under_wheels: Option<Governing>, known: f64) -> (Option<Governing>, f64) {
-        let follows = under_wheels.is_some();
+        let is_force = (self.quantity as usize) < QUANTITIES;
+        let follows = under_wheels.is_some() || is_force;
         let mut found = Found { largest: self.size, best: under_wheels };
         let [from, to] = self.window;
         let all: Active = Rc::new(self.active(&mut found, known));
@@ -78,8 +84,17 @@ impl Alone<'_> {
         let margin = |x: [f64; 2], at: &[usize; 2]| {
             let h = x[1] - x[0];
             let own = bulge(at) * h * h;
-            let all = own / 8.0 + self.kinks * h / 4.0;
+            let all = if is_force { f64::INFINITY } else { own / 8.0 + self.kinks * h / 4.0 };
             if follows && h < spacing { all.min(own / 2.0) } else { all }
+        };
+        // What is known under wheels, for forces: sign times their values there are no larger.
+        let beside = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
+        let most_within = |x: [f64; 2], at: &[usize; 2], ends: f64| {
+            if !is_force {
+                return ends + margin(x, at);
+            }
+            let h = x[1] - x[0];
+            (ends + margin(x, at)).min(ends.max(beside) + bulge(at) * h * h / 8.0)
         };
         let limit = |found: &Found| {
             let best = found.best.as_ref().map_or(known, |g| known.max(self.sign * g.value));
@@ -88,7 +103,7 @@ impl Alone<'_> {
         let mut open: Vec<Interval> = Vec::new();
         for k in 0..PARTS {
             let [a, b] = [&ends[k], &ends[k + 1]];
-            open.extend(interval([place(k), place(k + 1)], &all, [a, b], &margin, limit(&found)));
+            open.extend(interval([place(k), place(k + 1)], &all, [a, b], &most_within, limit(&found)));
         }
         let mut evaluations = PARTS + 1;
         loop {
@@ -109,19 +124,17 @@ impl Alone<'_> {
             evaluations += 1;
             let most = limit(&found);
             let [a, b] = &values;
-            open.extend(interval(halves[0], &active, [a, &at_middle], &margin, most));
-            open.extend(interval(halves[1], &active, [&at_middle, b], &margin, most));
+            open.extend(interval(halves[0], &active, [a, &at_middle], &most_within, most));
+            open.extend(interval(halves[1], &active, [&at_middle, b], &most_within, most));
         }
     }
 
     /// By how much a state of a piece can bulge, dead load included, by rail coordinate.
     fn bulges(&self) -> impl Fn(&[usize; 2]) -> f64 {
         let rate = self.carrier.rate();
-        let direction = usize::from(self.quantity == GirderResponse::LateralDeflection);
+        let k = self.quantity as usize;
         let dead = self.dead.map_or(0.0, |dead| dead.bend(self.quantity, self.carrier.length));
-        move |&[stance, piece]| {
-            (self.over.bounds(stance).bulge(direction, self.sign, piece) + dead) * rate * rate
-        }
+        move |&[stance, piece]| (self.over.bounds(stance).bulge(k, self.sign, piece) + dead) * rate * rate
     }
 
     /// The pieces that can exceed the value at the middle of the window, and what is known.
@@ -187,11 +200,11 @@ fn interval(
     x: [f64; 2],
     active: &Active,
     values: [&Vec<f64>; 2],
-    margin: &impl Fn([f64; 2], &[usize; 2]) -> f64,
+    most_within: &impl Fn([f64; 2], &[usize; 2], f64) -> f64,
     limit: f64,
 ) -> Option<Interval> {
     let [a, b] = values;
-    let most = |k: usize| a[k].max(b[k]) + margin(x, &active[k]);
+    let most = |k: usize| most_within(x, &active[k], a[k].max(b[k]));
     let keeps: Vec<usize> = (0..active.len()).filter(|&k| most(k) > limit).collect();
     let bound = keeps.iter().map(|&k| most(k)).reduce(f64::max)?;
     let take = |values: &Vec<f64>| keeps.iter().map(|&k| values[k]).collect();

@@ -2,9 +2,10 @@
 
 use std::collections::VecDeque;
 
+use crate::alone::Alone;
 use crate::collect::{Accumulated, Entry, entry, is_better, offer, sign_of, spans_of, standings};
 use crate::dead::{DeadLoad, DeadLoads};
-use crate::deflection::Deflections;
+use crate::deflection::{Deflections, GAP, MOST};
 use crate::effect::{extremes_of_effects, plans};
 use crate::error::Error;
 use crate::extremes::{CaseEnvelopes, EnvelopeValue, Governing, Request, SpanExtreme, TrainPosition};
@@ -220,6 +221,26 @@ impl<'a> Analysis<'a> {
                     if plan.trains.len() == 1 {
                         let found = follow_one(plan, over, carrier, &target, entry.governing.as_ref());
                         offer(&mut entry.governing, found, sign);
+                        if over.all().any(|passage| passage.on.bent_row(target.k).is_some()) {
+                            let search = Alone {
+                                plan,
+                                over,
+                                carrier,
+                                quantity: *quantity,
+                                sign,
+                                window: ends,
+                                dead: Some(dead),
+                                kinks: 0.0,
+                                gap: GAP,
+                                size: 0.0,
+                                most: MOST,
+                            };
+                            let known =
+                                entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);
+                            let (found, bound) = search.enclosed(None, known);
+                            offer(&mut entry.governing, found, sign);
+                            entry.bound = Some(bound.max(entry.bound.unwrap_or(f64::NEG_INFINITY)));
+                        }
                         continue;
                     }
                     let known = entry.governing.as_ref().map_or(f64::NEG_INFINITY, |g| sign * g.value);

@@ -30,7 +30,7 @@ impl SecondDerivatives {
         for (bounds, cells) in rails.iter_mut().zip(&lines.rails) {
             for cell in cells {
                 let h = cell.x[1] - cell.x[0];
-                let on = loads.iter().find(|(on, _)| Some(on.other.element) == cell.element);
+                let on = loads.iter().find(|(on, _)| Some(on.other.stretch) == cell.stretch);
                 for (component, bound) in bounds.iter_mut().enumerate() {
                     let ahead = of_cell(cell, component);
                     let mut offer = |found: [f64; 2]| (0..2).for_each(|k| bound[k] = bound[k].max(found[k]));

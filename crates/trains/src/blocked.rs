@@ -50,7 +50,11 @@ impl Blocked {
         let shear = slope_index(target.k);
         let (mut curvature, mut slope, mut kinks, mut jumps) = (0.0, 0.0, 0.0, 0.0);
         for stances in &over.passages {
-            let bends = stances.iter().map(|passage| bends(&passage.pieces, target, rate));
+            let bends = stances.iter().map(|passage| {
+                let [bend, slope] = bends(&passage.pieces, target, rate);
+                let more = bent_bends(passage, target, rate);
+                [bend + more[0], slope + more[1]]
+            });
             let [bend, steep] = bends.fold([0.0; 2], |a: [f64; 2], b| [a[0].max(b[0]), a[1].max(b[1])]);
             curvature += bend;
             slope += steep;
@@ -65,9 +69,10 @@ impl Blocked {
                 slope += (largest + most(shear)) * rate;
             }
         }
-        let [_, b, c] = target.dead.quadratic(target.k);
-        curvature += (-2.0 * target.sign * c * rate * rate).max(0.0);
-        slope += (b.abs() + 2.0 * c.abs() * carrier.length) * rate;
+        let [_, b, c, d] = target.dead.cubic(target.k);
+        let ends = [0.0, carrier.length].map(|s| -target.sign * (2.0 * c + 6.0 * d * s) * rate * rate);
+        curvature += ends[0].max(ends[1]).max(0.0);
+        slope += (b.abs() + carrier.length * (2.0 * c.abs() + 3.0 * d.abs() * carrier.length)) * rate;
         let places = places(plan, over, carrier, &|train, stance| {
             sharp_positions(&over.passages[train][stance], target)
         });
@@ -88,7 +93,8 @@ impl Blocked {
     ) -> Blocked {
         let places = places(plan, over, carrier, &|train, stance| {
             let of_wheel = |wheel: &PlacedWheel| {
-                let ends = structure.rails[wheel.rail].stretches.iter().flat_map(|stretch| stretch.x);
+                let stretches = structure.rails[wheel.rail].stretches.iter();
+                let ends = stretches.flat_map(|stretch| stretch.ends_of_element());
                 ends.map(|x| x - wheel.offset).collect::<Vec<f64>>()
             };
             let [first, last] = plan.trains[train][stance].range;
@@ -141,6 +147,46 @@ fn bends(pieces: &Pieces<QUANTITIES>, target: &Target<'_>, rate: f64) -> [f64; 2
         }
     }
     out
+}
+
+/// What an axial force adds to both bounds of [`bends`], wherever train and section move: all that differs from B(p) + s V(p),
+/// and the curvature of what wheels that have been passed add.
+fn bent_bends(passage: &Passage, target: &Target<'_>, rate: f64) -> [f64; 2] {
+    let Some(row) = passage.on.bent_row(target.k) else { return [0.0; 2] };
+    let shear = slope_index(target.k);
+    let length = passage.on.length();
+    let mut out = [0.0_f64; 2];
+    let factors: Vec<([f64; 3], usize)> = row
+        .map(|(cubic, of)| {
+            let [a, b, c, d] = *cubic;
+            let more =
+                [a - f64::from(u8::from(of == target.k)), b - f64::from(u8::from(Some(of) == shear)), c, d];
+            (sizes(&more, length), of)
+        })
+        .collect();
+    for (index, piece) in passage.pieces.list.iter().enumerate() {
+        let mut own = [0.0; 2];
+        for ([value, slope, bend], of) in &factors {
+            let [still, moving, turning] = sizes(&piece.cubics[*of], piece.length());
+            own[0] += value * turning + 2.0 * rate * slope * moving + rate * rate * bend * still;
+            own[1] += value * moving + rate * slope * still;
+        }
+        for wheel in passage.wheels(index) {
+            let [_, b, c, d] = *wheel.behind(target.k);
+            let jump = shear.map_or(0.0, |shear| wheel.jump(shear));
+            let [_, slope, bend] = sizes(&[0.0, b - jump, c, d], length);
+            own[0] += rate * rate * bend;
+            own[1] += rate * slope;
+        }
+        out = [out[0].max(own[0]), out[1].max(own[1])];
+    }
+    out
+}
+
+/// Bounds of the sizes of a cubic, its first and its second derivative on 0..=h.
+fn sizes(cubic: &[f64; 4], h: f64) -> [f64; 3] {
+    let [a, b, c, d] = cubic.map(f64::abs);
+    [a + h * (b + h * (c + h * d)), b + h * (2.0 * c + 3.0 * d * h), 2.0 * c + 6.0 * d * h]
 }
 
 /// Bound of the size of response k.
@@ -230,7 +276,8 @@ fn sharp_positions(passage: &Passage, target: &Target<'_>) -> Vec<f64> {
             list.iter().map(|piece| start(piece)[0].abs().max(end(piece)[0].abs())).fold(0.0, f64::max)
         };
         let length = list.last().map_or(0.0, |last| last.position[1]) - list[0].position[0];
-        let breaks = passage.pieces.list.iter().skip(1).map(|piece| piece.position[0]);
+        let breaks = passage.pieces.list.iter().skip(1).filter(|piece| !piece.begins_inside);
+        let breaks = breaks.map(|piece| piece.position[0]);
         for position in breaks {
             let after = list.partition_point(|piece| piece.position[0] < position);
             let change = |list: &[ResponsePiece]| {

@@ -2,12 +2,15 @@
 //!
 //! At the ends of a third a response is bounded by its Bernstein coefficients. Between them a force of one state is
 //! constant and a moment linear, except for the steps J and the jumps of the shear V at wheels that can stand there; a
-//! deflection bends by its second derivative k, with jumps of the slope g at wheels:
+//! deflection bends by its second derivative k, with jumps of the slope g at wheels, and under axial force moments and
+//! shear forces bend as well:
 //!
 //! force <= its ends + sum J,    moment <= its ends + sum J + h/4 sum V,    deflection <= its ends + k h^2/8 + h/4 sum g.
 
+use crate::bent::FIRST;
+use crate::pieces::Piece;
 use crate::polynomial::Polynomial;
-use crate::section::{Passage, WheelOnMember, slope_index};
+use crate::section::{Passage, WheelOnMember};
 use crate::structure::{GirderResponse, QUANTITIES};
 
 /// Parts of a carrier.
@@ -23,6 +26,9 @@ pub(crate) struct Bounds {
     most: Vec<f64>,
     /// By direction and piece: bounds of plus and minus the second derivative of a deflection along the member.
     second: [Vec<[f64; 2]>; 2],
+    /// By quantity and piece: bounds of the size of the second derivative of a force along a member under axial force between
+    /// wheels; empty without.
+    bent: Vec<Vec<f64>>,
     pieces: usize,
     length: f64,
 }
@@ -40,6 +46,10 @@ impl Bounds {
                 .map(|piece| if known { second(passage, piece, direction) } else { [0.0; 2] })
                 .collect()
         });
+        let bent: Vec<Vec<f64>> = match passage.on.bent() {
+            Some(_) => (0..QUANTITIES).map(|k| bent_seconds(passage, k)).collect(),
+            None => Vec::new(),
+        };
         for k in first..responses {
             for piece in 0..pieces {
                 let mut ends = [[f64::NEG_INFINITY; 2]; PARTS + 1];
@@ -54,9 +64,11 @@ impl Bounds {
                     let more = margin(passage, piece, k, part);
                     for sign in 0..2 {
                         let [a, b] = [ends[part][sign], ends[part + 1][sign]];
-                        let bulge = k.checked_sub(QUANTITIES).map_or(0.0, |direction| {
-                            bulge(second[direction][piece], sign) * (length / PARTS as f64).powi(2) / 8.0
-                        });
+                        let own = match k.checked_sub(QUANTITIES) {
+                            Some(direction) => bulge(second[direction][piece], sign),
+                            None => bent.get(k).map_or(0.0, |of| of[piece]),
+                        };
+                        let bulge = own * (length / PARTS as f64).powi(2) / 8.0;
                         let more = more + bulge;
                         let size = a.abs().max(b.abs()) + more;
                         values[((part * responses + k) * 2 + sign) * pieces + piece] =
@@ -67,13 +79,16 @@ impl Bounds {
         }
         let largest = |own: &[f64]| own.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let most = values.chunks(pieces.max(1)).map(largest).collect();
-        Bounds { values, most, second, pieces, length }
+        Bounds { values, most, second, bent, pieces, length }
     }
 
-    /// A bound of minus the second derivative of sign times a deflection in a piece, at least 0: by how much a state can
-    /// bulge over its chord.
-    pub fn bulge(&self, direction: usize, sign: f64, piece: usize) -> f64 {
-        bulge(self.second[direction][piece], usize::from(sign < 0.0))
+    /// A bound of minus the second derivative of sign times response k in a piece, at least 0: by how much a state can
+    /// bulge over its chord between wheels.
+    pub fn bulge(&self, k: usize, sign: f64, piece: usize) -> f64 {
+        match k.checked_sub(QUANTITIES) {
+            Some(direction) => bulge(self.second[direction][piece], usize::from(sign < 0.0)),
+            None => self.bent.get(k).map_or(0.0, |of| of[piece]),
+        }
     }
 
     /// Bounds of sign times response k around place s, by piece.
@@ -149,6 +164,21 @@ fn second(passage: &Passage, piece: usize, direction: usize) -> [f64; 2] {
     out
 }
 
+/// Bounds of the size of the second derivative of quantity k, by piece, between wheels.
+fn bent_seconds(passage: &Passage, k: usize) -> Vec<f64> {
+    let Some((bent, factors)) = passage.on.bent().and_then(|bent| Some((bent, bent.second(k)?))) else {
+        return vec![0.0; passage.pieces.list.len()];
+    };
+    let of = |(index, piece): (usize, &Piece<QUANTITIES>)| {
+        let h = piece.length();
+        let size = |cubic: &[f64; 4]| cubic.iter().rev().fold(0.0, |sum, c| sum * h + c.abs());
+        let of_ends = factors.iter().zip(&piece.cubics[FIRST..]).map(|(factor, cubic)| factor * size(cubic));
+        let wheels = passage.wheels(index).iter().map(|wheel| bent.bend(wheel.behind(k)));
+        of_ends.sum::<f64>() + wheels.sum::<f64>()
+    };
+    passage.pieces.list.iter().enumerate().map(of).collect()
+}
+
 /// Minus the second derivative of a deflection (sign 0) or of its negative (1) at most, by bounds of plus and minus.
 fn bulge([above, below]: [f64; 2], sign: usize) -> f64 {
     if sign == 0 { below.max(0.0) } else { above.max(0.0) }
@@ -169,7 +199,8 @@ fn margin(passage: &Passage, piece: usize, k: usize, part: usize) -> f64 {
     }
     within
         .map(|wheel| {
-            wheel.jump(k).abs() + slope_index(k).map_or(0.0, |shear| wheel.jump(shear).abs() * h / 4.0)
+            let [jump, kink, ..] = wheel.behind(k);
+            jump.abs() + kink.abs() * h / 4.0
         })
         .sum()
 }

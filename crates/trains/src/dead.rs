@@ -4,6 +4,7 @@ use fea::{BeamTheory, Effect};
 use nalgebra::Vector3;
 use splines::Probe;
 
+use crate::bent::Bent;
 use crate::error::Error;
 use crate::kernel::RailPoint;
 use crate::line::Lines;
@@ -37,8 +38,8 @@ impl DeadLoads {
 /// The quantities of one carrier under dead load, as polynomials in the distance along it.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct DeadLoad {
-    /// Internal forces: a + b s + c s^2 each.
-    forces: [[f64; 3]; QUANTITIES],
+    /// Internal forces: a + b s + c s^2 + d s^3 each, d under axial force alone.
+    forces: [[f64; 4]; QUANTITIES],
     /// Deflections downwards and along +z, of degree four.
     deflections: [[f64; 5]; 2],
 }
@@ -46,12 +47,17 @@ pub(crate) struct DeadLoad {
 impl DeadLoad {
     /// Response k at a place that is a polynomial itself.
     pub fn along(&self, k: usize, place: &Polynomial) -> Polynomial {
-        let [a, b, c] = self.forces[k];
-        if [a, b, c] == [0.0; 3] {
+        let [a, b, c, d] = self.forces[k];
+        if [a, b, c, d] == [0.0; 4] {
             return Polynomial::default();
         }
         let linear = Polynomial::new(&[a]).plus(place, b);
-        if c == 0.0 { linear } else { linear.plus(&place.times(place), c) }
+        if [c, d] == [0.0; 2] {
+            return linear;
+        }
+        let square = place.times(place);
+        let quadratic = linear.plus(&square, c);
+        if d == 0.0 { quadratic } else { quadratic.plus(&square.times(place), d) }
     }
 
     /// A deflection at a place that is linear.
@@ -71,13 +77,19 @@ impl DeadLoad {
     }
 
     /// Coefficients of quantity k.
-    pub fn quadratic(&self, k: usize) -> [f64; 3] {
+    pub fn cubic(&self, k: usize) -> [f64; 4] {
         self.forces[k]
     }
 
-    /// Bound of the second derivative of a deflection over a member of some length.
+    /// Bound of the second derivative of a quantity over a member of some length.
     pub fn bend(&self, quantity: GirderResponse, length: f64) -> f64 {
-        let all = self.deflections[usize::from(quantity == GirderResponse::LateralDeflection)];
+        let all = match (quantity as usize).checked_sub(QUANTITIES) {
+            None => {
+                let [a, b, c, d] = self.forces[quantity as usize];
+                [a, b, c, d, 0.0]
+            }
+            Some(direction) => self.deflections[direction],
+        };
         let [_, _, c, d, e] = all.map(f64::abs);
         2.0 * c + length * (6.0 * d + length * 12.0 * e)
     }
@@ -115,6 +127,7 @@ impl Structure {
         let effects: Vec<Effect> = carriers.iter().flat_map(end_effects).collect();
         let weight = self.frame.effects_of_weight(&self.model, self.unit_weight(), &effects)?;
         let mut out = Vec::with_capacity(carriers.len());
+        let mut jumps = Vec::with_capacity(carriers.len());
         for (index, (carrier, lines)) in carriers.iter().zip(lines).enumerate() {
             let own = std::array::from_fn(|k| -dead.gravity * weight[QUANTITIES * index + k]);
             let mut start = carrier.quantities(own);
@@ -126,12 +139,12 @@ impl Structure {
                 }
             }
             let [force, couple] = self.distributed(dead, carrier, &up)?;
-            out.push(DeadLoad {
-                forces: along(&start, &carrier.jump(&force, &couple)),
-                deflections: [[0.0; 5]; 2],
-            });
+            let jump = carrier.jump(&force, &couple);
+            let spread = carrier.jump_of_load(&force, &couple);
+            out.push(DeadLoad { forces: along(carrier, &start, &spread), deflections: [[0.0; 5]; 2] });
+            jumps.push(jump);
         }
-        self.add_deflections(dead, carriers, &mut out)?;
+        self.add_deflections(dead, carriers, &jumps, &mut out)?;
         Ok(out)
     }
 
@@ -180,11 +193,13 @@ impl Structure {
     /// Deflections of the rails over the carriers: those of the ends by the structure, and between them the particular
     /// solution for the internal forces that vanishes at both ends,
     ///
-    /// v'' = M/EI - q/GAs in each plane of bending, and for the twist GJ theta'' = T'.
+    /// v'' = (M/EI - q/GAs)/mu in each plane of bending, with mu = 1 + N/GAs, and for the twist GJ theta'' = T'. `jumps` are the
+    /// loads along each carrier.
     fn add_deflections(
         &self,
         dead: &DeadLoads,
         carriers: &[Carrier],
+        jumps: &[[f64; QUANTITIES]],
         out: &mut [DeadLoad],
     ) -> Result<(), Error> {
         let resisted = |carrier: &Carrier| {
@@ -201,13 +216,19 @@ impl Structure {
         let at: Vec<Probe> = carriers.iter().flat_map(probes).collect();
         let moved = self.frame.displacements_of_weight(self.unit_weight(), &at)?;
         let mut moved = moved.chunks_exact(2);
-        for (carrier, load) in carriers.iter().zip(out) {
-            let interior = self.interior_motion(carrier, load)?;
+        for ((carrier, jump), load) in carriers.iter().zip(jumps).zip(out) {
+            let interior = self.interior_motion(carrier, load, jump)?;
             for (direction, (quantity, resists)) in DEFLECTIONS.into_iter().zip(resisted(carrier)).enumerate()
             {
                 let (axis, sign) = deflection_axis(quantity);
                 let Some(ends) = (if resists { moved.next() } else { None }) else { continue };
                 let mut ends = [0, 1].map(|end| -dead.gravity * sign * ends[end]);
+                if carrier.bent.is_some() {
+                    for (end, x) in ends.iter_mut().zip(carrier.x) {
+                        *end += sign
+                            * self.held_deflection(dead, carrier, Probe { rail: carrier.rail, x, axis })?;
+                    }
+                }
                 for (end, x) in ends.iter_mut().zip(carrier.x) {
                     if dead.lines.iter().all(|line| *line == 0.0) {
                         break;
@@ -231,13 +252,27 @@ impl Structure {
         Ok(())
     }
 
+    /// Displacement at a probe on a carrier by the weight of its member alone, whose ends are held.
+    fn held_deflection(&self, dead: &DeadLoads, carrier: &Carrier, at: Probe) -> Result<f64, Error> {
+        let section = &self.model.sections[self.model.members[carrier.member].section];
+        let up = Vector3::from(self.model.up).normalize();
+        let (_, under) = self.frame.line()?.uniform_load(at)?;
+        let [_, y, z] = &carrier.local;
+        Ok(-dead.gravity * section.mass * (up.dot(y) * under[0][0] + up.dot(z) * under[1][0]))
+    }
+
     /// Motion of the rail between the ends of a carrier that are held in place, by powers of the distance; global.
-    fn interior_motion(&self, carrier: &Carrier, load: &DeadLoad) -> Result<[Vector3<f64>; 5], Error> {
+    fn interior_motion(
+        &self,
+        carrier: &Carrier,
+        load: &DeadLoad,
+        jump: &[f64; QUANTITIES],
+    ) -> Result<[Vector3<f64>; 5], Error> {
         let [t, u, z] = carrier.triad;
         let section = &self.model.sections[self.model.members[carrier.member].section];
         let theory: BeamTheory = self.model.theory;
         let flexibility = section.flexibility(theory);
-        let quantity = |q: GirderResponse| load.forces[q as usize];
+        let quantity = |q: GirderResponse| quadratic(&load.forces[q as usize], carrier.length);
         let y_axis = carrier.local[1];
         let z_axis = t.cross(&y_axis);
         let mut out = [Vector3::zeros(); 5];
@@ -249,15 +284,18 @@ impl Structure {
         // Moment and force on the face that looks along +t, in the planes of the section's axes.
         let [vertical, lateral] =
             [quantity(GirderResponse::VerticalMoment), quantity(GirderResponse::LateralMoment)];
-        let shears = [quantity(GirderResponse::VerticalShear), quantity(GirderResponse::LateralShear)];
+        let spread =
+            [GirderResponse::VerticalShear, GirderResponse::LateralShear].map(|shear| jump[shear as usize]);
+        let point = RailPoint::new(self, carrier)?;
+        let [_, mu_y, mu_z] = point.stiffening;
         let planes = [
-            (y_axis, z_axis, 1.0, flexibility.bending_z, flexibility.shear_y),
-            (z_axis, y_axis, -1.0, flexibility.bending_y, flexibility.shear_z),
+            (y_axis, z_axis, 1.0, flexibility.bending_z / mu_y, flexibility.shear_y / mu_y),
+            (z_axis, y_axis, -1.0, flexibility.bending_y / mu_z, flexibility.shear_z / mu_z),
         ];
         for (direction, about, sign, bending, shear) in planes {
             let times = |c: f64, flexibility: f64| if c == 0.0 { 0.0 } else { c * flexibility };
             let moment = |p: usize| sign * (vertical[p] * z.dot(&about) + lateral[p] * u.dot(&about));
-            let rate = -shears[0][1] * u.dot(&direction) + shears[1][1] * z.dot(&direction);
+            let rate = -spread[0] * u.dot(&direction) + spread[1] * z.dot(&direction);
             let mut second: [f64; 3] = std::array::from_fn(|p| times(moment(p), bending));
             second[0] += times(rate, shear);
             if second.iter().all(|c| c.is_finite()) {
@@ -266,8 +304,7 @@ impl Structure {
         }
         let twist = load.forces[GirderResponse::Torsion as usize][1];
         if twist != 0.0 && flexibility.torsion.is_finite() {
-            let arm = RailPoint::new(self, carrier)?.arm;
-            add(t.cross(&arm), [twist * flexibility.torsion, 0.0, 0.0]);
+            add(t.cross(&point.arm), [twist * flexibility.torsion, 0.0, 0.0]);
         }
         Ok(out)
     }
@@ -280,12 +317,26 @@ fn integral(cubic: &[f64; 4], [from, to]: [f64; 2]) -> f64 {
     h * (a + h * (b / 2.0 + h * (c / 3.0 + h * d / 4.0)))
 }
 
-/// Quantities along a member by those at its first end and their jump per length.
-fn along(start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES]) -> [[f64; 3]; QUANTITIES] {
-    std::array::from_fn(|k| match GirderResponse::ALL[k].slope() {
-        Some(shear) => [start[k], start[shear] + jump[k], 0.5 * jump[shear]],
-        None => [start[k], jump[k], 0.0],
+/// Quantities along a carrier by those at its first end and their jump per length.
+fn along(carrier: &Carrier, start: &[f64; QUANTITIES], jump: &[f64; QUANTITIES]) -> [[f64; 4]; QUANTITIES] {
+    std::array::from_fn(|k| {
+        let of = |bent: &Bent| Some((bent.passed(k, start)?, bent.under(k, jump)?));
+        if let Some((of_ends, spread)) = carrier.bent.as_deref().and_then(of) {
+            return std::array::from_fn(|p| of_ends[p] + spread[p]);
+        }
+        match GirderResponse::ALL[k].slope() {
+            Some(shear) => [start[k], start[shear] + jump[k], 0.5 * jump[shear], 0.0],
+            None => [start[k], jump[k], 0.0, 0.0],
+        }
     })
+}
+
+/// The quadratic that is nearest to a cubic on 0..=h, that without the polynomial of Chebyshev of degree three; it errs by
+/// d h^3/32.
+fn quadratic(&[a, b, c, d]: &[f64; 4], h: f64) -> [f64; 3] {
+    // T3 on 0..=h is -1 + 18 r - 48 r^2 + 32 r^3 with r = s/h.
+    let part = d * h * h * h / 32.0;
+    if part == 0.0 { [a, b, c] } else { [a + part, b - 18.0 * part / h, c + 48.0 * part / (h * h)] }
 }
 
 /// The polynomial with second derivative a + b s + c s^2 that is zero at 0 and at `length`.

@@ -26,12 +26,12 @@ use crate::train::{COMPONENTS, PlacedTrain};
 use crate::under_wheels::UnderWheels;
 
 /// Most evaluations for one extreme under one train, and under several, whose slope jumps under wheels.
-const MOST: usize = 3000;
+pub(crate) const MOST: usize = 3000;
 const MOST_OF_SEVERAL: usize = 2000;
 /// Most evaluations for the largest deflection of a span from its chord.
 const MOST_OF_CHORDS: usize = 120;
 /// Relative gap of extremes. A ratio of span to deflection is printed with three digits.
-const GAP: f64 = 5e-10;
+pub(crate) const GAP: f64 = 5e-10;
 const GAP_OF_CHORDS: f64 = 1e-5;
 
 /// The deflections of one carrier in one case.
@@ -255,12 +255,13 @@ impl Deflections<'_> {
         let shears = [GirderResponse::VerticalShear, GirderResponse::LateralShear];
         let (moment_z, moment_y) = (project(moments, &z_axis, [&z, &u]), project(moments, &y_axis, [&z, &u]));
         let (shear_y, shear_z) = (project(shears, &y_axis, [&u, &z]), project(shears, &z_axis, [&u, &z]));
-        let rate = |k: GirderResponse| self.dead.quadratic(k as usize)[1].abs();
+        let rate = |k: GirderResponse| self.dead.cubic(k as usize)[1].abs();
         let distributed = rate(GirderResponse::VerticalShear) + rate(GirderResponse::LateralShear);
         let [twisted, bending_y, bending_z] = point.bending;
         let [stretched, sheared_y, sheared_z] = point.shear;
-        let curvature = along(&y_axis) * (moment_z * bending_z + distributed * sheared_y)
-            + along(&z_axis) * (moment_y * bending_y + distributed * sheared_z)
+        let [_, mu_y, mu_z] = point.stiffening;
+        let curvature = along(&y_axis) * (moment_z * bending_z + distributed * sheared_y) / mu_y
+            + along(&z_axis) * (moment_y * bending_y + distributed * sheared_z) / mu_z
             + along(&z_axis.cross(&point.arm)) * shear_y * bending_z
             + along(&y_axis.cross(&point.arm)) * shear_z * bending_y
             + along(&t.cross(&point.arm)) * twisted * rate(GirderResponse::Torsion)

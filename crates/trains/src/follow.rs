@@ -4,7 +4,8 @@
 //! where the dead load is distributed. It is extreme at an end of the member, just before or behind a wheel, or where a
 //! moment has a vertex. A section that follows a wheel has quantities of degree at most four in the position, and the
 //! value at a vertex, a - b^2/(4 c) with a and b cubic, is of degree six. Ends of the member are fixed sections
-//! (`section`); this file does the others.
+//! (`section`); this file does the others. On a part of a member under axial force, moments and shear forces are cubic
+//! between wheels: beside wheels they are of degree six, and `alone` encloses them elsewhere.
 
 use crate::bounds::Bounds;
 use crate::dead::DeadLoad;
@@ -12,7 +13,7 @@ use crate::line::shifted;
 use crate::plan::TIE;
 use crate::polynomial::Polynomial;
 use crate::running::PiecewiseFunction;
-use crate::section::{Passage, WheelOnMember, slope_index};
+use crate::section::{Passage, TrainOnCarrier, WheelOnMember, slope_index};
 use crate::structure::{GirderResponse, QUANTITIES};
 
 /// Which side of a wheel a section is on.
@@ -57,7 +58,7 @@ impl Passage {
                 continue;
             }
             let wheels = self.wheels(index);
-            let state = State { base: &piece.cubics, wheels };
+            let state = State { base: &piece.cubics, wheels, on: &self.on };
             let h = piece.length();
             for (j, wheel) in wheels.iter().enumerate() {
                 // Positions at which the wheel is within the window.
@@ -110,7 +111,7 @@ impl Passage {
             if from > to {
                 continue;
             }
-            let state = State { base: &piece.cubics, wheels };
+            let state = State { base: &piece.cubics, wheels, on: &self.on };
             let place = Polynomial::new(&[wheels[j].start + wheels[j].rate * from, wheels[j].rate]);
             let live = state.quantity(target.k, &place, from, j + usize::from(side == SectionSide::Behind));
             let dead = target.dead.along(target.k, &place);
@@ -132,8 +133,8 @@ impl Passage {
         best: &mut Option<Peak>,
     ) {
         let Some(shear) = slope_index(target.k) else { return };
-        let [a, b, c] = target.dead.quadratic(target.k);
-        if target.sign * c >= 0.0 {
+        let [a, b, c, _] = target.dead.cubic(target.k);
+        if target.sign * c >= 0.0 || self.on.bent().is_some() {
             return;
         }
         for count in 0..=state.wheels.len() {
@@ -178,6 +179,7 @@ fn limit_of(best: &Option<Peak>, floor: f64) -> f64 {
 struct State<'a> {
     base: &'a [[f64; 4]; QUANTITIES],
     wheels: &'a [WheelOnMember],
+    on: &'a TrainOnCarrier,
 }
 
 impl State<'_> {
@@ -185,17 +187,32 @@ impl State<'_> {
     /// counted as before it.
     fn quantity(&self, k: usize, place: &Polynomial, from: f64, count: usize) -> Polynomial {
         let base = |k: usize| Polynomial::new(&shifted(&self.base[k], from));
+        let own = |wheel: &WheelOnMember| Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
+        if let Some(row) = self.on.bent_row(k) {
+            let of_ends = row.fold(Polynomial::default(), |sum, (cubic, of)| {
+                sum.plus(&along(cubic, place).times(&base(of)), 1.0)
+            });
+            return self.wheels[..count].iter().fold(of_ends, |sum, wheel| {
+                sum.plus(&along(wheel.behind(k), &place.plus(&own(wheel), -1.0)), 1.0)
+            });
+        }
         let mut out = base(k);
         if let Some(shear) = slope_index(k) {
             out = out.plus(&base(shear).times(place), 1.0);
         }
         for wheel in &self.wheels[..count] {
-            let own = Polynomial::new(&[wheel.start + wheel.rate * from, wheel.rate]);
             out = out.plus(&Polynomial::new(&[wheel.jump(k)]), 1.0);
             if let Some(shear) = slope_index(k) {
-                out = out.plus(place, wheel.jump(shear)).plus(&own, -wheel.jump(shear));
+                out = out.plus(place, wheel.jump(shear)).plus(&own(wheel), -wheel.jump(shear));
             }
         }
         out
     }
+}
+
+/// A cubic of a place that is linear in the position.
+fn along([a, b, c, d]: &[f64; 4], place: &Polynomial) -> Polynomial {
+    [c, b, a]
+        .into_iter()
+        .fold(Polynomial::new(&[*d]), |sum, next| sum.times(place).plus(&Polynomial::new(&[*next]), 1.0))
 }

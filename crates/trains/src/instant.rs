@@ -2,8 +2,9 @@
 //!
 //! The six quantities Q(0) just inside the first end of a member follow from its influence lines. At a distance s they
 //! follow by equilibrium of the part between: each load passed at s_k < s changes force and couple by its jump, and
-//! moments by (s - s_k) times the jump of the shear. Loads may stand anywhere; nothing is sampled along the member.
+//! moments by (s - s_k) times the jump of the shear; where the member has an axial force, `bent` has the functions. Loads may stand anywhere; nothing is sampled along the member.
 
+use crate::bent::{BENT, BentPlane, FIRST, moved};
 use crate::error::Error;
 use crate::line::{LineCell, value_of_cubic};
 use crate::rail_deflection::CarrierLines;
@@ -47,6 +48,8 @@ pub struct RailLoad {
 #[derive(Debug)]
 pub struct MemberForces {
     structure: Structure,
+    /// The members, whole.
+    carriers: Vec<Carrier>,
     /// Influence lines of the six quantities just inside the first end of each carrier, by rail.
     lines: Vec<Vec<Vec<ForceCell>>>,
     /// Rail elements on the member of each carrier.
@@ -88,6 +91,8 @@ pub struct RailMember {
 pub struct PassedLoads {
     base: [f64; QUANTITIES],
     passed: Vec<PassedLoad>,
+    /// The planes that an axial force bends.
+    planes: Option<[BentPlane; 2]>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -105,9 +110,10 @@ impl MemberForces {
     /// A model or a rail that cannot be used, or a structure that can move without strain.
     pub fn new(model: &Model, rails: &[Rail]) -> Result<MemberForces, Error> {
         let structure = Structure::new(model, rails, false)?;
-        let mut lines = Vec::with_capacity(structure.carriers.len());
-        let mut elements = Vec::with_capacity(structure.carriers.len());
-        for carriers in structure.carriers.chunks(BATCH) {
+        let all: Vec<Carrier> = structure.carriers.iter().filter_map(Carrier::whole_from_first).collect();
+        let mut lines = Vec::with_capacity(all.len());
+        let mut elements = Vec::with_capacity(all.len());
+        for carriers in all.chunks(BATCH) {
             let cell = |cell: LineCell<QUANTITIES>| {
                 let [along, up, across, ..] = cell.cubics;
                 ForceCell { x: cell.x, cubics: [along, up, across] }
@@ -120,7 +126,7 @@ impl MemberForces {
                 elements.push(loaded_elements(&structure, carrier)?);
             }
         }
-        Ok(MemberForces { structure, lines, elements })
+        Ok(MemberForces { structure, carriers: all, lines, elements })
     }
 
     /// The structure.
@@ -131,28 +137,27 @@ impl MemberForces {
 
     /// The members, rail by rail in the order of the model.
     pub fn members(&self) -> impl ExactSizeIterator<Item = RailMember> + '_ {
-        self.structure.carriers.iter().map(|c| RailMember { rail: c.rail, x: c.x, length: c.length })
+        self.carriers.iter().map(|c| RailMember { rail: c.rail, x: c.x, length: c.length })
     }
 
     /// Distance of a section from the first end of a member, by its rail coordinate.
     #[must_use]
     pub fn place(&self, member: usize, x: f64) -> f64 {
-        self.structure.carriers[member].place(x)
+        self.carriers[member].place(x)
     }
 
     /// Rail coordinate of the section at a distance from the first end of a member.
     #[must_use]
     pub fn coordinate(&self, member: usize, place: f64) -> f64 {
-        self.structure.carriers[member].coordinate(place)
+        self.carriers[member].coordinate(place)
     }
 
     /// The six components of the internal force of the section at a distance from the first end of a member, as effects
     /// of the frame.
     #[must_use]
     pub fn effects(&self, member: usize, place: f64) -> [Effect; QUANTITIES] {
-        let carrier = &self.structure.carriers[member];
-        let fraction = (place / carrier.length).clamp(0.0, 1.0);
-        let place = if carrier.reversed { 1.0 - fraction } else { fraction };
+        let carrier = &self.carriers[member];
+        let place = carrier.fraction(place.clamp(0.0, carrier.length));
         fea::ForceComponent::ALL.map(|component| Effect::InternalForce {
             member: carrier.member,
             place,
@@ -164,7 +169,7 @@ impl MemberForces {
     /// [`MemberForces::effects`].
     #[must_use]
     pub fn quantities(&self, member: usize, components: [f64; QUANTITIES]) -> [f64; QUANTITIES] {
-        self.structure.carriers[member].quantities(components)
+        self.carriers[member].quantities(components)
     }
 
     /// Writes the state of a member under loads into `out`. A load within 1e-9 of an end of the member, relative to its
@@ -196,6 +201,7 @@ impl MemberForces {
             }
         }
         out.base = own;
+        out.planes = self.carriers[member].bent.as_ref().map(|bent| *bent.planes());
     }
 
     /// The coordinate at which a load counts, and the rail element of the member on which it stands.
@@ -217,7 +223,7 @@ fn loaded_elements(structure: &Structure, carrier: &Carrier) -> Result<Vec<Loade
         let mut jumps = [[0.0; QUANTITIES]; 3];
         for (component, jump) in jumps.iter_mut().enumerate() {
             let [force, couple] = structure.load(stretch, component)?;
-            *jump = carrier.jump(&force, &couple);
+            *jump = carrier.jump_of_load(&force, &couple);
         }
         out.push(LoadedElement { rail: other.rail, x: other.x, start, rate, jumps });
     }
@@ -234,21 +240,30 @@ impl PassedLoads {
     /// the section, and whether the section is just behind it.
     #[must_use]
     pub fn quantities(&self, place: f64, own: Option<(usize, bool)>) -> [f64; QUANTITIES] {
-        let mut out = self.base;
-        for (k, value) in out.iter_mut().enumerate() {
-            *value += slope_index(k).map_or(0.0, |shear| place * self.base[shear]);
-        }
+        let mut out = self.moved(&self.base, place);
         for load in &self.passed {
             let is_passed = match own {
                 Some((index, is_behind)) if index == load.index => is_behind,
                 _ => load.place < place,
             };
             if is_passed {
-                let lever = place - load.place;
-                for (k, value) in out.iter_mut().enumerate() {
-                    *value += load.jump[k] + slope_index(k).map_or(0.0, |shear| load.jump[shear] * lever);
-                }
+                let behind = self.moved(&load.jump, place - load.place);
+                out.iter_mut().zip(behind).for_each(|(value, more)| *value += more);
             }
+        }
+        out
+    }
+
+    /// Quantities at a distance from where they are `from`, without loads between.
+    fn moved(&self, from: &[f64; QUANTITIES], lever: f64) -> [f64; QUANTITIES] {
+        let mut out = *from;
+        if let Some(planes) = &self.planes {
+            let ends: &[f64; BENT] = from[FIRST..].first_chunk().expect("all quantities but two are bent");
+            out[FIRST..].copy_from_slice(&moved(planes, ends, lever));
+            return out;
+        }
+        for (k, value) in out.iter_mut().enumerate() {
+            *value += slope_index(k).map_or(0.0, |shear| from[shear] * lever);
         }
         out
     }

@@ -105,7 +105,7 @@ impl<const N: usize> Run<N> {
         let cubics = std::array::from_fn(|component| {
             std::array::from_fn(|k| line(self.values[component][k], self.slopes[component][k]))
         });
-        LineCell { x: [self.start, end], element: None, cubics }
+        LineCell { x: [self.start, end], stretch: None, begins_inside: false, cubics }
     }
 }
 
@@ -161,7 +161,7 @@ impl CarrierLines {
     /// The lines with their straight runs joined, the same ones of forces and deflections. Cells on the member of the
     /// carrier are kept, because loads that have been passed are added there.
     pub fn joined(mut self, structure: &Structure, carrier: &Carrier) -> CarrierLines {
-        let own: Vec<usize> = structure.on_member(carrier).map(|on| on.other.element).collect();
+        let own: Vec<usize> = structure.on_member(carrier).map(|on| on.other.stretch).collect();
         let is_moment =
             |k: usize| k == GirderResponse::Torsion as usize || GirderResponse::ALL[k].slope().is_some();
         let units = std::array::from_fn(|k| if is_moment(k) { carrier.length } else { 1.0 });
@@ -174,7 +174,7 @@ impl CarrierLines {
                 self.deflections.iter().flatten().zip(of_deflections.iter().flatten()).collect();
             let other = |i: usize| {
                 let cell = &forces[i];
-                (!cell.element.is_some_and(|element| own.contains(&element))).then_some(cell)
+                (!cell.stretch.is_some_and(|stretch| own.contains(&stretch))).then_some(cell)
             };
             let begin = |i: usize| {
                 let first = Run::from(other(i)?, &limits)?;
@@ -207,7 +207,7 @@ mod tests {
         let cell = |(index, (x, cubic)): (usize, &([f64; 2], [f64; 4]))| {
             let mut cubics = [[[0.0; 4]; 1]; COMPONENTS];
             cubics[1][0] = *cubic;
-            LineCell { x: *x, element: Some(index), cubics }
+            LineCell { x: *x, stretch: Some(index), begins_inside: false, cubics }
         };
         Lines { rails: vec![pieces.iter().enumerate().map(cell).collect()] }
     }
@@ -224,7 +224,7 @@ mod tests {
         .joined();
         let cells = &found.rails[0];
         assert_eq!(cells.iter().map(|cell| cell.x).collect::<Vec<_>>(), [[0.0, 3.0], [3.0, 4.0], [4.0, 7.0]]);
-        assert_eq!(cells.iter().map(|cell| cell.element).collect::<Vec<_>>(), [None, Some(2), None]);
+        assert_eq!(cells.iter().map(|cell| cell.stretch).collect::<Vec<_>>(), [None, Some(2), None]);
         assert!((value_of_cubic(&cells[0].cubics[1][0], 2.0) - 2.0).abs() < 1e-15);
         assert!(value_of_cubic(&cells[2].cubics[1][0], 2.0).abs() < 1e-15);
     }

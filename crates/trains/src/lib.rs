@@ -8,15 +8,14 @@
 //! mean.
 //!
 //! Everything is linear: of first order, or about the state of a preload whose axial forces are in the members of the
-//! model. There influence lines are cubic to 1e-9 in short parts; moments between the ends of members leave out what
-//! the axial force adds by the deflection from their chord ([`Structure::error_between_ends`]). Units are consistent;
-//! the crate knows none.
+//! model. There influence lines, moments and deflections are taken as cubics in parts of members so short that they err by
+//! less than 1e-9 ([`Structure::error_of_lines`]), and extremes are enclosed. Units are consistent; the crate knows none.
 //!
-//! Wings, lowest first: polynomial, error, train, line, structure, kernel, rail_deflection, joining, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
+//! Wings, lowest first: polynomial, error, train, line, bent, structure, kernel, rail_deflection, joining, pieces, running, plan, promising, hints, dead, section, bounds, instant, overrun, follow, extremes, ordinates, collect, effect, search, blocked, bicubic, several, under_wheels, alone, deflection, analysis
 //!
 //! 1. `polynomial`: polynomials of low degree and their largest value;
 //! 2. `error`, `train`: what can be wrong, and what the caller gives: wheels, trains, cases;
-//! 3. `line`, `structure`: influence lines as cubics; the structure that has them; `kernel`, `rail_deflection`: the
+//! 3. `line`, `bent`, `structure`: influence lines as cubics; moments under axial force; the structure that has them; `kernel`, `rail_deflection`: the
 //!    deflection of a rail over a member as polynomials of the place and of the load's position; `joining`: far cells as one;
 //! 4. `pieces`, `running`, `plan`, `promising`, `hints`: responses to a train as functions of its position, the best
 //!    arrangement of trains, and where it can be;
@@ -31,6 +30,7 @@
 
 mod alone;
 mod analysis;
+mod bent;
 mod bicubic;
 mod blocked;
 mod bounds;

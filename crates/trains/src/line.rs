@@ -12,8 +12,10 @@ pub(crate) const NODES: [f64; 4] =
 pub(crate) struct LineCell<const N: usize> {
     /// First and last coordinate.
     pub x: [f64; 2],
-    /// The rail element; `None` where several have been joined.
-    pub element: Option<usize>,
+    /// Number of the stretch of rail; `None` where several have been joined.
+    pub stretch: Option<usize>,
+    /// Whether it begins within a member, where its lines have no kink.
+    pub begins_inside: bool,
     /// By component of the load and response: the cubic in the distance from `x[0]`.
     pub cubics: [[[f64; 4]; N]; COMPONENTS],
 }
@@ -29,7 +31,8 @@ impl<const N: usize> Lines<N> {
     pub fn zeros_like<const M: usize>(other: &Lines<M>) -> Lines<N> {
         let zero = |cell: &LineCell<M>| LineCell {
             x: cell.x,
-            element: cell.element,
+            stretch: cell.stretch,
+            begins_inside: cell.begins_inside,
             cubics: [[[0.0; 4]; N]; COMPONENTS],
         };
         Lines { rails: other.rails.iter().map(|cells| cells.iter().map(zero).collect()).collect() }
@@ -47,12 +50,29 @@ pub(crate) fn cell_at<const N: usize>(cells: &[LineCell<N>], x: f64) -> Option<u
     Some(cells.partition_point(|cell| cell.x[0] <= x).saturating_sub(1))
 }
 
-/// A stretch of rail on one side of every jump.
+/// A stretch of rail on one side of every jump: a rail element, or a part of one on a member under axial force.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Stretch {
     pub rail: usize,
     pub element: usize,
+    /// Its number among the stretches of all rails.
+    pub number: usize,
     pub x: [f64; 2],
+    /// Whether each end is within the element.
+    pub inner: [bool; 2],
+}
+
+impl Stretch {
+    /// Whether it is the whole element.
+    pub fn is_whole(&self) -> bool {
+        self.inner == [false; 2]
+    }
+
+    /// The coordinates of those ends that are ends of the element.
+    pub fn ends_of_element(&self) -> impl Iterator<Item = f64> + use<> {
+        let ends = self.x.into_iter().zip(self.inner);
+        ends.filter(|(_, inner)| !inner).map(|(x, _)| x)
+    }
 }
 
 /// The cubics of functions that are cubic over a stretch, by their values at four nodes (Newton's divided differences);

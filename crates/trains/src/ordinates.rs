@@ -125,8 +125,7 @@ impl Structure {
             SectionSide::At => on.next(),
         };
         let carrier = found.ok_or(splines::Error::OffRail { rail, x })?;
-        let place = carrier.place(x) / carrier.length;
-        let place = if carrier.reversed { 1.0 - place } else { place };
+        let place = carrier.fraction(carrier.place(x));
         let parts = ForceComponent::ALL.map(|component| {
             let effect = Effect::InternalForce { member: carrier.member, place, component };
             self.effect_line(&[effect], VERTICAL)

@@ -11,6 +11,8 @@ pub(crate) struct Piece<const N: usize> {
     pub position: [f64; 2],
     /// Cubics in the distance from the first position.
     pub cubics: [[f64; 4]; N],
+    /// Whether every wheel that passes from a cell to the next at the first position does so within a member.
+    pub begins_inside: bool,
 }
 
 impl<const N: usize> Piece<N> {
@@ -73,15 +75,15 @@ impl Pieces<1> {
 #[derive(Clone, Debug)]
 pub(crate) struct Pieces<const N: usize> {
     pub list: Vec<Piece<N>>,
-    /// Rail element under each wheel, wheels of the first piece first; `None` beyond the rail.
-    elements: Vec<Option<usize>>,
+    /// Stretch of rail under each wheel, wheels of the first piece first; `None` beyond the rail.
+    stretches: Vec<Option<usize>>,
     wheels: usize,
 }
 
 impl<const N: usize> Pieces<N> {
-    /// Rail elements under the wheels in a piece.
-    pub fn elements(&self, piece: usize) -> &[Option<usize>] {
-        &self.elements[piece * self.wheels..(piece + 1) * self.wheels]
+    /// Stretches of rail under the wheels in a piece.
+    pub fn stretches(&self, piece: usize) -> &[Option<usize>] {
+        &self.stretches[piece * self.wheels..(piece + 1) * self.wheels]
     }
 
     /// Sums the influence lines of all wheels. Between two positions at which a wheel passes from a cell to the next,
@@ -89,16 +91,22 @@ impl<const N: usize> Pieces<N> {
     /// `slack` count as one.
     pub fn sum(lines: &Lines<N>, train: &PlacedTrain, slack: f64) -> Pieces<N> {
         let [first, last] = train.range;
-        let mut breaks = vec![first, last];
+        let mut breaks = vec![(first, false), (last, false)];
         for wheel in &train.wheels {
             let cells = &lines.rails[wheel.rail];
-            let ends = cells.iter().map(|cell| cell.x[0]).chain(cells.last().map(|cell| cell.x[1]));
-            breaks.extend(ends.map(|x| x - wheel.offset).filter(|p| *p > first + slack && *p < last - slack));
+            let starts = cells.iter().map(|cell| (cell.x[0], cell.begins_inside));
+            let ends = starts.chain(cells.last().map(|cell| (cell.x[1], false)));
+            let all = ends.map(|(x, is_inside)| (x - wheel.offset, is_inside));
+            breaks.extend(all.filter(|(p, _)| *p > first + slack && *p < last - slack));
         }
-        breaks.sort_by(f64::total_cmp);
-        breaks.dedup_by(|b, a| *b - *a <= slack && *b != last);
+        breaks.sort_by(|a, b| a.0.total_cmp(&b.0));
+        breaks.dedup_by(|b, a| {
+            let is_one = b.0 - a.0 <= slack && b.0 != last;
+            a.1 &= b.1 || !is_one;
+            is_one
+        });
         if last - first <= slack {
-            breaks = vec![first, last];
+            breaks = vec![(first, false), (last, false)];
         }
         // Cubics of one wheel: wheels with equal loads on one rail share them.
         let mut kinds: Vec<(usize, [f64; COMPONENTS])> = Vec::new();
@@ -118,14 +126,15 @@ impl<const N: usize> Pieces<N> {
             .map(|(rail, load)| lines.rails[*rail].iter().map(|cell| under(cell, load)).collect())
             .collect();
         let mut list = Vec::with_capacity(breaks.len() - 1);
-        let mut elements = Vec::with_capacity((breaks.len() - 1) * train.wheels.len());
-        for ends in breaks.windows(2) {
+        let mut stretches = Vec::with_capacity((breaks.len() - 1) * train.wheels.len());
+        for pair in breaks.windows(2) {
+            let ends = [pair[0].0, pair[1].0];
             let middle = 0.5 * (ends[0] + ends[1]);
             let mut cubics = [[0.0; 4]; N];
             for (wheel, kind) in train.wheels.iter().zip(&kind_of) {
                 let cells = &lines.rails[wheel.rail];
                 let found = cell_at(cells, middle + wheel.offset);
-                elements.push(found.and_then(|k| cells[k].element));
+                stretches.push(found.and_then(|k| cells[k].stretch));
                 if let Some(k) = found {
                     let t = ends[0] + wheel.offset - cells[k].x[0];
                     for (sum, cubic) in cubics.iter_mut().zip(&loaded[*kind][k]) {
@@ -133,9 +142,9 @@ impl<const N: usize> Pieces<N> {
                     }
                 }
             }
-            list.push(Piece { position: [ends[0], ends[1]], cubics });
+            list.push(Piece { position: ends, cubics, begins_inside: pair[0].1 });
         }
-        Pieces { list, elements, wheels: train.wheels.len() }
+        Pieces { list, stretches, wheels: train.wheels.len() }
     }
 }
 

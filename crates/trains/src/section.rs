@@ -2,12 +2,14 @@
 //!
 //! From the quantities Q(0) just inside the first end of the member, those at a distance s follow by equilibrium of the
 //! part between: with a load passed at s_k < s, force and couple change by its jump a_k, and each moment by
-//! s times its shear at the end plus (s - s_k) times the jump of the shear. The deflection of the rail is a cubic in s,
-//! to which each load that has been passed adds its kernel.
+//! s times its shear at the end plus (s - s_k) times the jump of the shear. Where the member has an axial force, `bent`
+//! gives the cubics in s and s - s_k that take the place of these. The deflection of the rail is a cubic in s, to which
+//! each load that has been passed adds its kernel.
 
+use crate::bent::{Bent, FIRST};
 use crate::error::Error;
 use crate::kernel::{Kernel, RailPoint};
-use crate::line::{Lines, shifted};
+use crate::line::{Lines, shifted, value_of_cubic};
 use crate::pieces::{Pieces, ResponsePiece};
 use crate::rail_deflection::{CarrierLines, POWERS};
 use crate::structure::{Carrier, GirderResponse, OnMember, QUANTITIES, Structure};
@@ -22,7 +24,7 @@ const FEW: usize = 16;
 #[derive(Clone, Debug)]
 struct Mapping {
     rail: usize,
-    element: usize,
+    stretch: usize,
     /// Rail coordinate of its first end, and the place on the carrier there.
     x: f64,
     s: f64,
@@ -36,7 +38,19 @@ struct Mapping {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Change {
     jump: [f64; QUANTITIES],
+    /// The same by the distance behind the wheel: a cubic for each quantity.
+    passed: [[f64; 4]; QUANTITIES],
     kernels: [Kernel; 2],
+}
+
+impl Change {
+    fn new(carrier: &Carrier, jump: [f64; QUANTITIES], kernels: [Kernel; 2]) -> Change {
+        let of = |k: usize| {
+            let bent = carrier.bent.as_ref().and_then(|bent| bent.passed(k, &jump));
+            bent.unwrap_or([jump[k], slope_index(k).map_or(0.0, |shear| jump[shear]), 0.0, 0.0])
+        };
+        Change { jump, passed: std::array::from_fn(of), kernels }
+    }
 }
 
 /// A train over one carrier.
@@ -47,6 +61,7 @@ pub(crate) struct TrainOnCarrier {
     offsets: Vec<f64>,
     rails: Vec<usize>,
     length: f64,
+    bent: Option<Box<Bent>>,
 }
 
 /// A wheel on the member, in one piece of the positions.
@@ -67,6 +82,11 @@ impl WheelOnMember {
         self.change.jump[k]
     }
 
+    /// The cubic by which quantity `k` changes behind the wheel, in the distance from it.
+    pub fn behind(&self, k: usize) -> &[f64; 4] {
+        &self.change.passed[k]
+    }
+
     /// The kernel of a deflection, 0 downwards and 1 along +z.
     pub fn kernel(&self, direction: usize) -> &Kernel {
         &self.change.kernels[direction]
@@ -79,8 +99,11 @@ impl WheelOnMember {
         if let Some(direction) = k.checked_sub(QUANTITIES) {
             return self.kernel(direction).passing(lever, self.rate);
         }
-        let slope = slope_index(k).map_or(0.0, |shear| self.jump(shear));
-        [self.jump(k) + slope * lever, -slope * self.rate, 0.0, 0.0]
+        let [a, b, c, d] = self.change.passed[k];
+        let rate = self.rate;
+        let [slope, bend] = [b + lever * (2.0 * c + lever * 3.0 * d), c + 3.0 * d * lever];
+        let value = a + lever * (b + lever * (c + lever * d));
+        [value, -rate * slope, rate * rate * bend, -rate * rate * rate * d]
     }
 }
 
@@ -103,11 +126,11 @@ impl TrainOnCarrier {
                     wheel.load.iter().zip(&units).map(|(load, unit)| unit[part] * *load).sum()
                 };
                 let (force, couple) = (total(0), total(1));
-                Change { jump: carrier.jump(&force, &couple), kernels: point.kernels(&force, &couple) }
+                Change::new(carrier, carrier.jump_of_load(&force, &couple), point.kernels(&force, &couple))
             };
             mappings.push(Mapping {
                 rail: other.rail,
-                element: other.element,
+                stretch: other.stretch,
                 x: other.x[0],
                 s: start,
                 rate,
@@ -116,7 +139,8 @@ impl TrainOnCarrier {
         }
         let offsets = train.wheels.iter().map(|wheel| wheel.offset).collect();
         let rails = train.wheels.iter().map(|wheel| wheel.rail).collect();
-        Ok(TrainOnCarrier { mappings, offsets, rails, length: carrier.length })
+        let bent = carrier.bent.clone();
+        Ok(TrainOnCarrier { mappings, offsets, rails, length: carrier.length, bent })
     }
 
     /// The rail elements of the member with the wheels that can stand on them.
@@ -181,12 +205,23 @@ impl TrainOnCarrier {
         self.length
     }
 
+    /// What the axial force of the member does to moments; `None` without.
+    pub fn bent(&self) -> Option<&Bent> {
+        self.bent.as_deref()
+    }
+
+    /// The cubics of quantity `k` by place, each with the quantity at the first end that it multiplies, where an axial force
+    /// bends it.
+    pub fn bent_row(&self, k: usize) -> Option<impl Iterator<Item = (&[f64; 4], usize)>> {
+        Some(self.bent()?.row(k)?.iter().zip(FIRST..))
+    }
+
     /// The wheels on the member in a piece, by increasing place.
     fn wheels(&self, pieces: &Pieces<QUANTITIES>, piece: usize) -> Vec<WheelOnMember> {
         let mut out = Vec::new();
         let position = pieces.list[piece].position[0];
-        for (wheel, element) in pieces.elements(piece).iter().enumerate() {
-            let Some(mapping) = self.mappings.iter().find(|mapping| Some(mapping.element) == *element) else {
+        for (wheel, stretch) in pieces.stretches(piece).iter().enumerate() {
+            let Some(mapping) = self.mappings.iter().find(|mapping| Some(mapping.stretch) == *stretch) else {
                 continue;
             };
             let start = mapping.s + (position + self.offsets[wheel] - mapping.x) * mapping.rate;
@@ -240,6 +275,13 @@ impl Passage {
             return std::array::from_fn(|p| a[p] + u * (b[p] + u * (c[p] + u * d[p])));
         }
         let cubics = &self.pieces.list[piece].cubics;
+        if let Some(row) = self.on.bent_row(k) {
+            let mut sum = [0.0; 4];
+            for (factor, of) in row.map(|(cubic, of)| (value_of_cubic(cubic, s), of)) {
+                sum.iter_mut().zip(&cubics[of]).for_each(|(sum, c)| *sum += factor * c);
+            }
+            return sum;
+        }
         let Some(shear) = slope_index(k) else { return cubics[k] };
         std::array::from_fn(|p| cubics[k][p] + s * cubics[shear][p])
     }

@@ -36,7 +36,11 @@ pub(crate) fn enclosed(
     if is_extreme_at_ends(over, target) {
         return Ok(None);
     }
-    if slope_index(target.k).is_none() && plan.is_one_queue() && has_one_rail(over) {
+    if slope_index(target.k).is_none()
+        && !is_bent(over, target.k)
+        && plan.is_one_queue()
+        && has_one_rail(over)
+    {
         let found = beside_wheels(plan, over, carrier, target);
         let value = found.as_ref().map_or(f64::NEG_INFINITY, |best| target.sign * best.value);
         return Ok(Some((found, value)));
@@ -135,6 +139,11 @@ fn beside_wheels(
     best
 }
 
+/// Whether an axial force bends quantity `k` between wheels.
+fn is_bent(over: &Overrun, k: usize) -> bool {
+    over.all().any(|passage| passage.on.bent_row(k).is_some())
+}
+
 /// Sum of the forces of all wheels.
 fn forces(plan: &CasePlan) -> f64 {
     let wheels = plan.trains.iter().flat_map(|stances| &stances[0].wheels);
@@ -143,9 +152,12 @@ fn forces(plan: &CasePlan) -> f64 {
 
 /// Whether sign times the quantity changes along the member in one direction only or, for a moment, is convex.
 fn is_extreme_at_ends(over: &Overrun, target: &Target<'_>) -> bool {
+    if is_bent(over, target.k) {
+        return false;
+    }
     let steps =
         |k: usize| over.all().flat_map(move |passage| passage.on.jumps(k)).map(|jump| target.sign * jump);
-    let [_, slope, bend] = target.dead.quadratic(target.k).map(|c| target.sign * c);
+    let [_, slope, bend, _] = target.dead.cubic(target.k).map(|c| target.sign * c);
     match slope_index(target.k) {
         Some(shear) => {
             steps(shear).all(|jump| jump >= 0.0) && steps(target.k).all(|jump| jump == 0.0) && bend >= 0.0

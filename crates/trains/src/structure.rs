@@ -4,16 +4,23 @@ use std::sync::OnceLock;
 
 use fea::{Effect, FactoredFrame, ForceComponent, Model, Rail, Weight};
 use nalgebra::Vector3;
-use splines::{Axis, ExactSurface, InfluenceLines, Probe};
+use splines::{Axis, BeamColumn, ExactSurface, InfluenceLines, Probe, RailElement};
 
+use crate::bent::{Bent, BentPlane};
 use crate::error::Error;
 use crate::line::{LineCell, Lines, Stretch, cubics};
 use crate::train::{COMPONENTS, axis};
 
-/// Error of influence lines of members under axial force, relative to a deflection, that is negligible.
+/// Error of the cubics along members under axial force, relative to the largest ordinate, that is negligible.
 const BENT_ERROR: f64 = 1e-9;
-/// Most parts into which the influence lines along one member are split for it.
-const MOST_BENT_PARTS: f64 = 256.0;
+/// Most parts into which one member is split for it.
+const MOST_BENT_PARTS: f64 = 400.0;
+/// Largest second derivative of an influence line or a deflection along a member, relative to its largest ordinate over the
+/// square of the length: 48 of a member with both ends clamped under a load in the middle, rounded.
+const MOST_BEND: f64 = 50.0;
+/// A cubic through four nodes of Chebyshev on a part of length h errs by at most h^4 over this number times the fourth
+/// derivative.
+const CHEBYSHEV: f64 = 3072.0;
 
 /// Number of quantities of a section: [`GirderResponse::ALL`].
 pub(crate) const QUANTITIES: usize = 6;
@@ -89,19 +96,26 @@ impl GirderResponse {
     }
 }
 
-/// A member under a rail, described along the rail.
+/// A member under a rail, or a part of one under axial force, described along the rail.
 #[derive(Clone, Debug)]
 pub(crate) struct Carrier {
     /// Index of the rail.
     pub rail: usize,
     /// Index of its rail element.
     pub element: usize,
+    /// Number of its stretch of rail.
+    pub stretch: usize,
     /// Index of the member.
     pub member: usize,
     /// Coordinates of its ends.
     pub x: [f64; 2],
     /// Its length.
     pub length: f64,
+    /// Place of its first end on the whole member, counted along the rail, and the length of the whole.
+    pub start: f64,
+    pub whole: f64,
+    /// What the axial force does to moments; `None` without.
+    pub bent: Option<Box<Bent>>,
     /// Whether its own local x runs against the rail.
     pub reversed: bool,
     /// Along the member in the direction of the rail, normal to it in the plane of up, and t cross u; global.
@@ -121,12 +135,33 @@ impl Carrier {
         if s >= self.length { self.x[1] } else { self.x[0] + s / self.rate() }
     }
 
+    /// The whole member, if this is its first part.
+    pub fn whole_from_first(&self) -> Option<Carrier> {
+        let is_whole = self.length == self.whole;
+        let x = if is_whole { self.x } else { [self.x[0], self.x[0] + self.whole / self.rate()] };
+        (self.start == 0.0).then(|| Carrier { x, length: self.whole, ..self.clone() })
+    }
+
+    /// The fraction of the whole member, in the direction of its own local x, at a place.
+    pub fn fraction(&self, s: f64) -> f64 {
+        let along = if self.start == 0.0 { s / self.whole } else { (self.start + s) / self.whole };
+        if self.reversed { 1.0 - along } else { along }
+    }
+
+    /// Rail coordinate at a place of the whole member, counted along the rail; also beyond the ends of this part.
+    fn coordinate_on_whole(&self, s: f64) -> f64 {
+        let own = s - self.start;
+        // beyond this part, for which the end would be taken
+        if own > self.length { self.x[0] + own / self.rate() } else { self.coordinate(own) }
+    }
+
     /// Length of the member per length of rail.
     pub fn rate(&self) -> f64 {
         self.length / (self.x[1] - self.x[0])
     }
 
-    /// By how much the quantities of a section change where a load (force and couple, global) has been passed.
+    /// By how much the quantities of a section change where a load (force and couple, global) has been passed, without axial
+    /// force.
     pub fn jump(&self, force: &Vector3<f64>, couple: &Vector3<f64>) -> [f64; QUANTITIES] {
         let [t, u, z] = &self.triad;
         let mut out = [0.0; QUANTITIES];
@@ -137,6 +172,12 @@ impl Carrier {
         out[GirderResponse::VerticalMoment as usize] = -couple.dot(z);
         out[GirderResponse::LateralMoment as usize] = -couple.dot(u);
         out
+    }
+
+    /// By how much a load changes the quantities where it has been passed, under the axial force of the member.
+    pub fn jump_of_load(&self, force: &Vector3<f64>, couple: &Vector3<f64>) -> [f64; QUANTITIES] {
+        let given = self.jump(force, couple);
+        self.bent.as_ref().map_or(given, |bent| bent.jump(given))
     }
 
     /// The quantities by the six components of the internal force of the member in its own axes, as the structural
@@ -212,11 +253,13 @@ impl Structure {
             all.extend(own.iter().map(|rail| beside(rail, &up)));
         }
         let frame = FactoredFrame::new(model, &all)?;
-        let frames: Vec<RailFrame> = rails
+        let mut frames: Vec<RailFrame> = rails
             .iter()
             .enumerate()
             .map(|(index, rail)| rail_frame(index, rail, &up, &frame))
             .collect::<Result<_, _>>()?;
+        let all = frames.iter_mut().flat_map(|rail| &mut rail.stretches);
+        all.enumerate().for_each(|(number, stretch)| stretch.number = number);
         let mut carriers = Vec::new();
         for stretch in frames.iter().flat_map(|rail| &rail.stretches) {
             let element = &frame.line()?.elements()[stretch.element];
@@ -229,15 +272,27 @@ impl Structure {
             let across = up - t * t.dot(&up);
             let u =
                 if across.norm() > 1e-9 * up.norm() { across.normalize() } else { global(element.frame[1]) };
+            let triad = [t, u, t.cross(&u)];
+            let local = element.member_axes().map(global);
+            let [start, length] = if stretch.is_whole() {
+                [0.0, element.length]
+            } else {
+                let rate = element.length / (element.x[1] - element.x[0]);
+                [(stretch.x[0] - element.x[0]) * rate, (stretch.x[1] - stretch.x[0]) * rate]
+            };
             carriers.push(Carrier {
                 rail: stretch.rail,
                 element: stretch.element,
+                stretch: stretch.number,
                 member: member.id,
-                x: element.x,
-                length: element.length,
+                x: stretch.x,
+                length,
+                start,
+                whole: element.length,
+                bent: bent(element, &triad, &local, length),
                 reversed: element.is_reversed(),
-                triad: [t, u, t.cross(&u)],
-                local: element.member_axes().map(global),
+                triad,
+                local,
             });
         }
         Ok(Structure {
@@ -257,19 +312,18 @@ impl Structure {
         self.rails.len()
     }
 
-    /// By which part of a moment the moments between the ends of members may err, because an axial force N of a preload turns
-    /// with the deflection there: the largest N h^2/(2 EI) of the members of length h that carry rails, for vertical bending
-    /// with the larger EI, for `lateral` forces as well with the smaller one. Zero without preload.
-    #[must_use]
-    pub fn error_between_ends(&self, lateral: bool) -> f64 {
-        let of = |carrier: &Carrier| {
-            let member = &self.model.members[carrier.member];
-            let section = &self.model.sections[member.section];
-            let least = if section.iy > 0.0 && section.iz > 0.0 { section.iy.min(section.iz) } else { 0.0 };
-            let second = if lateral && least > 0.0 { least } else { section.iy.max(section.iz) };
-            0.5 * member.tension.abs() * carrier.length * carrier.length / (section.e * second)
+    /// Error of influence lines, moments and deflections along members under axial force, relative to the largest ordinate:
+    /// 2 u^2 (50 + u^2)/(3072 m^4) for a member in m parts with u^2 = (lambda L)^2. Zero without axial forces.
+    ///
+    /// # Errors
+    /// None that a structure without rails has not given before.
+    pub fn error_of_lines(&self) -> Result<f64, Error> {
+        let elements = self.frame.line()?.elements();
+        let of = |element: &RailElement| {
+            let count = bent_parts(element);
+            if count == 0 { 0.0 } else { bent_error(bend_square(element), count as f64) }
         };
-        self.carriers.iter().map(of).fold(0.0, f64::max)
+        Ok(elements.iter().map(of).fold(0.0, f64::max))
     }
 
     /// The structural solver with the factored stiffness.
@@ -287,7 +341,9 @@ impl Structure {
     /// Coordinates at which members that carry the rail begin or end, increasing.
     #[must_use]
     pub fn member_ends(&self, rail: usize) -> Vec<f64> {
-        let mut all: Vec<f64> = self.carriers.iter().filter(|c| c.rail == rail).flat_map(|c| c.x).collect();
+        let stretches = self.rails[rail].stretches.iter();
+        let carried = stretches.filter(|own| self.carriers.iter().any(|c| c.stretch == own.number));
+        let mut all: Vec<f64> = carried.flat_map(Stretch::ends_of_element).collect();
         all.sort_by(f64::total_cmp);
         all.dedup_by(|b, a| *b - *a <= self.slack());
         all
@@ -308,16 +364,21 @@ impl Structure {
     /// The rail elements on the member of a carrier, its own included.
     pub(crate) fn on_member<'s>(&'s self, carrier: &'s Carrier) -> impl Iterator<Item = OnMember<'s>> + 's {
         let others = self.carriers.iter().filter(|other| other.member == carrier.member);
-        others.map(|other| {
+        others.filter_map(|other| {
             let same = other.reversed == carrier.reversed;
+            let first = if same { other.start } else { other.whole - other.start - other.length };
+            let middle = first + 0.5 * other.length - carrier.start;
+            if middle < 0.0 || middle > carrier.length {
+                return None;
+            }
             let stretches = &self.rails[other.rail].stretches;
-            let stretch = stretches.iter().find(|stretch| stretch.element == other.element);
-            OnMember {
+            let stretch = stretches.iter().find(|stretch| stretch.number == other.stretch);
+            Some(OnMember {
                 other,
                 stretch: stretch.expect("a carrier is made from a stretch of its rail"),
-                start: if same { 0.0 } else { carrier.length },
+                start: if same { other.start } else { other.whole - other.start } - carrier.start,
                 rate: if same { other.rate() } else { -other.rate() },
-            }
+            })
         })
     }
 
@@ -366,11 +427,13 @@ impl Structure {
             let components: Vec<usize> =
                 (0..COMPONENTS).filter(|&k| used[k] && self.resists(index, k)).collect();
             for stretch in &rail.stretches {
-                let mut places = split(stretch);
-                places.extend(self.bent_places(stretch)?);
-                for x in parts(stretch.x, places, self.slack()) {
-                    let empty =
-                        LineCell { x, element: Some(stretch.element), cubics: [[[0.0; 4]; N]; COMPONENTS] };
+                for x in parts(stretch.x, split(stretch), self.slack()) {
+                    let empty = LineCell {
+                        x,
+                        stretch: Some(stretch.number),
+                        begins_inside: stretch.inner[0] && x[0] == stretch.x[0],
+                        cubics: [[[0.0; 4]; N]; COMPONENTS],
+                    };
                     out.iter_mut().for_each(|lines| lines.rails[index].push(empty.clone()));
                     for &component in &components {
                         let found = cubics(x, groups * N, |x, out| {
@@ -391,25 +454,6 @@ impl Structure {
             }
         }
         Ok(out)
-    }
-
-    /// Coordinates at which a stretch is split because an axial force bends the cubics of its influence lines: between them a
-    /// cubic through four points errs by at most about 1e-9 of a deflection.
-    ///
-    /// The fourth derivative of a deflection w of wavelength 2 l is lambda^2 (pi/l)^2 w, and the cubic through four points of a
-    /// part of length l/m errs by (l/m)^4/1944 times it.
-    fn bent_places(&self, stretch: &Stretch) -> Result<Vec<f64>, Error> {
-        let element = &self.frame.line()?.elements()[stretch.element];
-        let f = &element.flexibility;
-        if f.tension == 0.0 || element.ends[0] == element.ends[1] {
-            return Ok(Vec::new());
-        }
-        let softest = [f.bending_y, f.bending_z].into_iter().filter(|c| c.is_finite()).fold(0.0, f64::max);
-        let square = f.tension.abs() * softest * element.length * element.length;
-        let pi = std::f64::consts::PI;
-        let count = (square * pi * pi / (1944.0 * BENT_ERROR)).powf(0.25).ceil().clamp(1.0, MOST_BENT_PARTS);
-        let [from, to] = stretch.x;
-        Ok((1..count as usize).map(|k| from + (to - from) * k as f64 / count).collect())
     }
 
     /// Influence lines of the six quantities of a section just inside the first end of each of the carriers.
@@ -449,11 +493,11 @@ impl Structure {
         let cut = sums.first().and_then(|sum| section_of(sum));
         let mut parts = vec![0.0; lines.len()];
         let split = |stretch: &Stretch| {
-            let carrier = self.carriers.iter().find(|c| c.element == stretch.element);
+            let carrier = self.carriers.iter().find(|c| c.stretch == stretch.number);
             let here = carrier.zip(cut).filter(|(carrier, (member, _))| carrier.member == *member);
             let place = here.map(|(carrier, (_, place))| {
                 let s = if carrier.reversed { 1.0 - place } else { place };
-                carrier.coordinate(s * carrier.length)
+                carrier.coordinate_on_whole(s * carrier.whole)
             });
             place.into_iter().collect()
         };
@@ -499,7 +543,7 @@ impl Structure {
 
     /// The coordinates on a stretch that are opposite to places of a rail on the same member.
     pub(crate) fn opposite(&self, rail: usize, places: &[f64], stretch: &Stretch) -> Vec<f64> {
-        let Some(carrier) = self.carriers.iter().find(|c| c.element == stretch.element) else {
+        let Some(carrier) = self.carriers.iter().find(|c| c.stretch == stretch.number) else {
             return Vec::new();
         };
         let on = |x: f64| {
@@ -508,8 +552,12 @@ impl Structure {
         };
         let place = |&x: &f64| {
             let here = on(x)?;
-            let s = here.place(x);
-            Some(carrier.coordinate(if here.reversed == carrier.reversed { s } else { carrier.length - s }))
+            let s = here.start + here.place(x);
+            Some(carrier.coordinate_on_whole(if here.reversed == carrier.reversed {
+                s
+            } else {
+                carrier.whole - s
+            }))
         };
         places.iter().filter_map(place).collect()
     }
@@ -530,8 +578,65 @@ pub(crate) fn section_of(effects: &[Effect]) -> Option<(usize, f64)> {
 
 /// The six components of the internal force just inside the end of a carrier at its smaller coordinate.
 pub(crate) fn end_effects(carrier: &Carrier) -> [Effect; 6] {
-    let place = if carrier.reversed { 1.0 } else { 0.0 };
+    let place = carrier.fraction(0.0);
     ForceComponent::ALL.map(|component| Effect::InternalForce { member: carrier.member, place, component })
+}
+
+/// The larger |lambda^2| L^2 of the planes of an element that an axial force bends; 0 where none does.
+fn bend_square(element: &RailElement) -> f64 {
+    if element.flexibility.tension == 0.0 || element.ends[0] == element.ends[1] {
+        return 0.0;
+    }
+    planes_of(element).map(f64::abs).into_iter().fold(0.0, f64::max) * element.length * element.length
+}
+
+/// lambda^2 of the planes in which `bending_z` and `bending_y` act.
+fn planes_of(element: &RailElement) -> [f64; 2] {
+    let f = &element.flexibility;
+    [(f.bending_z, f.shear_y), (f.bending_y, f.shear_z)].map(|(bending, shear)| {
+        if bending.is_finite() && shear.is_finite() {
+            BeamColumn::new(bending, shear, f.tension, 1.0_f64).square()
+        } else {
+            0.0
+        }
+    })
+}
+
+/// What the cubics over m parts of a member with (lambda L)^2 err by: those of influence lines, whose fourth derivative is
+/// lambda^2 times the second, and as much again for those of moments and deflections along a part.
+fn bent_error(square: f64, parts: f64) -> f64 {
+    2.0 * square * (MOST_BEND + square) / (CHEBYSHEV * parts.powi(4))
+}
+
+/// Number of parts in which an element is taken because an axial force bends the cubics along it; 0 without.
+fn bent_parts(element: &RailElement) -> usize {
+    let square = bend_square(element);
+    if square == 0.0 {
+        return 0;
+    }
+    (bent_error(square, 1.0) / BENT_ERROR).powf(0.25).ceil().clamp(1.0, MOST_BENT_PARTS) as usize
+}
+
+/// What the axial force of an element does to moments along a part of it.
+fn bent(
+    element: &RailElement,
+    triad: &[Vector3<f64>; 3],
+    local: &[Vector3<f64>; 3],
+    length: f64,
+) -> Option<Box<Bent>> {
+    if bend_square(element) == 0.0 {
+        return None;
+    }
+    let [about_z, about_y] = planes_of(element);
+    let [_, u, z] = triad;
+    let f = &element.flexibility;
+    let plane = |axis: &Vector3<f64>, square: f64, shear: f64| BentPlane {
+        direction: [z.dot(axis), u.dot(axis)],
+        square,
+        stiffening: if square == 0.0 { 1.0 } else { 1.0 + shear * f.tension },
+    };
+    let planes = [plane(&local[2], about_z, f.shear_y), plane(&local[1], about_y, f.shear_z)];
+    Some(Box::new(Bent::new(planes, length)))
 }
 
 /// The parts of a stretch between the places that are inside it.
@@ -563,9 +668,23 @@ fn rail_frame(
     let x = Vector3::from(rail.axis).normalize();
     let y = (up - x * x.dot(up)).normalize();
     let elements = frame.line()?.elements().iter().enumerate();
-    let mut stretches: Vec<Stretch> = elements
-        .filter(|(_, element)| element.rail == index)
-        .map(|(element, given)| Stretch { rail: index, element, x: given.x })
+    let own = elements.filter(|(_, element)| element.rail == index);
+    let mut stretches: Vec<Stretch> = own
+        .flat_map(|(element, given)| {
+            let count = bent_parts(given).max(1);
+            let at = move |k: usize| match k {
+                _ if k == count => given.x[1],
+                0 => given.x[0],
+                _ => given.x[0] + (given.x[1] - given.x[0]) * k as f64 / count as f64,
+            };
+            (0..count).map(move |k| Stretch {
+                rail: index,
+                element,
+                number: 0,
+                x: [at(k), at(k + 1)],
+                inner: [k > 0, k + 1 < count],
+            })
+        })
         .collect();
     stretches.sort_by(|a, b| a.x[0].total_cmp(&b.x[0]));
     let range = [stretches[0].x[0], stretches[stretches.len() - 1].x[1]];

@@ -286,6 +286,17 @@ impl<T: Real> Contributions<T> {
         blocks
     }
 
+    /// Whether nothing seems to stiffen a column that no support fixes, or a rotation of a body about some axis.
+    fn may_lack_stiffness(&self, bodies: &Bodies) -> bool {
+        let columns = bodies.list.iter().enumerate();
+        let mut columns = columns.flat_map(|(body, own)| (0..6).map(move |k| (6 * body + k, own.free[k])));
+        columns.any(|(column, is_free)| is_free && self.diagonal[column] <= 0.0)
+            || self.rotational_blocks(bodies.list.len()).iter().any(|block| {
+                let doubles = block.map(|row| row.map(|x| x.double()));
+                !unstiffened_axes(&doubles, DOUBTFUL_PIVOT).is_empty()
+            })
+    }
+
     fn cancellation(&self, numbering: &Numbering) -> f64 {
         numbering.column.iter().map(|&c| self.bulk[c] / self.diagonal[c].abs()).fold(1.0, f64::max)
     }
@@ -308,7 +319,10 @@ impl ScaledStiffness {
     /// As [`Element::all`].
     pub fn new(m: &Model, elements: &[Element], bodies: &mut Bodies) -> Result<ScaledStiffness, Error> {
         let mut parts = Contributions::new(m, elements, bodies);
-        let unloaded = if m.is_preloaded() { Some(m.unloaded()) } else { None };
+        // An axial force stiffens no rotation that nothing else stiffens: only where something seems to be missing, the
+        // stiffness without the preload has to be known.
+        let unloaded =
+            if m.is_preloaded() && parts.may_lack_stiffness(bodies) { Some(m.unloaded()) } else { None };
         let own = unloaded.as_ref().map(Element::all).transpose()?;
         let mut elastic =
             unloaded.as_ref().zip(own.as_ref()).map(|(m, own)| Contributions::new(m, own, bodies));
@@ -319,6 +333,7 @@ impl ScaledStiffness {
                 turned.retain(|axes| !armed(axes.body));
                 turned
             }
+            _ if m.is_preloaded() => Vec::new(),
             _ => turned_axes(m, elements, bodies, &parts)?,
         };
         if !turned.is_empty() {
@@ -346,6 +361,31 @@ impl ScaledStiffness {
         // The scale comes from the doubles also where the stiffness is formed again in double-doubles.
         let scale = column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
         Ok(parts.stiffness(Numbering { unknown, column, turned, scale, operations }))
+    }
+
+    /// The stiffness of a model that differs from one numbered before by its axial forces alone, over the same unknowns; `None`
+    /// where these stiffen what nothing stiffened there, or arms turn a body that has turned axes.
+    pub fn renumbered(
+        m: &Model,
+        elements: &[Element],
+        bodies: &Bodies,
+        known: &Numbering,
+    ) -> Option<ScaledStiffness> {
+        let parts = Contributions::new(m, elements, bodies);
+        let is_new = |column: usize| {
+            let Body { free, unstiffened, .. } = &bodies.list[column / 6];
+            let counts = free[column % 6] && !unstiffened[column % 6];
+            counts && known.unknown[column].is_none() && parts.diagonal[column] > 0.0
+        };
+        let turned = |arm: &ArmStiffness| {
+            let body = bodies.of_point[arm.point];
+            known.turned.iter().any(|axes| axes.body == body)
+        };
+        if (0..known.unknown.len()).any(is_new) || m.arms.iter().any(turned) {
+            return None;
+        }
+        let scale = known.column.iter().map(|&c| scale_of(parts.diagonal[c])).collect();
+        Some(parts.stiffness(Numbering { scale, ..known.clone() }))
     }
 
     /// Upper triangle of S K S + shift * identity.

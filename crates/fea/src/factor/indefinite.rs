@@ -49,9 +49,13 @@ impl IndefiniteFactor {
         Ok(Some(IndefiniteFactor { symbolic, values, memory }))
     }
 
-    /// Number of negative pivots; `None` if a number is not finite.
-    pub fn negative_pivots(&self) -> Option<usize> {
-        FactorSize::new(&self.symbolic, &self.values).map(|size| size.negative)
+    /// Number of negative pivots, and whether rounding cannot have changed it ([`negative_eigenvalues`]); `None` if a number
+    /// is not finite.
+    pub fn negative_pivots(&mut self) -> Option<(usize, bool)> {
+        let size = FactorSize::new(&self.symbolic, &self.values)?;
+        let inverse = estimate_inverse_norm(self.symbolic.nrows(), |x| self.solve(x));
+        let error = f64::EPSILON * (size.longest + 1) as f64 * size.growth;
+        Some((size.negative, error * ESTIMATE_MARGIN * inverse < 1.0))
     }
 
     /// Solves A x = x in place.
@@ -76,10 +80,7 @@ impl IndefiniteFactor {
 /// Symmetric Eigenvalue Problem (1980), section 3.3.
 pub(crate) fn negative_eigenvalues(upper: &CsMat<f64>) -> Result<Option<usize>, FactorError> {
     let Some(mut factor) = IndefiniteFactor::new(upper)? else { return Ok(None) };
-    let Some(size) = FactorSize::new(&factor.symbolic, &factor.values) else { return Ok(None) };
-    let inverse = estimate_inverse_norm(upper.cols(), |x| factor.solve(x));
-    let error = f64::EPSILON * (size.longest + 1) as f64 * size.growth;
-    Ok((error * ESTIMATE_MARGIN * inverse < 1.0).then_some(size.negative))
+    Ok(factor.negative_pivots().and_then(|(count, is_certain)| is_certain.then_some(count)))
 }
 
 struct FactorSize {

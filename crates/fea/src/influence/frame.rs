@@ -106,6 +106,47 @@ impl FactoredFrame {
         })
     }
 
+    /// The frame of a model that differs by its axial forces alone, without rails.
+    ///
+    /// # Errors
+    /// As [`FactoredFrame::new`].
+    pub(crate) fn reloaded(&self, m: &Model) -> Result<FactoredFrame, Error> {
+        m.check()?;
+        let elements = Element::all(m)?;
+        let mut bodies = Bodies::new(m);
+        bodies.turn(&self.stiffness.numbering.turned);
+        let Some(stiffness) = ScaledStiffness::renumbered(m, &elements, &bodies, &self.stiffness.numbering)
+        else {
+            return FactoredFrame::with_accuracy(m, &[], self.accuracy);
+        };
+        let factored = Factored::new(m, &stiffness, &bodies, self.accuracy)?;
+        Ok(FactoredFrame {
+            elements,
+            bodies,
+            stiffness,
+            factored,
+            accuracy: self.accuracy,
+            line: None,
+            states: Vec::new(),
+            exact: ExactLayout::default(),
+            model: m.clone(),
+            extended: OnceLock::new(),
+        })
+    }
+
+    /// The same frame with rails.
+    ///
+    /// # Errors
+    /// A rail that cannot be used.
+    pub(crate) fn with_rails(mut self, rails: &[Rail]) -> Result<FactoredFrame, Error> {
+        if !rails.is_empty() {
+            let layout = Layout::new(&self.model, rails, &self.elements, &Bodies::new(&self.model))?;
+            check_coverage(&layout.line, rails)?;
+            (self.line, self.states, self.exact) = (Some(Arc::new(layout.line)), layout.states, layout.exact);
+        }
+        Ok(self)
+    }
+
     /// Condition of the stiffness, and bound of the error of compliances.
     #[must_use]
     pub fn certificate(&self) -> Certificate {

@@ -7,19 +7,24 @@
 //!
 //! Q' = -f,    M' = -Q - mu,    EI theta' = M,    w' = theta + Q/GAs,    w = theta = 0 at both ends,
 //!
-//! of which the interior motion already carries a part, its projection on U in the strain energy. Where ends are released,
+//! and about a state with the axial force N by the series of
+//!
+//! H' = -f,    H = Q + N w',    M' = -Q - mu,    EI theta' = M,    w' = theta + Q/GAs
+//!
+//! up to the same degree; of which the interior motion already carries a part, its projection on U in the strain energy. Where ends are released,
 //! they move under this load by K_rr^-1 times its work on their motions, beside the tips. The rest and this part are the
 //! motions delta_j of this module. In the strain energy they are orthogonal to all motions of the mesh.
 
 use splines::MemberMotion;
 
 use crate::assembly::BendingPlane;
-use crate::modes::shapes::{bending_shapes, integral_of_product, uniform_load_shape};
+use crate::modes::shapes::{
+    Polynomial, bending_shapes, bent_deflection, integral_of_product, is_bent, uniform_load_shape,
+    uniform_load_stiffness,
+};
 
 /// Number of motions with inertia in one plane of a member: four of the ends, and the interior motion.
 pub(super) const MOTIONS: usize = 5;
-
-type Polynomial = [f64; 9];
 
 /// The motions delta_j of a member in one plane of bending.
 #[derive(Clone, Debug)]
@@ -61,7 +66,7 @@ impl InertiaMotions {
         let of_shapes: [[f64; MOTIONS]; MOTIONS] =
             std::array::from_fn(|i| std::array::from_fn(|j| work(&shapes[i], &shapes[j])));
         let uniform = &shapes[MOTIONS - 1];
-        let energy = plane.bending * length.powi(5) / 720.0 + plane.shear * length.powi(3) / 12.0;
+        let energy = uniform_load_stiffness(plane, length);
         let rest: [[Polynomial; 2]; MOTIONS] = std::array::from_fn(|j| {
             let loads = [shapes[j][0].map(|c| mass.deflection * c), shapes[j][1].map(|c| mass.rotation * c)];
             let whole = clamped_deflection(plane, length, &loads);
@@ -108,26 +113,22 @@ impl InertiaMotions {
 
 /// Deflection and rotation of the motions N_j.
 fn shapes(plane: &BendingPlane, length: f64) -> [[Polynomial; 2]; MOTIONS] {
-    let [a, b, c, d] = bending_shapes(plane.shear_ratio(length), length)
-        .map(|(deflection, rotation)| [polynomial(&deflection), polynomial(&rotation)]);
-    let (deflection, rotation) = uniform_load_shape(plane, length);
-    [a, b, c, d, [polynomial(&deflection), polynomial(&rotation)]]
+    let [a, b, c, d] = bending_shapes(plane, length);
+    [a, b, c, d, uniform_load_shape(plane, length)]
 }
 
 /// The interior motion of a member: its deflection between clamped ends under a uniform load of intensity one.
 pub(super) fn uniform_load_motion(index: usize, plane: &BendingPlane, length: f64) -> MemberMotion {
-    let (deflection, rotation) = uniform_load_shape(plane, length);
-    MemberMotion { plane: index, deflection: polynomial(&deflection), rotation: polynomial(&rotation) }
-}
-
-/// Coefficients of a polynomial of lower degree.
-fn polynomial(coefficients: &[f64]) -> Polynomial {
-    std::array::from_fn(|p| coefficients.get(p).copied().unwrap_or(0.0))
+    let [deflection, rotation] = uniform_load_shape(plane, length);
+    MemberMotion { plane: index, deflection, rotation }
 }
 
 /// Deflection and rotation of the clamped member under the force f = `loads[0]` and the moment mu = `loads[1]` per
 /// length, of degree four and three at most.
 fn clamped_deflection(plane: &BendingPlane, length: f64, loads: &[Polynomial; 2]) -> [Polynomial; 2] {
+    if is_bent(plane, length) {
+        return bent_deflection(plane, length, loads);
+    }
     let (c, g, h) = (plane.bending, plane.shear, length);
     // Repeated integrals from the first end, by the fraction of the length.
     let force = repeated(&loads[0]);
@@ -168,6 +169,7 @@ fn repeated(of: &Polynomial) -> [Polynomial; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::modes::shapes::polynomial;
 
     const PLANE: BendingPlane =
         BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: 0.3, shear: 0.7, tension: 0.0 };

@@ -8,12 +8,12 @@ use crate::assembly::{BendingPlane, Combination, Element, Matrix12, arm, bending
 use crate::error::Error;
 use crate::factor::SparseLoad;
 use crate::influence::{Effect, FactoredFrame, Functional};
-use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
+use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, PointMass};
 use crate::modes::inertia_motions::InertiaMotions;
 use crate::modes::interior::InteriorMotion;
 use crate::modes::mass::{release_shapes, unreleased_mass};
 use crate::modes::mode::{BETWEEN, Mode};
-use crate::modes::shapes::{Cubic, Vector12, bending_shapes};
+use crate::modes::shapes::{Vector12, bending_shapes};
 
 type Vector6 = SVector<f64, 6>;
 
@@ -190,10 +190,7 @@ impl FactoredFrame {
             let pair = self.bodies.pair(element.points);
             let b = transformation(element, &self.bodies);
             let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
-            let mut own = unreleased_mass(element, section, m.theory, member.kind);
-            if is_uniform {
-                element.bend_uniform_load(&mut own);
-            }
+            let own = member_mass(m, member, element, is_uniform);
             let mass = ends.transpose() * own;
             for (forces, motions) in out.iter_mut().zip(&motions) {
                 forces.add_member(index, pair, &ends, &mass, motions);
@@ -278,10 +275,9 @@ impl FactoredFrame {
         }
         let distributed =
             DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
-        let mut own = unreleased_mass(element, cross_section, m.theory, member.kind);
+        let own = member_mass(m, member, element, forces.is_uniform);
         let mut turned = 0.0;
         if forces.is_uniform {
-            element.bend_uniform_load(&mut own);
             turned = element.uniform_load_under_tension(cross_section.mass, ends, section);
         }
         let mut fixed = own * ends;
@@ -307,6 +303,20 @@ impl FactoredFrame {
                 })
                 .sum::<f64>()
     }
+}
+
+/// The mass of a member between its flexible ends, for accelerations by the shapes of a mode or for a uniform one, under
+/// which the moments at the clamped ends are known exactly.
+fn member_mass(m: &Model, member: &Member, element: &Element, is_uniform: bool) -> Matrix12 {
+    let section = &m.sections[member.section];
+    let planes = bending_planes(&element.flexibility);
+    if !is_uniform {
+        return unreleased_mass(element, section, m.theory, member.kind, &planes);
+    }
+    let straight = planes.map(|plane| BendingPlane { tension: 0.0, ..plane });
+    let mut own = unreleased_mass(element, section, m.theory, member.kind, &straight);
+    element.bend_uniform_load(&mut own);
+    own
 }
 
 /// The motions between the ends of a member in one plane.
@@ -401,14 +411,13 @@ impl DistributedMass<'_> {
         at: f64,
     ) -> [f64; 2] {
         let length = self.element.length;
-        let shapes = bending_shapes(plane.shear_ratio(length), length);
+        let shapes = bending_shapes(plane, length);
         let (v, turn, sign) = (plane.deflection, plane.rotation, plane.sign);
         let moved = [ends[v], sign * ends[turn], ends[v + 6], sign * ends[turn + 6]];
         let value = |powers: &[f64]| powers.iter().rev().fold(0.0, |sum, c| sum * at + c);
-        let sum = |pick: fn(&(Cubic, Cubic)) -> &Cubic| -> f64 {
-            shapes.iter().zip(moved).map(|(pair, moved)| value(pick(pair)) * moved).sum()
-        };
+        let sum =
+            |k: usize| -> f64 { shapes.iter().zip(moved).map(|(pair, moved)| value(&pair[k]) * moved).sum() };
         let own = added.map_or([0.0; 2], |motion| [value(&motion.deflection), value(&motion.rotation)]);
-        [sum(|pair| &pair.0) + own[0], sum(|pair| &pair.1) + own[1]]
+        [sum(0) + own[0], sum(1) + own[1]]
     }
 }

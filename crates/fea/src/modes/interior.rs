@@ -18,13 +18,15 @@
 use crate::assembly::{BendingPlane, Bodies, Element, bending_planes};
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model};
 use crate::modes::inertia_motions::{InertiaMotions, MassPerLength};
-use crate::modes::shapes::{Vector12, bending_shapes, integral_of_product, uniform_load_shape};
+use crate::modes::shapes::{
+    Vector12, bending_shapes, integral_of_product, uniform_load_shape, uniform_load_stiffness,
+};
 
 /// Deflection of a member with clamped ends under a uniform load of intensity one in one plane of bending:
 ///
 /// w = s^2 (L - s)^2/(24 EI) + s (L - s)/(2 GAs),    rotation = s (L - s) (L - 2 s)/(12 EI)
 ///
-/// and its mass and stiffness.
+/// without axial force, and its mass and stiffness.
 #[derive(Clone, Debug)]
 pub(super) struct InteriorMotion {
     /// Index of the member.
@@ -73,27 +75,19 @@ impl InteriorMotion {
         length: f64,
         section: &CrossSection,
     ) -> InteriorMotion {
-        let (deflection, rotation) = uniform_load_shape(plane, length);
+        let [deflection, rotation] = uniform_load_shape(plane, length);
         let second = if index == 0 { section.iz } else { section.iy };
         let density = section.mass * length;
         let rotary = density * section.gyration_squared(second);
         let mass = density * integral_of_product(&deflection, &deflection)
             + rotary * integral_of_product(&rotation, &rotation);
         let mut coupling = Vector12::zeros();
-        for ((k, sign), (shape, turn)) in
-            end_degrees(plane).into_iter().zip(bending_shapes(plane.shear_ratio(length), length))
-        {
+        for ((k, sign), [shape, turn]) in end_degrees(plane).into_iter().zip(bending_shapes(plane, length)) {
             coupling[k] = sign
                 * (density * integral_of_product(&shape, &deflection)
                     + rotary * integral_of_product(&turn, &rotation));
         }
-        let (c, g) = (plane.bending, plane.shear);
-        let mut stiffness = c * length.powi(5) / 720.0 + g * length.powi(3) / 12.0;
-        if plane.tension != 0.0 {
-            // The axial force times the integral of the square of the slope.
-            let slopes = c * c * length.powi(7) / 30_240.0 + c * g * length.powi(5) / 360.0;
-            stiffness += plane.tension * (slopes + g * g * length.powi(3) / 12.0);
-        }
+        let stiffness = uniform_load_stiffness(plane, length);
         InteriorMotion { member, plane: index, stiffness, mass, coupling }
     }
 

@@ -218,7 +218,8 @@ impl<'a> MassSum<'a> {
 ///
 /// M = integral of m N^T N + (m I / A) N'^T N' with the shapes N of the member without load.
 ///
-/// The shapes are cubic in bending, with the part of shear under Timoshenko's theory, and linear otherwise.
+/// The shapes are cubic in bending, with the part of shear under Timoshenko's theory, or bent by the axial force of the
+/// member, and linear otherwise.
 /// The rotation of sections in bending has inertia under Timoshenko's theory alone; that of twist,
 /// m (Iy + Iz) / A, always, but for rods, which have none. A released degree of freedom moves as without load.
 ///
@@ -230,7 +231,8 @@ fn mass_between_tips(
     theory: BeamTheory,
     kind: MemberKind,
 ) -> MemberMass {
-    let MemberMass { mut resisted, mut unresisted } = member_mass(element, section, theory, kind);
+    let planes = bending_planes(&element.flexibility);
+    let MemberMass { mut resisted, mut unresisted } = member_mass(element, section, theory, kind, &planes);
     if let Some(shape) = release_shapes(element) {
         resisted = shape.transpose() * resisted * shape;
         unresisted = shape.transpose() * unresisted * shape;
@@ -238,14 +240,16 @@ fn mass_between_tips(
     MemberMass { resisted, unresisted }
 }
 
-/// Consistent mass between the flexible ends of a member, local axes, without its releases.
+/// Consistent mass between the flexible ends of a member, local axes, without its releases. `planes` are its planes of
+/// bending, with the axial force that bends the shapes.
 pub(super) fn unreleased_mass(
     element: &Element,
     section: &CrossSection,
     theory: BeamTheory,
     kind: MemberKind,
+    planes: &[BendingPlane; 2],
 ) -> Matrix12 {
-    let MemberMass { resisted, unresisted } = member_mass(element, section, theory, kind);
+    let MemberMass { resisted, unresisted } = member_mass(element, section, theory, kind, planes);
     resisted + unresisted
 }
 
@@ -265,6 +269,7 @@ fn member_mass(
     section: &CrossSection,
     theory: BeamTheory,
     kind: MemberKind,
+    planes: &[BendingPlane; 2],
 ) -> MemberMass {
     let (mass, length) = (section.mass, element.length);
     let mut out = MemberMass { resisted: Matrix12::zeros(), unresisted: Matrix12::zeros() };
@@ -275,7 +280,6 @@ fn member_mass(
         let polar = section.gyration_squared(section.iy + section.iz);
         out.add_linear(3, mass * polar, length, f.torsion.is_finite());
     }
-    let planes = bending_planes(f);
     for plane in planes.iter().filter(|plane| plane.bending.is_infinite()) {
         out.add_linear(plane.deflection, mass, length, straight);
     }
@@ -304,15 +308,15 @@ impl MemberMass {
 
     /// Adds bending in one plane: `mass` per length moves with the deflection, `rotary` with the rotation.
     fn add_bending(&mut self, plane: &BendingPlane, mass: f64, rotary: f64, length: f64) {
-        let shapes = bending_shapes(plane.shear_ratio(length), length);
+        let shapes = bending_shapes(plane, length);
         let at = [
             (plane.deflection, 1.0),
             (plane.rotation, plane.sign),
             (plane.deflection + 6, 1.0),
             (plane.rotation + 6, plane.sign),
         ];
-        for (i, (a, turn_a)) in shapes.iter().enumerate() {
-            for (j, (b, turn_b)) in shapes.iter().enumerate() {
+        for (i, [a, turn_a]) in shapes.iter().enumerate() {
+            for (j, [b, turn_b]) in shapes.iter().enumerate() {
                 let value = mass * integral_of_product(a, b) + rotary * integral_of_product(turn_a, turn_b);
                 self.resisted[(at[i].0, at[j].0)] += at[i].1 * at[j].1 * length * value;
             }

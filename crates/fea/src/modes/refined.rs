@@ -12,6 +12,7 @@ use crate::modes::all::few_enough;
 use crate::modes::decoupled::{Directions, ExcitingForces, Part};
 use crate::modes::mass::ScaledMass;
 use crate::modes::mode::{Mode, Modes};
+use crate::modes::shapes::MOST_BENT;
 
 /// Most elements of a mesh of which all modes are asked for; its matrices are assembled to count the unknowns.
 const MOST_ELEMENTS: usize = 100_000;
@@ -426,5 +427,13 @@ fn parts_needed(m: &Model, member: &Member, directions: Directions, omega: f64, 
     let parts = errors_of_one_part(m, member, directions, omega)
         .into_iter()
         .map(|(size, power)| (size / accuracy).powf(1.0 / f64::from(power)).ceil());
-    parts.fold(1.0, f64::max).min(MOST_PARTS as f64) as usize
+    parts.fold(bent_parts(m, member, directions), f64::max).min(MOST_PARTS as f64) as usize
+}
+
+/// Parts in which an axial force bends the shapes of a member that is flexible in shear by their series alone.
+fn bent_parts(m: &Model, member: &Member, directions: Directions) -> f64 {
+    let sheared = bent_planes(m, &m.sections[member.section], directions).filter(|(_, g, _)| *g > 0.0);
+    let squares = sheared.map(|(c, g, _)| (c * member.tension / (1.0 + g * member.tension)).abs());
+    let most = squares.filter(|square| square.is_finite()).fold(0.0, f64::max);
+    (most * length_squared(m, member) / MOST_BENT).sqrt().ceil().max(1.0)
 }

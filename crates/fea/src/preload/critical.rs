@@ -18,12 +18,12 @@ use splines::BeamColumn;
 use sprs::CsMat;
 
 use crate::assembly::{
-    Bodies, Element, Numbering, ScaledStiffness, bending_planes, inverse_iterations, irregular_vector,
-    symmetric_product,
+    Bodies, Element, Extended, Numbering, ScaledStiffness, bending_planes, inverse_iterations,
+    irregular_vector, symmetric_product,
 };
 use crate::dof::Dof;
 use crate::error::{Buckling, EntryAttribute, Error};
-use crate::factor::{FactorError, IndefiniteFactor, allow_square};
+use crate::factor::{Factor, FactorError, IndefiniteFactor, allow_square};
 use crate::model::{MemberKind, Model};
 
 /// Largest critical factor that is looked for.
@@ -36,6 +36,8 @@ const RESOLUTION: f64 = 1e-12;
 const COARSE: f64 = 0.02;
 /// How far beside a guess the count is asked for, by the width of the bracket.
 const BESIDE: f64 = 2e-3;
+/// Operations of a factor up to which a count that rounding may have changed is taken again in double-doubles.
+const MOST_EXTENDED: f64 = 1e7;
 /// Steps of inverse iteration for the mode.
 const MODE_STEPS: usize = 4;
 /// Component of a motion, relative to the largest, that counts as equal to it.
@@ -148,9 +150,25 @@ impl<'a> Critical<'a> {
         let Ok(stiffness) = ScaledStiffness::<f64>::in_precision(&m, &self.numbering) else {
             return Ok(None);
         };
-        let Some(factor) = IndefiniteFactor::new(&stiffness.upper)? else { return Ok(None) };
-        let Some(pivots) = factor.negative_pivots() else { return Ok(None) };
+        let Some(mut factor) = IndefiniteFactor::new(&stiffness.upper)? else { return Ok(None) };
+        let Some((mut pivots, is_certain)) = factor.negative_pivots() else { return Ok(None) };
+        if !is_certain && self.numbering.operations <= MOST_EXTENDED {
+            pivots = self.extended_pivots(&m, pivots)?;
+        }
         Ok(Some(Trial { alpha, count: members + pivots, stiffness: Some((stiffness.upper, factor)) }))
+    }
+
+    /// Number of negative pivots in double-doubles, where that in doubles is `pivots`: none where the stiffness has a factor of
+    /// Cholesky, otherwise at least one.
+    fn extended_pivots(&self, m: &Model, pivots: usize) -> Result<usize, FactorError> {
+        let Ok(stiffness) = ScaledStiffness::<Extended>::in_precision(m, &self.numbering) else {
+            return Ok(pivots);
+        };
+        match Factor::<Extended>::new(&stiffness.upper) {
+            Ok(_) => Ok(0),
+            Err(FactorError::Indefinite) => Ok(pivots.max(1)),
+            Err(fault) => Err(fault),
+        }
     }
 
     /// Number of critical factors of a member of the scaled model `m` between its clamped ends, and of its releases.
@@ -219,7 +237,7 @@ impl<'a> Critical<'a> {
             }
         }
         let factor = 0.5 * (low.alpha + high.alpha);
-        Ok(CriticalFactor::At(factor, self.mode(low.alpha, high.alpha)?))
+        Ok(CriticalFactor::At(factor, self.mode(low.alpha, high)))
     }
 
     /// Counts at a factor inside the bracket, which becomes one of its ends; false where it is not inside.
@@ -243,10 +261,10 @@ impl<'a> Critical<'a> {
         }
     }
 
-    /// The mode of the critical factor between `low` and `high`.
-    fn mode(&self, low: f64, high: f64) -> Result<BucklingMode, Error> {
+    /// The mode of the critical factor between `low` and that of a trial.
+    fn mode(&self, low: f64, high: Trial) -> BucklingMode {
         let n = self.numbering.column.len();
-        let (before, behind) = (self.scaled(low * (1.0 - 1e-9)), self.scaled(high * (1.0 + 1e-9)));
+        let (before, behind) = (self.scaled(low * (1.0 - 1e-9)), self.scaled(high.alpha * (1.0 + 1e-9)));
         let rest = vec![[0.0; 6]; self.m.points.len()];
         let changed = (0..self.m.members.len()).find(|&index| {
             self.buckled(&before, index).zip(self.buckled(&behind, index)).is_some_and(|(a, b)| b > a)
@@ -255,12 +273,10 @@ impl<'a> Critical<'a> {
             let point = self.m.members[member].points[0];
             let dof = Dof::ALL[0];
             let most = Buckling { point, dof, member, between_ends: true };
-            return Ok(BucklingMode { points: rest, most });
+            return BucklingMode { points: rest, most };
         }
         let mut x = irregular_vector(n);
-        let stiffness = ScaledStiffness::<f64>::in_precision(&behind, &self.numbering)?;
-        let factor = IndefiniteFactor::new(&stiffness.upper).map_err(|fault| self.too_large(fault))?;
-        if let Some(mut factor) = factor {
+        if let Some((_, mut factor)) = high.stiffness {
             inverse_iterations(&mut x, MODE_STEPS, |x| factor.solve(x));
         }
         let column = self.numbering.largest_column(&x, EQUAL);
@@ -275,7 +291,7 @@ impl<'a> Critical<'a> {
             let motion = self.bodies.motion(point, &Vector3::zeros());
             <[f64; 6]>::from(motion * motions[self.bodies.of_point[point]])
         });
-        Ok(BucklingMode {
+        BucklingMode {
             points: normalised(points.collect()),
             most: Buckling {
                 point: self.bodies.list[column / 6].reference,
@@ -283,7 +299,7 @@ impl<'a> Critical<'a> {
                 member: self.most_work(&behind, &motions),
                 between_ends: false,
             },
-        })
+        }
     }
 
     /// The member whose axial force does most of the work in a motion.

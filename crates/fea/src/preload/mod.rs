@@ -6,15 +6,18 @@
 //! about the state.
 //!
 //! Order of the files: `given` (the preload as given), `forces` (axial forces and forces on arms in a motion), `critical`
-//! (the smallest factor on the preload at which the stiffness is singular), `caution` (what the state leaves out), `state`.
+//! (the smallest factor on the preload at which the stiffness is singular), `caution` (what the state leaves out), `state`,
+//! `change` (what second order would change under loads of first order).
 
 mod caution;
+mod change;
 mod critical;
 mod forces;
 mod given;
 mod state;
 
 pub use caution::{Caution, CautionKind};
+pub use change::{SecondOrderChange, second_order_change};
 pub use critical::{BucklingMode, CriticalFactor, MOST_CRITICAL};
 pub use given::{Preload, RailForce};
-pub use state::{PreloadedState, preloaded};
+pub use state::{LoadedFrame, PreloadedState, loaded_frame, preloaded};

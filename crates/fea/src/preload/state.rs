@@ -1,10 +1,12 @@
 //! The equilibrium of a preload: axial forces of the whole structure.
 
+use std::sync::Arc;
+
 use nalgebra::SVector;
 
 use super::caution::Caution;
 use super::critical::{Critical, CriticalFactor};
-use super::forces::StateForces;
+use super::forces::{MemberForces, StateForces};
 use super::given::{BodyLoads, Preload};
 use crate::assembly::Element;
 use crate::error::{EntryFault, Error, ModelEntry};
@@ -15,6 +17,8 @@ use crate::model::{ArmStiffness, Member, MemberKind, Model, Rail};
 const UNCHANGED: f64 = 1e-10;
 /// The same where rounding lets them change no less from one step to the next.
 const ROUNDED: f64 = 1e-7;
+/// Ratio of two changes from which the forces are extrapolated.
+const QUICK: f64 = 0.2;
 /// Most steps to the equilibrium.
 const MOST_STEPS: usize = 20;
 /// Angle, radian, by which a member may turn for its motion to count as small.
@@ -36,13 +40,15 @@ pub struct PreloadedState {
     pub displacements: Vec<[f64; 6]>,
     /// Steps to the equilibrium.
     pub steps: usize,
+    /// The factored stiffness of the model with the rails that were given.
+    pub frame: Arc<FactoredFrame>,
 }
 
 /// The state of `m` under `preload`, about which its motions are small.
 ///
 /// Algorithm. (1) The first axial forces N are those of the analysis of first order; where that is a mechanism, as with
-/// hangers, those of the structure with a small tension in all members. (2) N <- N((K + K_g(N))^-1 f) until it changes by
-/// less than 1e-10 of the largest. K_g holds N of all members and the forces on rigid arms. (3) The critical factor is
+/// hangers, those of the structure with a small tension in all members. (2) N <- N((K + K_g(N))^-1 f), extrapolated from two
+/// steps, until it changes by less than 1e-10 of the largest. K_g holds N of all members and the forces on rigid arms. (3) The critical factor is
 /// counted; at or below 1 the structure is refused.
 ///
 /// An axial force that varies along a member, as by its own weight, counts by its mean: the error falls with the square of
@@ -73,48 +79,108 @@ pub struct PreloadedState {
 /// # Ok::<(), fea::Error>(())
 /// ```
 pub fn preloaded(m: &Model, rails: &[Rail], preload: &Preload) -> Result<PreloadedState, Error> {
+    let LoadedFrame { model, frame, steps, forces, displacements } = loaded_frame(m, rails, preload)?;
+    let critical = Critical::new(&model)?.first()?;
+    if let CriticalFactor::At(factor, mode) = &critical
+        && *factor <= 1.0
+    {
+        return Err(Error::Buckled { factor: *factor, mode: mode.most });
+    }
+    let cautions = Caution::all(&model, &frame.elements, &forces);
+    Ok(PreloadedState { model, critical, cautions, displacements, steps, frame: Arc::new(frame) })
+}
+
+/// A structure with the axial forces of the equilibrium under a preload, factored.
+#[derive(Debug)]
+pub struct LoadedFrame {
+    /// The model with the axial forces.
+    pub model: Model,
+    /// Its factored stiffness, with the rails that were given.
+    pub frame: FactoredFrame,
+    /// Steps to the equilibrium.
+    pub steps: usize,
+    forces: Vec<MemberForces>,
+    displacements: Vec<[f64; 6]>,
+}
+
+/// The equilibrium of a preload as in [`preloaded`], without the critical factor. A stiffness that has a factor is that of a
+/// stable state, unless a member has buckled between its ends.
+///
+/// # Errors
+/// As [`preloaded`], but for members that buckle between their ends.
+pub fn loaded_frame(m: &Model, rails: &[Rail], preload: &Preload) -> Result<LoadedFrame, Error> {
     m.check()?;
     preload.check(m)?;
     let mut model = m.unloaded();
     let mut frame = first_frame(&mut model, rails, preload)?;
     let mut last = f64::INFINITY;
+    let mut before: Option<[Vec<f64>; 2]> = None;
     for step in 1..=MOST_STEPS {
         let BodyLoads { load, on_arms } = preload.loads(&model, &frame)?;
         let motions = frame.motions(&load);
         let forces = StateForces::new(&model, &frame, &motions, &on_arms);
         let largest = forces.members.iter().fold(0.0_f64, |most, own| most.max(own.axial.abs()));
-        let pairs = forces.members.iter().zip(&model.members);
-        let change = pairs.fold(0.0_f64, |most, (own, member)| most.max((own.axial - member.tension).abs()));
+        let given: Vec<f64> = model.members.iter().map(|member| member.tension).collect();
+        let found: Vec<f64> = forces.members.iter().map(|own| own.axial).collect();
+        let change =
+            given.iter().zip(&found).fold(0.0_f64, |most, (given, found)| most.max((found - given).abs()));
         let settled = change <= UNCHANGED * largest || (change <= ROUNDED * largest && change >= 0.5 * last);
-        if !(settled && are_equal(&model.arms, &forces.arms)) {
-            last = change;
-            for (member, own) in model.members.iter_mut().zip(&forces.members) {
-                member.tension = own.axial;
+        if settled && are_equal(&model.arms, &forces.arms) {
+            check_turned(&forces.members)?;
+            check_tension(&model)?;
+            check_sag(&model, preload)?;
+            let displacements = point_motions(&frame, &motions);
+            if frame.line().is_err() {
+                frame = frame.with_rails(rails)?;
             }
-            model.arms = forces.arms;
-            frame = FactoredFrame::new(&model, rails).map_err(|error| buckled(&model, error))?;
-            continue;
+            return Ok(LoadedFrame { model, frame, steps: step, forces: forces.members, displacements });
         }
-        let turned = forces.members.iter().enumerate().max_by(|a, b| a.1.turned.total_cmp(&b.1.turned));
-        if let Some((member, own)) = turned.filter(|(_, own)| own.turned > MOST_TURNED) {
-            return Err(Error::NoEquilibrium { member, turned: Some(own.turned) });
+        last = change;
+        model = with_forces(model, forces);
+        if let Some(next) = before.as_ref().and_then(|before| accelerated(before, [&given, &found])) {
+            model.members.iter_mut().zip(next).for_each(|(member, n)| member.tension = n);
         }
-        check_tension(&model)?;
-        check_sag(&model, preload)?;
-        let critical = Critical::new(&model)?.first()?;
-        if let CriticalFactor::At(factor, mode) = &critical
-            && *factor <= 1.0
-        {
-            return Err(Error::Buckled { factor: *factor, mode: mode.most });
+        before = Some([given, found]);
+        frame = frame.reloaded(&model).map_err(|error| buckled(&model, error))?;
+        if !preload.rails.is_empty() {
+            frame = frame.with_rails(rails)?;
         }
-        let cautions = Caution::all(&model, &frame.elements, &forces.members);
-        let displacements = point_motions(&frame, &motions);
-        return Ok(PreloadedState { model, critical, cautions, displacements, steps: step });
     }
     let (member, _) = model.members.iter().enumerate().fold((0, 0.0_f64), |most, (index, member)| {
         if member.tension.abs() > most.1 { (index, member.tension.abs()) } else { most }
     });
     Err(Error::NoEquilibrium { member, turned: None })
+}
+
+/// Refuses a state in which a member turns too far for its motion to count as small.
+fn check_turned(forces: &[MemberForces]) -> Result<(), Error> {
+    let turned = forces.iter().enumerate().max_by(|a, b| a.1.turned.total_cmp(&b.1.turned));
+    match turned.filter(|(_, own)| own.turned > MOST_TURNED) {
+        Some((member, own)) => Err(Error::NoEquilibrium { member, turned: Some(own.turned) }),
+        None => Ok(()),
+    }
+}
+
+/// Axial forces nearer to the equilibrium than the last ones found, by the last two steps, each its forces given and found: with
+/// the changes r0 and r1 of both, found1 - t (found1 - found0) with t = r1 (r1 - r0)/|r1 - r0|^2, which leaves the least change
+/// if it is linear. `None` where the changes do not yet fall quickly.
+///
+/// # Source
+/// Anderson, Iterative procedures for nonlinear integral equations, Journal of the ACM 12 (1965).
+fn accelerated(before: &[Vec<f64>; 2], now: [&Vec<f64>; 2]) -> Option<Vec<f64>> {
+    let change = |[given, found]: [&Vec<f64>; 2]| -> Vec<f64> {
+        given.iter().zip(found).map(|(given, found)| found - given).collect()
+    };
+    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
+    let (first, second) = (change(before.each_ref()), change(now));
+    let turn: Vec<f64> = first.iter().zip(&second).map(|(first, second)| second - first).collect();
+    if dot(&second, &second) > QUICK * QUICK * dot(&first, &first) {
+        return None;
+    }
+    let share = dot(&second, &turn) / dot(&turn, &turn);
+    let [_, last] = before;
+    let next = now[1].iter().zip(last).map(|(found, last)| found - share * (found - last));
+    share.is_finite().then(|| next.collect())
 }
 
 /// The frame of first order; where that is a mechanism, the frame with a small tension in all members, which is left in
@@ -136,8 +202,17 @@ fn first_frame(model: &mut Model, rails: &[Rail], preload: &Preload) -> Result<F
     FactoredFrame::new(model, rails).map_err(|_| error)
 }
 
+/// The model with the axial forces of its members and the stiffness of its arms.
+pub(super) fn with_forces(mut model: Model, forces: StateForces) -> Model {
+    for (member, own) in model.members.iter_mut().zip(&forces.members) {
+        member.tension = own.axial;
+    }
+    model.arms = forces.arms;
+    model
+}
+
 /// The error of a loaded model that cannot be factored: its buckling, if it buckles at or below its load.
-fn buckled(model: &Model, error: Error) -> Error {
+pub(super) fn buckled(model: &Model, error: Error) -> Error {
     let is_singular = matches!(
         error,
         Error::Mechanism { .. }
@@ -201,7 +276,8 @@ fn check_sag(model: &Model, preload: &Preload) -> Result<(), Error> {
     Ok(())
 }
 
-fn point_motions(frame: &FactoredFrame, motions: &[SVector<f64, 6>]) -> Vec<[f64; 6]> {
+/// For each point its three displacements and three rotations, global, by the motions of the bodies.
+pub(super) fn point_motions(frame: &FactoredFrame, motions: &[SVector<f64, 6>]) -> Vec<[f64; 6]> {
     let bodies = &frame.bodies;
     let of = |point: usize| {
         let motion = bodies.motion(point, &nalgebra::Vector3::zeros());

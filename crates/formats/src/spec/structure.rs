@@ -1,6 +1,8 @@
 //! A checked beam spec: a structure with its rails and user-defined names, as plain values.
 
-use fea::{BeamTheory, EntryFault, Girder, Member, MemberKind, Model, ModelEntry, Rail};
+use std::sync::Arc;
+
+use fea::{BeamTheory, EntryFault, FactoredFrame, Girder, Member, MemberKind, Model, ModelEntry, Rail};
 
 use super::cuts::Cut;
 use super::outline::{MemberOutline, OutlinedMember, SectionOutline, SpecCraneRail};
@@ -190,6 +192,27 @@ impl Spec {
             }),
             None => Ok((model, rails)),
         }
+    }
+
+    /// The model, its rails and their factored stiffness, with the accuracy [`fea::DEFAULT_ACCURACY`].
+    ///
+    /// # Errors
+    /// As [`Spec::model`] and [`FactoredFrame::new`].
+    pub fn factored(&self) -> Result<(Model, Vec<Rail>, Arc<FactoredFrame>), fea::Error> {
+        let (model, rails) = self.model()?;
+        let known = match &self.preload {
+            // The search for the state has factored it.
+            Some(preload) => {
+                let (unloaded, _) = self.unloaded_model()?;
+                Some(Arc::clone(&preload.state(&unloaded, &rails)?.frame))
+            }
+            None => None,
+        };
+        let frame = match known {
+            Some(frame) => frame,
+            None => Arc::new(FactoredFrame::new(&model, &rails)?),
+        };
+        Ok((model, rails, frame))
     }
 
     /// The model without preload, and its rails.

@@ -1,10 +1,11 @@
 //! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
-//! Files, lowest first: tension, slack, scene, scope, bounces, this one.
+//! Files, lowest first: tension, slack, second, scene, scope, bounces, this one.
 
 mod bounces;
 mod scene;
 mod scope;
+mod second;
 mod slack;
 mod tension;
 
@@ -34,11 +35,23 @@ const TENSION: f64 = 0.01;
 /// Ratio of the speed to the critical speed above which the mass of a girder should not be neglected.
 const FAST: f64 = 0.5;
 
+/// What first order leaves out in a case, computed once.
+fn of_second_order<'a>(
+    scene: &Scene,
+    outcome: &'a CaseResult,
+    is_warning: bool,
+) -> impl Iterator<Item = String> + use<'a> {
+    let all =
+        outcome.second_order.get_or_init(|| second::second_order(scene, &outcome.input, &outcome.columns));
+    all.iter().filter(move |doubt| doubt.is_warning == is_warning).map(|doubt| doubt.text.clone())
+}
+
 /// The warnings of a case: of its run, and of the foundations chosen for it.
 #[must_use]
 pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
     all.extend(bounces::cycles_of_bounces(scene, outcome));
+    all.extend(of_second_order(scene, outcome, true));
     all.extend(outcome.choices.iter().filter_map(|choice| {
         let structure = &scene.structures[choice.structure];
         foundations::selection_doubt(&structure.name, choice, structure.tolerance)
@@ -60,6 +73,7 @@ pub fn case_notes(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
             }));
         }
     }
+    all.extend(of_second_order(scene, outcome, false));
     all.extend(scope::accuracy_notes(scene, outcome));
     all
 }

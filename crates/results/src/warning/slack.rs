@@ -1,6 +1,6 @@
 //! Cables that lose their tension under the wheels of a run, which keeps them taut.
 
-use fea::{Effect, FactoredFrame, ForceComponent, MemberKind};
+use fea::{Effect, ForceComponent, MemberKind};
 use formats::scene::motion::SimulationInput;
 use formats::scene::{Origin, Scene};
 use formats::spec::Spec;
@@ -22,7 +22,7 @@ impl Cables {
     /// Those of a spec; `None` where it has none, or no state.
     fn of(spec: &Spec) -> Option<Cables> {
         let preload = spec.preload.as_ref()?;
-        let (model, rails) = spec.model().ok()?;
+        let (model, _, frame) = spec.factored().ok()?;
         let is_cable = |index: &usize| model.members[*index].kind == MemberKind::Cable;
         let members: Vec<usize> = (0..model.members.len()).filter(is_cable).collect();
         if members.is_empty() {
@@ -31,7 +31,6 @@ impl Cables {
         let axial =
             |&member: &usize| Effect::InternalForce { member, place: 0.5, component: ForceComponent::Axial };
         let effects: Vec<Effect> = members.iter().map(axial).collect();
-        let frame = FactoredFrame::new(&model, &rails).ok()?;
         let lines = frame.influence_lines(&model, &effects).ok()?;
         let mut tension: Vec<f64> = members.iter().map(|&member| model.members[member].tension).collect();
         let mut one = vec![0.0; members.len()];

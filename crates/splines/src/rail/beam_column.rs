@@ -35,6 +35,8 @@ const LEAST_TERMS: usize = 32;
 const SMALL: f64 = 0.25;
 /// Most terms of these series: they end long before.
 const MOST_TERMS: f64 = 40.0;
+/// Pairs of powers of the series of a shape.
+const SERIES: usize = 10;
 /// Most doublings of the argument of C2 and C3: those of the largest double.
 const MOST_DOUBLINGS: usize = 520;
 
@@ -242,6 +244,29 @@ impl<T: RealNumber> BeamColumn<T> {
         [quarter * l * l * (moment - half * (s * s - one)), half * l * s * (c1 / (self.mu * all) - one)]
     }
 
+    /// Deflection, slope, rotation and its derivative at the distance `a` from the nearer end of the clamped member under a
+    /// uniform load of intensity one:
+    ///
+    /// theta = c a (m0 C1 - H a C2/mu + a^2 C3/mu),    w = (c a^2 (m0 C2 - H a C3/mu + a^2 C4/mu) + g (H a - a^2/2))/mu
+    ///
+    /// with H = l/2 and m0 = l^2 F/(4 mu) at the end.
+    pub(crate) fn clamped_under_load(&self, a: T) -> [T; 4] {
+        let [quarter, half] = [0.25, 0.5].map(T::from);
+        let [c, g] = self.flexibility;
+        let (l, mu) = (self.length, self.mu);
+        let r = a / l;
+        let square = self.square() * r * r;
+        let [c0, c1, c2, c3] = bent_powers(square);
+        let moment = quarter * l * l * self.ratio / mu;
+        let force = half * l;
+        let theta = c * a * (moment * c1 - a * (force * c2 - a * c3) / mu);
+        let bent = c * a * a * (moment * c2 - a * (force * c3 - a * fourth_power(square)) / mu);
+        let w = (bent + g * a * (force - half * a)) / mu;
+        let slope = (theta + g * (force - a)) / mu;
+        let bend = c * (moment * c0 - a * (force * c1 - a * c2) / mu);
+        [w, slope, theta, bend]
+    }
+
     /// Deflection of the section at the fraction `at` of the length and its derivative by the place, by deflection and
     /// rotation of the first end, then of the last: `[0]` and `[1]`.
     #[must_use]
@@ -299,6 +324,35 @@ impl<T: RealNumber> BeamColumn<T> {
 }
 
 impl BeamColumn<f64> {
+    /// Deflection and rotation by powers of the fraction of the length, by deflection and rotation of the first end, then of
+    /// the last: cubic and quadratic without axial force; with it the polynomials of degree eight through nine places, which
+    /// err by about 1e-10 (lambda l)^8. For |lambda l| of a few.
+    ///
+    /// ```
+    /// use splines::BeamColumn;
+    ///
+    /// let [[deflection, rotation], ..] = BeamColumn::new(1.0, 0.0, -1.0, 1.0).polynomials();
+    /// assert!(deflection.iter().sum::<f64>().abs() < 1e-14 && rotation[0] == 0.0);
+    /// ```
+    #[must_use]
+    pub fn polynomials(&self) -> [[[f64; 9]; 2]; 4] {
+        let square = self.square();
+        let series = |of: [f64; 4]| {
+            let mut out = [0.0; 2 * SERIES];
+            (out[0], out[1]) = (of[0], of[1]);
+            let (mut second, mut third) = (of[2], of[3]);
+            for k in 1..SERIES {
+                (out[2 * k], out[2 * k + 1]) = (second, third);
+                let p = (2 * k) as f64;
+                second *= square / ((p + 1.0) * (p + 2.0));
+                third *= square / ((p + 2.0) * (p + 3.0));
+            }
+            lowered(&out)
+        };
+        let [deflections, rotations] = [[1.0, 0.0], [0.0, 1.0]].map(|load| self.shapes(load));
+        std::array::from_fn(|k| [series(deflections[k]), series(rotations[k])])
+    }
+
     /// First derivatives of [`BeamColumn::clamped_rotation`] and of the deflection by a, then the second ones: theta', w',
     /// theta'', w''.
     #[inline]
@@ -361,6 +415,49 @@ fn bent_powers<T: RealNumber>(z: T) -> [T; 4] {
     [one + z * c2, one + z * c3, c2, c3]
 }
 
+/// The polynomial of degree eight that has the values of another, given by its coefficients, at nine places of the interval from
+/// 0 to 1, the extrema of the polynomial of Chebyshev of degree eight, both ends among them.
+#[must_use]
+pub fn lowered(coefficients: &[f64]) -> [f64; 9] {
+    // Monic, zero at the places.
+    let mut zero = [0.0; 10];
+    zero[0] = 1.0;
+    for k in 0..9 {
+        let place = 0.5 * (1.0 - (std::f64::consts::PI * f64::from(k) / 8.0).cos());
+        for p in (0..10).rev() {
+            zero[p] = if p > 0 { zero[p - 1] } else { 0.0 } - place * zero[p];
+        }
+    }
+    let mut out: [f64; 9] = std::array::from_fn(|p| coefficients.get(p).copied().unwrap_or(0.0));
+    // The remainder of each higher power.
+    let mut power = [0.0; 9];
+    power[8] = 1.0;
+    for c in coefficients.iter().skip(9) {
+        let top = power[8];
+        for p in (0..9).rev() {
+            power[p] = if p > 0 { power[p - 1] } else { 0.0 } - top * zero[p];
+        }
+        out.iter_mut().zip(power).for_each(|(out, power)| *out += c * power);
+    }
+    out
+}
+
+/// C4 = (cosh x - 1 - x^2/2)/x^4 with x^2 = z.
+fn fourth_power<T: RealNumber>(z: T) -> T {
+    if size(z) > T::from(1.0) {
+        let [_, _, c2, _] = bent_powers(z);
+        return (c2 - T::from(0.5)) / z;
+    }
+    let (mut term, mut sum) = (T::from(1.0 / 24.0), T::from(0.0));
+    let mut k = 5.0;
+    while k < 2.0 * MOST_TERMS {
+        sum = sum + term;
+        term = term * z / T::from(k * (k + 1.0));
+        k += 2.0;
+    }
+    sum
+}
+
 /// F(z) = (h coth h - 1)/h^2 with h^2 = z, by Lambert's continued fraction from its end.
 fn rotation_ratio<T: RealNumber>(z: T) -> T {
     let mut terms = LEAST_TERMS;
@@ -395,6 +492,20 @@ mod tests {
             }
         }
         assert_eq!(bent_powers(0.0), [1.0, 1.0, 0.5, 1.0 / 6.0]);
+    }
+
+    /// Identity: values at the places stay, and a polynomial of degree eight is itself.
+    #[test]
+    fn lowered_polynomials_have_the_same_values() {
+        let own = [0.3, -1.0, 2.0, 0.7, -0.2, 1.1, 0.4, -2.0, 0.9, 1.3, -0.8, 0.25];
+        let value = |c: &[f64], s: f64| c.iter().rev().fold(0.0, |sum, c| sum * s + c);
+        let found = lowered(&own);
+        for k in 0..9 {
+            let place = 0.5 * (1.0 - (std::f64::consts::PI * f64::from(k) / 8.0).cos());
+            assert!((value(&found, place) - value(&own, place)).abs() < 1e-13, "{place}");
+        }
+        assert!((value(&found, 0.43) - value(&own, 0.43)).abs() < 1e-4);
+        assert_eq!(lowered(&own[..9])[..], own[..9]);
     }
 
     /// Analytic: (h coth h - 1)/h^2, (1 - h cot h)/h^2, and the limits 1/3 and 1/h.

@@ -1,5 +1,6 @@
 //! Displacement of a rail between fixed ends of its member under uniform loads on the member.
 
+use super::beam_column::BeamColumn;
 use super::element::RailElement;
 use super::load::AxisLoad;
 
@@ -9,7 +10,7 @@ use super::load::AxisLoad;
 ///
 /// w = s^2 (l - s)^2/(24 EI) + s (l - s)/(2 GAs),    rotation = s (l - s) (l - 2 s)/(12 EI)
 ///
-/// Zero in planes without stiffness.
+/// without axial force, otherwise as the beam-column has them. Zero in planes without stiffness.
 pub(crate) fn uniform_load(element: &RailElement, load: &AxisLoad, s: f64) -> [[f64; 2]; 2] {
     let f = &element.flexibility;
     let l = element.length;
@@ -19,6 +20,15 @@ pub(crate) fn uniform_load(element: &RailElement, load: &AxisLoad, s: f64) -> [[
     let mut out = [[0.0; 2]; 2];
     for (k, (c, g, [force, moment])) in planes.into_iter().enumerate() {
         if without_stiffness[2 + k] {
+            continue;
+        }
+        if f.tension != 0.0 {
+            let column = BeamColumn::new(c, g, f.tension, l);
+            let [deflection, slope, rotation, curvature] = column.clamped_under_load(s.min(rest));
+            // seen from the last end slopes and rotations have the other sign
+            let sign = if s <= rest { 1.0 } else { -1.0 };
+            out[k] =
+                [force * deflection + moment * sign * rotation, force * sign * slope + moment * curvature];
             continue;
         }
         let product = s * rest;

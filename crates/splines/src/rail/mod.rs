@@ -20,7 +20,7 @@ mod row;
 mod shape;
 mod track;
 
-pub use beam_column::BeamColumn;
+pub use beam_column::{BeamColumn, lowered};
 pub use element::{ElementMember, Flexibility, RailElement};
 pub(crate) use element::{IDENTITY, LocalPlace, MemberPlace};
 pub use functions::ElementFunctions;
