@@ -193,6 +193,37 @@ fn a_wrong_shear_area_is_found_by_the_solid_alone() {
     assert!(out.join("crosscheck.json").is_file() && out.join("manifest.json").is_file());
 }
 
+/// Names of sections and crane rails are numbers for the other codes, in both forms of a spec.
+#[test]
+fn sections_and_crane_rails_by_name_are_compared() {
+    if environment().is_none() {
+        return;
+    }
+    let units = json!({"length": "m", "force": "kN", "time": "s"});
+    let short = json!({"format": "girderway-beam/1", "units": units,
+        "girder": {"spans": [6, 7.5, 6], "section": "HEB 400", "crane_rail": "A65"}});
+    let general = json!({"format": "girderway-beam/1", "units": units,
+        "points": [[0, 0, 0], [6, 0, 0]], "cells": [{"type": "line", "data": [[0, 1]]}],
+        "materials": [{"name": "steel", "E": 2.1e8, "G": 8.1e7}],
+        "sections": [{"name": "girder", "material": "steel", "shape": "HEB 400"}],
+        "supports": [{"point": 0, "fix": ["ux", "uy", "uz", "rx"]}, {"point": 1, "fix": ["uy", "uz", "rx"]}],
+        "rails": {"rail": {"axis": [1, 0, 0], "crane_rail": "A65", "stations": [0, 2, 4, 6],
+            "segments": [{"cell": [0, 0], "offset": [0, 0.2, 0]}]}}});
+    for value in [short, general] {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let spec = folder.path().join("spec.json");
+        std::fs::write(&spec, value.to_string()).expect("a writable folder");
+        let output = crosscheck(&spec, &[]);
+        let result = result(&output);
+        assert_eq!(output.status.code(), Some(0), "{result:#}");
+        for code in ["OpenSees", "PyNite"] {
+            for quantity in ["vertical", "lateral"] {
+                assert!(difference(&result, code, quantity) < 1e-9, "{code} {quantity}: {result:#}");
+            }
+        }
+    }
+}
+
 /// The paper's girder as a user writes it.
 fn paper() -> (Value, Vec<Station>) {
     let stations = [-15.0, 0.0, 15.0, 30.0, 45.0, 60.0, 75.0];

@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 use serde_json::{Value, json};
-use sweep::{RecordLines, RunFailure, RunPlan, RunRecord, Runner, SweepInfo, TableBuilder};
+use sweep::{GoOn, RecordLines, RunFailure, RunPlan, RunRecord, Runner, SweepInfo, TableBuilder};
 
 use crate::Error;
 use crate::files::json as json_text;
@@ -51,17 +51,19 @@ pub struct WrittenSweep {
 
 /// Makes all runs of a sweep that was read with [`Sweep::open`], or those of shard K of N, on at most `threads` threads
 /// (`None`: as many as the machine has), and writes the results into a folder. Each run is appended to a file in the
-/// folder as it is made, from which the same sweep resumes there after an interruption. `progress` can break off.
+/// folder as it is made, from which the same sweep resumes there after an interruption. `progress` can break off after a
+/// run, and `go_on`, which is called from any thread, between two steps of the runs at work.
 ///
 /// # Errors
 /// The input cannot be run as it is written, the folder has the runs of another sweep (unless `force`), a file cannot be
-/// written, or `progress` has broken off.
+/// written, or `progress` or `go_on` has broken off.
 pub fn make_sweep(
     (sweep, own): (&Sweep, &Inputs),
     shard: Option<(usize, usize)>,
     (path, force): (&Path, bool),
     threads: Option<u16>,
     progress: &mut dyn FnMut(SweepProgress) -> ControlFlow<()>,
+    go_on: GoOn<'_>,
 ) -> Result<WrittenSweep, Error> {
     let (k, n) = shard.unwrap_or((1, 1));
     let located = |fault: Fault| match own.all()[0].source() {
@@ -81,7 +83,9 @@ pub fn make_sweep(
 
     let runner = Runner::new(sweep);
     let file = &own.all()[0].name;
-    let info = match runner.run_as_written() {
+    let stopped =
+        || Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned());
+    let info = match runner.run_as_written(go_on) {
         Ok((units, row)) => SweepInfo::new(sweep, file, units, &row),
         Err(RunFailure::Missing(result, why)) => {
             let root = Place::root();
@@ -92,23 +96,26 @@ pub fn make_sweep(
             let input = sweep.input.file();
             return Err(Error::NoResults(format!("{input} cannot be run as it is written: {why}")));
         }
+        Err(RunFailure::Stopped) => return Err(stopped()),
     };
     let of_rows = shard.map_or_else(|| key.clone(), |(k, n)| format!("{key} {k}/{n}"));
     let (mut rows, made) = SweepRows::open(path, &of_rows, force)?;
-    let stopped =
-        || Error::NoResults("the sweep was stopped; the same sweep resumes in its folder".to_owned());
     if !made.is_empty() && progress(SweepProgress::Resumed(made.len(), wanted.len())).is_break() {
         return Err(stopped());
     }
     let left: Vec<usize> = wanted.into_iter().filter(|run| !made.contains(run)).collect();
     let work = |run: &usize| {
         let axes = plan.values(*run);
-        let outcome = runner.run(&axes);
-        RunRecord { run: *run, axes, outcome }
+        let outcome = runner.run(&axes, go_on)?;
+        Some(RunRecord { run: *run, axes, outcome })
     };
     let mut done = 0;
     let mut failed = None;
     parallel_stream(&left, threads, work, |_, record| {
+        let Some(record) = record else {
+            failed = Some(stopped());
+            return false;
+        };
         if let Err(error) = rows.add(&record) {
             failed = Some(error);
             return false;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use formats::sweep::Sweep;
-use outputs::sweep_files::{SweepProgress, WrittenSweep};
+use outputs::sweep_files::{SweepProgress, WrittenSweep, make_sweep};
 use pyo3::prelude::*;
 
 use crate::convert::python;
@@ -37,9 +37,8 @@ pub(crate) fn sweep<'py>(
             SweepProgress::Resumed(..) => state.go_on(),
             SweepProgress::Made(made, all) => state.advance(made as f64 / all as f64),
         };
-        let made =
-            outputs::sweep_files::make_sweep((&read, &own), shard, (&output, force), threads, &mut observe);
-        Ok(made?)
+        let go_on = || state.go_on();
+        Ok(make_sweep((&read, &own), shard, (&output, force), threads, &mut observe, &go_on)?)
     })?;
     written(py, made)
 }

@@ -7,6 +7,7 @@ import os
 import shutil
 import signal
 import subprocess
+import threading
 import time
 from pathlib import Path
 
@@ -109,3 +110,28 @@ def test_workers_of_dask_make_the_same_bytes_although_one_is_killed(runway: Path
         alive = list(client.run(os.getpid).values())
     assert pids[0] not in alive
     assert contents(made.folder) == contents(whole.folder)
+
+
+def test_ctrl_c_stops_runs_at_work(tmp_path: Path, examples: Path):
+    """Four runs of a scene in steps of a microsecond: to the end they take minutes."""
+    import _thread
+
+    for name in ("scene.json", "spec.json"):
+        shutil.copy(examples / "bogie" / name, tmp_path)
+    scene = json.loads((tmp_path / "scene.json").read_text())
+    scene |= {"stepper": "sdirk4", "step": 1e-6}
+    del scene["accuracy"], scene["compare"]
+    (tmp_path / "scene.json").write_text(json.dumps(scene))
+    axes = {"/bodies/bogie/weight": {"uniform": [4e6, 5e6]}}
+    kinds = {"sampling": "sobol", "count": 4, "results": ["peaks"]}
+    sweep = {"format": "girderway-sweep/1", "name": "long", "scene": "scene.json", "axes": axes} | kinds
+    (tmp_path / "sweep.json").write_text(json.dumps(sweep))
+    # a shell that starts the tests in the background has it ignored
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        gw.sweep(tmp_path / "sweep.json", tmp_path / "out")
+    timer.join()
+    signal.signal(signal.SIGINT, before)
+    assert not (tmp_path / "out" / "results.csv").exists()

@@ -226,6 +226,13 @@ fn numbers_read_well() {
     ] {
         assert_eq!(number(value, 7).as_deref(), Some(expected), "{value:e}");
     }
+    for (text, expected) in [
+        ("error of a.b, 3.0e-7, of", "error of a.b, 3 \u{d7} 10\u{207b}\u{2077}, of"),
+        ("(-1e9); 2.0e-3.", "(\u{2212}10\u{2079}); 0.002."),
+        ("file1e5.json column 2 tree.e1 e 1.5", "file1e5.json column 2 tree.e1 e 1.5"),
+    ] {
+        assert_eq!(crate::document::number::with_numbers(text), expected);
+    }
     assert_eq!(number(f64::NAN, 7), None);
     assert_eq!(number(f64::NEG_INFINITY, 7), None);
 }

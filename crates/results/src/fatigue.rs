@@ -136,10 +136,15 @@ fn fatigue_result(
 }
 
 impl FatigueResult {
+    /// Number of its cycles; half cycles count as one half.
+    #[must_use]
+    pub fn count(&self) -> f64 {
+        self.cycles.iter().map(|cycle| cycle.count).sum()
+    }
+
     /// The result as a member of `fatigue`.
     #[must_use]
     pub fn json(&self) -> Value {
-        let count: f64 = self.cycles.iter().map(|cycle| cycle.count).sum();
         let mut out = json!({
             "detail": match self.detail {
                 Detail::Eurocode(category) => json!(category),
@@ -147,7 +152,7 @@ impl FatigueResult {
             },
             "reference": self.reference,
             "limit": self.limit,
-            "cycles": count,
+            "cycles": self.count(),
             "largest_range": self.damage.largest_range,
             "within_limit": self.damage.below_limit,
             "damage": self.damage.sum,

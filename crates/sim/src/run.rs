@@ -387,7 +387,9 @@ fn sweep(
     let mut counts = Counts::default();
     let mut status = Status::Done;
     let last = (scene.end / scene.output_dt * (1.0 + 1e-12)).floor();
-    let mut times: Vec<f64> = (0..=last as u64).map(|i| i as f64 * scene.output_dt).collect();
+    // a product that is rounded up would be beyond the end, where wheels may have left their rail
+    let time = |i: u64| (i as f64 * scene.output_dt).min(scene.end);
+    let mut times: Vec<f64> = (0..=last as u64).map(time).collect();
     if times.last().is_some_and(|&t| t < scene.end * (1.0 - 1e-9)) {
         times.push(scene.end);
     }

@@ -125,6 +125,17 @@ fn quasi_static_trunnion_meets_the_closed_form() {
     }
 }
 
+/// Forty times a fortieth of 10.6 is 10.600000000000001 in binary numbers.
+#[test]
+fn static_equilibria_do_not_go_beyond_the_end() {
+    let mut scene = bogie(5.0, 10.6, Damper::Rail);
+    scene.analysis = Analysis::QuasiStatic;
+    scene.output_dt = 10.6 / 40.0;
+    assert!(40.0 * scene.output_dt > 10.6);
+    let times = run(&scene).history.column(Channel::Time);
+    assert_eq!((times.len(), times.last()), (41, Some(&10.6)));
+}
+
 #[test]
 fn error_stays_below_the_accuracy_asked_and_falls_with_it() {
     for (speed, end, text, peak) in [(5.0, 12.0, S1, 0.54709), (100.0, 0.55, S2, 0.90868)] {

@@ -6,6 +6,8 @@
 //! runs, and the sensitivity of each result to each axis ([`sensitivities`]).
 //!
 //! ```
+//! use std::ops::ControlFlow;
+//!
 //! use formats::sweep::Sweep;
 //! use sweep::{ResultTable, RunPlan, RunRecord, Runner};
 //!
@@ -21,7 +23,12 @@
 //!
 //! let plan = RunPlan::new(&sweep);
 //! let runner = Runner::new(&sweep);
-//! let record = |run| RunRecord { run, axes: plan.values(run), outcome: runner.run(&plan.values(run)) };
+//! let go_on = || ControlFlow::Continue(());
+//! let record = |run| {
+//!     let axes = plan.values(run);
+//!     let outcome = runner.run(&axes, &go_on).expect("nobody stops it");
+//!     RunRecord { run, axes, outcome }
+//! };
 //! let table = ResultTable::new(sweep.pointers(), (1..=plan.runs()).map(record));
 //! assert_eq!(table.columns, ["girder.midspan.max", "girder.midspan.min"]);
 //! assert_eq!(table.runs, [1, 2]);
@@ -57,7 +64,7 @@ pub use info::SweepInfo;
 pub use outcome::{RunFailure, RunOutcome, RunRow};
 pub use plan::RunPlan;
 pub use records::{RecordLines, RecordReader, RunRecord};
-pub use runner::Runner;
+pub use runner::{GoOn, Runner};
 pub use sensitivity::{Sensitivity, sensitivities};
 pub use statistics::{Interval, QUANTILES, ResultDistribution};
 pub use summary::summary;

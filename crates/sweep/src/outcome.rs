@@ -35,14 +35,17 @@ pub enum RunFailure {
     Missing(usize, String),
     /// There is no run.
     Failed(String),
+    /// It was told to stop.
+    Stopped,
 }
 
 impl RunFailure {
-    /// The reason.
+    /// The reason; `None` for a run that was stopped.
     #[must_use]
-    pub fn why(self) -> String {
+    pub fn why(self) -> Option<String> {
         match self {
-            RunFailure::Missing(_, why) | RunFailure::Failed(why) => why,
+            RunFailure::Missing(_, why) | RunFailure::Failed(why) => Some(why),
+            RunFailure::Stopped => None,
         }
     }
 }

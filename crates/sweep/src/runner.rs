@@ -6,7 +6,7 @@ use ::design::DesignStructures;
 use formats::design::Design;
 use formats::scene::{Document, SceneSource};
 use formats::spec::SolveError;
-use formats::sweep::{AxisValue, Sweep, SweepInput};
+use formats::sweep::{AxisValue, ResultKind, Sweep, SweepInput};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::Inputs;
 use formats::units::Units;
@@ -16,6 +16,9 @@ use results::scene_run::SceneRun;
 
 use crate::outcome::{RunFailure, RunOutcome, RunRow};
 use crate::values;
+
+/// Says whether to go on with a run; called from any thread.
+pub type GoOn<'a> = &'a (dyn Fn() -> ControlFlow<()> + Sync);
 
 /// Runs the scene or design of a sweep. Solved structures are kept, so that each is solved once where the axes do not
 /// change it.
@@ -55,22 +58,26 @@ impl<'s> Runner<'s> {
         design(self.inputs(values))
     }
 
-    /// Runs the scene or design as its files are, without values of axes; returns its units and results.
+    /// Runs the scene or design as its files are, without values of axes; returns its units and results. Between two
+    /// steps of a scene `go_on` can break off.
     ///
     /// # Errors
-    /// As [`Runner::run`].
-    pub fn run_as_written(&self) -> Result<(Units, RunRow), RunFailure> {
-        self.run_files(self.sweep.target.inputs().clone())
+    /// As [`Runner::run`]; [`RunFailure::Stopped`] where `go_on` has broken off.
+    pub fn run_as_written(&self, go_on: GoOn<'_>) -> Result<(Units, RunRow), RunFailure> {
+        self.run_files(self.sweep.target.inputs().clone(), go_on)
     }
 
-    /// Runs the scene or design with values of the axes, in their order.
+    /// Runs the scene or design with values of the axes, in their order; `None` where `go_on` has broken off between two
+    /// steps of a scene.
     ///
     /// # Errors
     /// Why the run has no results: faults of the files with these values, a structure that does not stand, a scene that
     /// cannot start, a run that is incomplete, results that it does not have. The text has one line.
-    pub fn run(&self, values: &[AxisValue]) -> RunOutcome {
-        let made = self.run_files(self.inputs(values));
-        made.map(|(_, row)| row).map_err(|failure| self.with_own_names(failure.why()))
+    pub fn run(&self, values: &[AxisValue], go_on: GoOn<'_>) -> Option<RunOutcome> {
+        match self.run_files(self.inputs(values), go_on) {
+            Ok((_, row)) => Some(Ok(row)),
+            Err(failure) => failure.why().map(|why| Err(self.with_own_names(why))),
+        }
     }
 
     /// A reason in which files are called as their inputs are, wherever the sweep was started, so that it is the same on
@@ -80,24 +87,28 @@ impl<'s> Runner<'s> {
         files.fold(why, |text, file| text.replace(&file.display_name, &file.name))
     }
 
-    fn run_files(&self, inputs: Inputs) -> Result<(Units, RunRow), RunFailure> {
+    fn run_files(&self, inputs: Inputs, go_on: GoOn<'_>) -> Result<(Units, RunRow), RunFailure> {
         match &self.sweep.input {
-            SweepInput::Scene(_) => self.run_scene(inputs),
+            SweepInput::Scene(_) => self.run_scene(inputs, go_on),
             SweepInput::Design(_) => self.run_design(inputs),
         }
     }
 
-    fn run_scene(&self, inputs: Inputs) -> Result<(Units, RunRow), RunFailure> {
+    fn run_scene(&self, inputs: Inputs, go_on: GoOn<'_>) -> Result<(Units, RunRow), RunFailure> {
         let document = scene(inputs).map_err(|wrong| first(&wrong))?;
         // runs are on threads of their own, and few sweeps ask for extremes of girders
         let options = RunOptions { threads: Some(1), girders: GirderTime::OnDemand };
-        let run = SceneRun::of(document, &self.solved, options, &|_| ControlFlow::Continue(()));
+        let run = SceneRun::of(document, &self.solved, options, &|_| go_on());
         let run = run.map_err(|error| match error {
-            results::Error::Input(wrong) => first(&wrong),
-            other => line(&other.to_string()),
+            results::Error::Stopped => RunFailure::Stopped,
+            results::Error::Input(wrong) => first(&wrong).into(),
+            other => line(&other.to_string()).into(),
         })?;
         if let Some(why) = run.reason_incomplete() {
             return Err(line(&why).into());
+        }
+        if self.sweep.results.contains(&ResultKind::Extremes) {
+            run.compute_girders(Some(1), go_on).map_err(|_| RunFailure::Stopped)?;
         }
         let scene = run.document.scene();
         Ok((scene.units, values::of_scene(&self.sweep.results, scene, &run.cases[0])?))

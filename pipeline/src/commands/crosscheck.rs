@@ -79,8 +79,8 @@ pub fn run(args: &CrosscheckArgs, global: Global) -> Result<Exit, Failure> {
 /// A spec, its source and the environment of the other codes.
 struct Check<'a> {
     source: &'a Source,
-    /// The spec as JSON, as the user wrote it; the other codes read it.
-    raw: Value,
+    /// The spec as JSON in numbers, which the other codes read, or why it cannot be written so.
+    raw: Result<Value, String>,
     spec: Spec,
     environment: Environment,
 }
@@ -92,6 +92,7 @@ impl<'a> Check<'a> {
     fn new(source: &'a Source, spec: Spec) -> Result<Self, Failure> {
         let raw = serde_json::from_str(source.text.trim_start_matches('\u{feff}'))
             .map_err(|error| Diagnostic::of_file(&source.name, error.to_string()))?;
+        let raw = crosscheck::in_numbers(raw, &spec);
         Ok(Check { source, raw, spec, environment: Environment::of_user().map_err(|e| broken(&e))? })
     }
 
@@ -132,7 +133,11 @@ impl<'a> Check<'a> {
                 })
             }
             _ => {
-                let question = json!({ "spec": self.raw, "theory": theory_word(theory) });
+                let raw = match &self.raw {
+                    Ok(raw) => raw,
+                    Err(why) => return Ok(Err(why.clone())),
+                };
+                let question = json!({ "spec": raw, "theory": theory_word(theory) });
                 crosscheck::ask(peer, &question, &ours, &stations, &self.environment, &mut say)
             }
         };
@@ -175,8 +180,7 @@ fn sheared(spec: &mut Spec) -> Option<String> {
 
 /// Creates the failure of another code or of its environment.
 fn broken(error: &Error) -> Failure {
-    let hint =
-        "the first use needs python3 (3.11 or newer, with venv) and PyPI; later ones need neither network";
+    let hint = "the first use needs python3 (3.11 or newer, with venv) and PyPI, later ones no network; all other commands go on without";
     Diagnostic::of_file("python3", format!("nothing compared: {error}")).hint(hint).into()
 }
 

@@ -42,7 +42,10 @@ pub fn run(args: &SweepArgs, global: Global) -> Result<Exit, Failure> {
         }
         ControlFlow::Continue(())
     };
-    let written = make_sweep((&sweep, &own), args.shard, (&path, args.force), global.threads, &mut observed)?;
+    // Ctrl-C ends the process
+    let go_on = || ControlFlow::Continue(());
+    let written =
+        make_sweep((&sweep, &own), args.shard, (&path, args.force), global.threads, &mut observed, &go_on)?;
     drop(bar);
     report(&written, global)
 }

@@ -99,17 +99,24 @@ impl Environment {
         let make = start(Command::new(&self.python).args(["-m", "venv"]).arg(&new))?;
         succeeded(&make, "make a Python environment (python3 -m venv)")?;
         let python = program(&new);
-        // without retries, a machine without network has its message at once
-        let one = install(&python, &requirements_of(&[SMALLEST]), &["--retries", "0", "--timeout", "20"])?;
-        if !one.status.success() {
-            return Err(Error::Offline { output: tail(&one) });
+        let one = ask_index(&python)?;
+        let is_online = one.status.success();
+        if !is_online && std::env::var_os(COPIES).is_none_or(|places| places.is_empty()) {
+            return Err(offline(&one));
         }
-        let all =
-            install(&python, &["--requirement".to_owned(), requirements.display().to_string()], RETRIES)?;
+        let options = if is_online { RETRIES } else { WITHOUT_INDEX };
+        if !is_online {
+            say(&format!(
+                "pip cannot reach its package index (PyPI); packages are taken from {COPIES} alone"
+            ));
+        }
+        let every = ["--requirement".to_owned(), requirements.display().to_string()];
+        let all = install(&python, &every, options)?;
         let mark = match all.status.success() {
             true => (MARK, REQUIREMENTS.to_owned()),
             false => {
-                install_separately(&python, &all, say)?;
+                let separate = install_separately(&python, &all, options, say);
+                separate.map_err(|error| if is_online { error } else { offline(&one) })?;
                 (PARTIAL, std::process::id().to_string())
             }
         };
@@ -143,6 +150,10 @@ impl Environment {
 
 /// Options of installations: an index that answers slowly is asked a second and a third time.
 const RETRIES: &[&str] = &["--retries", "2"];
+/// Options of installations where the index cannot be reached: asking it for each package would take minutes.
+const WITHOUT_INDEX: &[&str] = &["--no-index"];
+/// Variable of pip with places that have copies of packages.
+const COPIES: &str = "PIP_FIND_LINKS";
 
 /// Lines of the requirements that begin with one of `names`.
 fn requirements_of(names: &[&str]) -> Vec<String> {
@@ -150,23 +161,48 @@ fn requirements_of(names: &[&str]) -> Vec<String> {
     REQUIREMENTS.lines().filter(is_one).map(str::to_owned).collect()
 }
 
+/// Installs a small package from the index of packages alone, which fails where the index cannot be reached: at once, or
+/// after twenty seconds where it does not answer.
+fn ask_index(python: &Path) -> Result<Output, Error> {
+    let options = ["--retries", "0", "--timeout", "20"];
+    start(pip_install(python, &requirements_of(&[SMALLEST]), &options).env_remove(COPIES))
+}
+
+/// The error of an index that cannot be reached. That pip has found no version says nothing more; a proxy or a certificate
+/// that it complains of does.
+fn offline(asked: &Output) -> Error {
+    let says_more =
+        |line: &&str| !line.contains("(from versions: none)") && !line.contains("No matching distribution");
+    let text = tail(asked);
+    Error::Offline { output: text.lines().filter(says_more).flat_map(|line| ["\n", line]).collect() }
+}
+
 /// Runs pip in the environment of `python`. The requirements include all dependencies, so that no unpinned package is
 /// installed.
 fn install(python: &Path, packages: &[String], options: &[&str]) -> Result<Output, Error> {
+    start(&mut pip_install(python, packages, options))
+}
+
+fn pip_install(python: &Path, packages: &[String], options: &[&str]) -> Command {
     let mut pip = Command::new(python);
     pip.args(["-m", "pip", "install", "--disable-pip-version-check", "--no-input", "--quiet"]);
     pip.args(["--no-deps", "--only-binary", ":all:"]).args(options).args(packages);
-    start(&mut pip)
+    pip
 }
 
 /// Installs what each code needs on its own and says which codes are missing; `together` is the output of the
 /// installation of all.
-fn install_separately(python: &Path, together: &Output, say: &mut dyn FnMut(&str)) -> Result<(), Error> {
+fn install_separately(
+    python: &Path,
+    together: &Output,
+    options: &[&str],
+    say: &mut dyn FnMut(&str),
+) -> Result<(), Error> {
     let step = "install the packages with pip";
-    succeeded(&install(python, &requirements_of(SHARED), RETRIES)?, step)?;
+    succeeded(&install(python, &requirements_of(SHARED), options)?, step)?;
     let mut missing = Vec::new();
     for (code, names) in PACKAGES {
-        if !install(python, &requirements_of(names), RETRIES)?.status.success() {
+        if !install(python, &requirements_of(names), options)?.status.success() {
             missing.push(code);
         }
     }

@@ -65,11 +65,11 @@ pub enum Error {
     },
     /// pip cannot reach its index of packages.
     #[error(
-        "pip cannot reach its package index (PyPI), from which the other codes come: connect this machine once, or set \
-         PIP_INDEX_URL or PIP_FIND_LINKS to a copy of the packages\n{output}"
+        "pip cannot reach its package index (PyPI), from which scikit-fem, OpenSees, PyNite and gmsh come: connect this \
+         machine once, or set PIP_INDEX_URL or PIP_FIND_LINKS to a copy of the packages{output}"
     )]
     Offline {
-        /// Last lines of what pip wrote.
+        /// What pip wrote beside that it found no package: a line break and its last lines, or nothing.
         output: String,
     },
     /// The script failed.

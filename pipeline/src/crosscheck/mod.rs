@@ -6,6 +6,7 @@
 pub mod environment;
 pub mod error;
 pub mod girder;
+pub mod numbers;
 pub mod outcome;
 pub mod peer;
 pub mod plot;
@@ -14,6 +15,7 @@ pub mod run;
 pub use environment::Environment;
 pub use error::Error;
 pub use girder::PlainGirder;
+pub use numbers::in_numbers;
 pub use outcome::{BlockDifference, PeerComparison, PeerOutcome};
 pub use peer::{Peer, PeerAnswer, PeerMeasure, PlainGrid, Station};
 pub use run::{again, ask, crosscheck, influence};

@@ -46,6 +46,8 @@ def sweep(
         The sweep or one of its files is invalid, or the folder has files of others or runs of another sweep.
     UntrustedError
         The scene or design cannot be run as it is written.
+    KeyboardInterrupt
+        Ctrl-C stops the runs at work. Those that are made stay in the folder.
     """
     return _written(
         _native.sweep(os.fspath(sweep), os.fspath(output), shard, threads, force, progress)

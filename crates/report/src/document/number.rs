@@ -55,6 +55,17 @@ pub fn number(value: f64, digits: usize) -> Option<String> {
     Some(format!("{sign}{}", trimmed(&plain)))
 }
 
+/// `text` with its numbers in the notation of programs, such as 3.0e-7, in that of [`number`].
+pub fn with_numbers(text: &str) -> String {
+    let word = |word: &str| {
+        let core = word.trim_matches(|c: char| "(),.;:".contains(c) || c.is_whitespace());
+        let is_numeral = core.contains('e') && core.chars().all(|c| c.is_ascii_digit() || "-+.e".contains(c));
+        let value = core.parse().ok().filter(|_| is_numeral).and_then(|value| number(value, 7));
+        value.map_or_else(|| word.to_owned(), |value| word.replacen(core, &value, 1))
+    };
+    text.split_inclusive(' ').map(word).collect()
+}
+
 fn trimmed(text: &str) -> &str {
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { text }
 }

@@ -2,7 +2,7 @@
 
 use crate::chart::{Chart, Drawing, Style};
 use crate::document::code::{coded, exponent, plain};
-use crate::document::number::number;
+use crate::document::number::{number, with_numbers};
 use crate::document::section::{Figure, Picture, ReportSection, ReportTable, TableCell, TableColumn};
 use crate::error::Error;
 use maud::{DOCTYPE, Markup, PreEscaped, html};
@@ -225,11 +225,11 @@ fn is_numeral(text: &str) -> bool {
         && text.chars().all(|c| is_of_number(c) || is_raised(c))
 }
 
-/// A text in which names of files and keys stand between backticks.
+/// A text in which names of files and keys stand between backticks; numbers in it are written as in tables.
 fn words(text: &str) -> Markup {
     html! {
         @for (i, part) in text.split('`').enumerate() {
-            @if i % 2 == 1 { code { (part) } } @else { (raised(part)) }
+            @if i % 2 == 1 { code { (part) } } @else { (raised(&with_numbers(part))) }
         }
     }
 }

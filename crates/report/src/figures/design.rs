@@ -125,6 +125,23 @@ fn in_order<'g>(governing: &'g Governing, other: Option<&'g Governing>) -> Vec<&
     }
 }
 
+/// Points of an envelope of forces with a jump at each of `supports` at which no member carries the rail, between two
+/// members that end on either side of it: a force does not go over from one member to the other gradually.
+fn with_jumps(points: Vec<[f64; 2]>, supports: &[f64]) -> Vec<[f64; 2]> {
+    let mut out: Vec<[f64; 2]> = Vec::with_capacity(points.len() + 2 * supports.len());
+    let length = points.last().map_or(0.0, |last| last[0] - points[0][0]);
+    let rounding = 1e-6 * length;
+    for point in points {
+        if let Some(&[before, value]) = out.last()
+            && let Some(&x) = supports.iter().find(|x| before + rounding < **x && **x < point[0] - rounding)
+        {
+            out.extend([[x, value], [x, point[1]]]);
+        }
+        out.push(point);
+    }
+    out
+}
+
 /// Charts of the envelopes of a case along a rail, in the order of an engineer's interest; quantities that are zero are
 /// left out.
 pub(crate) fn envelope_charts(
@@ -149,11 +166,16 @@ pub(crate) fn envelope_charts(
     let mut out = Vec::new();
     for quantity in order {
         let (unit, factor) = unit_of(design.units, quantity);
+        let is_force = matches!(
+            quantity,
+            GirderResponse::Normal | GirderResponse::VerticalShear | GirderResponse::LateralShear
+        );
+        let supports: &[f64] = if is_force { &design.spans[rail] } else { &[] };
         let points = |is_max: bool| -> Vec<[f64; 2]> {
             let all = envelopes.envelopes.iter().enumerate();
             let own = all.filter(|(_, e)| (e.rail, e.quantity, e.is_max) == (rail, quantity, is_max));
             let sides = own.flat_map(|(index, e)| in_order(&e.governing, other_sides.get(&index).copied()));
-            sides.map(|one| [one.x, factor * one.value]).collect()
+            with_jumps(sides.map(|one| [one.x, factor * one.value]).collect(), supports)
         };
         let (largest, smallest) = (points(true), points(false));
         if largest.iter().chain(&smallest).all(|point| point[1] == 0.0) {
@@ -176,4 +198,18 @@ pub(crate) fn envelope_charts(
         out.push((chart, caption));
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::with_jumps;
+
+    #[test]
+    fn forces_jump_at_supports_between_members_that_end_beside_them() {
+        let points = vec![[0.0, 1.0], [4.0, 1.0], [6.0, 3.0], [10.0, 3.0]];
+        let jumping = [[0.0, 1.0], [4.0, 1.0], [5.0, 1.0], [5.0, 3.0], [6.0, 3.0], [10.0, 3.0]];
+        assert_eq!(with_jumps(points.clone(), &[0.0, 5.0, 10.0]), jumping);
+        // members that end at the support have their values there
+        assert_eq!(with_jumps(points.clone(), &[0.0, 4.0, 10.0]), points);
+    }
 }

@@ -67,7 +67,7 @@ fn result(scene: &Scene, verdict: &FatigueResult) -> [TableCell; 8] {
     };
     let scale = Scale { from: scene.units, to: Units { length, force } }.factor(Dimension::STRESS);
     let stress = |value: f64| TableCell::from(rounded(value * scale, DIGITS));
-    let count: f64 = verdict.cycles.iter().map(|cycle| cycle.count).sum();
+    let count = verdict.count();
     let runs = verdict.damage.repeats();
     [
         TableCell::from(verdict.detail.word()),

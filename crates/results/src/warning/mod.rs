@@ -1,7 +1,8 @@
 //! Warnings about runs that are near the limits of their method and about input that is probably wrong.
 //!
-//! Files, lowest first: tension, slack, second, scene, scope, this one.
+//! Files, lowest first: tension, slack, second, scene, scope, bounces, this one.
 
+mod bounces;
 mod scene;
 mod scope;
 mod second;
@@ -49,6 +50,7 @@ fn of_second_order<'a>(
 #[must_use]
 pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
     let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
+    all.extend(bounces::cycles_of_bounces(scene, outcome));
     all.extend(of_second_order(scene, outcome, true));
     all.extend(outcome.choices.iter().filter_map(|choice| {
         let structure = &scene.structures[choice.structure];
