@@ -77,8 +77,10 @@ fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
     b.iter().all(|x| x.is_finite())
 }
 
+/// Replaces the lower triangle of a symmetric positive definite matrix (n x n, row-major) by its Cholesky factor, row by
+/// row from the top. Returns false where a pivot is not positive.
 #[inline]
-fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize, dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
+fn factor_spd(a: &mut [f64], n: usize, dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
     for i in 0..n {
         let (above, row) = a.split_at_mut(i * n);
         for j in 0..i {
@@ -90,6 +92,14 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize, dot: impl Fn(&[f64],
             return false;
         }
         row[i] = pivot.sqrt();
+    }
+    true
+}
+
+#[inline]
+fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize, dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
+    if !factor_spd(a, n, &dot) {
+        return false;
     }
     for b in b.chunks_exact_mut(n) {
         for i in 0..n {
@@ -218,17 +228,8 @@ fn substitute(a: &[f64], b: &mut [f64]) {
 /// undefined.
 #[must_use]
 pub(crate) fn invert_spd(a: &mut [f64], scratch: &mut [f64], n: usize) -> bool {
-    for i in 0..n {
-        let (above, row) = a.split_at_mut(i * n);
-        for j in 0..i {
-            let other = &above[j * n..(j + 1) * n];
-            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
-        }
-        let pivot = row[i] - dot(&row[..i], &row[..i]);
-        if !(pivot > 0.0 && pivot.is_finite()) {
-            return false;
-        }
-        row[i] = pivot.sqrt();
+    if !factor_spd(a, n, dot) {
+        return false;
     }
     // The rows of L^-1 are computed from the top, each from the rows above it.
     let inverse = &mut scratch[..n * n];
