@@ -23,7 +23,7 @@ def main():
     n, ms = np.array(rows).T
     figure, axis = plt.subplots(figsize=(6.5, 4.2))
     axis.loglog(n, ms, "o-", color="tab:blue", markersize=4)
-    for low, high in ((1, 8), (16, 64), (64, 1000)):
+    for low, high in ((1, 8), (16, 64), (64, 512)):
         part = (n >= low) & (n <= high)
         exponent, _ = np.polyfit(np.log(n[part]), np.log(ms[part]), 1)
         print(f"{low} to {high} wheels: n^{exponent:.2f}")
