@@ -136,7 +136,8 @@ pub fn solve_on(
     })
 }
 
-/// Error of influence lines under a preload, relative, from which it is named.
+/// Error of influence lines under a preload, relative, from which it is named: lines are divided for 1e-9, and a thousandth
+/// is left for the rounding of this estimate.
 const NOTED_ERROR: f64 = 1.001e-9;
 /// The same from which a design is refused.
 const MOST_ERROR: f64 = 1e-3;

@@ -52,6 +52,35 @@ fn radau_meets_sdirk_on_rigid_and_influence_rails_with_both_dampers() {
     }
 }
 
+/// Independent: SDIRK4 at a tighter accuracy. With so many wheels on so few degrees of freedom collocation eliminates the
+/// forces node by node; from 64 on in blocks.
+#[test]
+fn radau_meets_sdirk_with_many_wheels() {
+    for (count, damping) in [(20, 2e5), (20, 0.0), (70, 2e5)] {
+        let mut scene = bogie(20.0, 0.3, Damper::Ground);
+        let share = f64::from(count);
+        scene.bodies[0].start[0] = 25.0;
+        (scene.wheels[0].normal.stiffness, scene.wheels[0].normal.damping) = (2e8 / share, damping / share);
+        let pattern = scene.contacts[0].clone();
+        scene.contacts = (0..count)
+            .map(|i| {
+                let mut contact = pattern.clone();
+                contact.offsets = vec![20.0 * ((f64::from(i) + 0.5) / share - 0.5)];
+                contact
+            })
+            .collect();
+        scene.accuracy = 1e-8;
+        let reference = solved(Method::Sdirk4, &scene, girder());
+        scene.accuracy = 1e-5;
+        let found = solved(Method::Radau, &scene, girder());
+        for wheel in [0, count as usize / 2] {
+            let off = apart(&found, &reference, Channel::Vertical(wheel));
+            println!("{count} wheels, damping {damping}: {off:.1e}");
+            assert!(off < 1e-4, "{count} wheels: {off}");
+        }
+    }
+}
+
 /// Independent: SDIRK4 at a tighter accuracy; a beam of many modes.
 #[test]
 fn radau_meets_sdirk_on_modes() {

@@ -200,16 +200,12 @@ impl Spec {
     /// As [`Spec::model`] and [`FactoredFrame::new`].
     pub fn factored(&self) -> Result<(Model, Vec<Rail>, Arc<FactoredFrame>), fea::Error> {
         let (model, rails) = self.model()?;
-        let known = match &self.preload {
+        let frame = match &self.preload {
             // The search for the state has factored it.
             Some(preload) => {
                 let (unloaded, _) = self.unloaded_model()?;
-                Some(Arc::clone(&preload.state(&unloaded, &rails)?.frame))
+                Arc::clone(&preload.state(&unloaded, &rails)?.frame)
             }
-            None => None,
-        };
-        let frame = match known {
-            Some(frame) => frame,
             None => Arc::new(FactoredFrame::new(&model, &rails)?),
         };
         Ok((model, rails, frame))

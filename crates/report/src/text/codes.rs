@@ -96,14 +96,16 @@ fn comparisons(scene: &Scene, all: &[(&str, &CodeCheck)], first: &CodeCheck) -> 
         for value in &row.values {
             let mut line = std::mem::replace(&mut head, vec![TableCell::Empty; 2 + all.len()]);
             line.extend(clause_cells(&value.clause));
-            line.extend([
-                TableCell::from(value.formula.replace("/s2", "/s\u{b2}")),
-                TableCell::from(rounded(factor * value.value, DIGITS)),
-            ]);
+            line.extend([formula(&value.formula), TableCell::from(rounded(factor * value.value, DIGITS))]);
             rows.push(line);
         }
     }
     ReportTable { caption: "Values of the runs and values of codes.".to_owned(), columns, rows }
+}
+
+/// The formula of a code, with the unit of its acceleration raised.
+fn formula(given: &str) -> TableCell {
+    TableCell::from(given.replace("/s2", "/s\u{b2}"))
 }
 
 /// Factors of the codes, and their loads of one wheel.
@@ -120,7 +122,7 @@ fn factors(scene: &Scene, first: &CodeCheck) -> ReportTable {
             TableCell::from(unit),
         ];
         line.extend(clause_cells(&value.clause));
-        line.push(TableCell::from(value.formula.replace("/s2", "/s\u{b2}")));
+        line.push(formula(&value.formula));
         line
     });
     let rows = factors.collect();

@@ -105,7 +105,7 @@ impl RailCompliance {
             if let Some(path) = &mut provider.path
                 && path.follow(x, *reach, elements)
             {
-                path.put(m, matrices, elements);
+                path.put(m, matrices);
                 provider.is_on_path = true;
                 continue;
             }

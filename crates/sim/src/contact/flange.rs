@@ -11,8 +11,9 @@ use crate::numerics::dense::along;
 use crate::scene::dof::arm_rows;
 use crate::{BodyDof, Channel, Flange};
 
-/// Part of the clearance within which a flange is near its rail, and the factor on the motion in a step.
+/// Part of the clearance within which a flange is near its rail.
 const NEAR: f64 = 0.1;
+/// Factor on the motion that speed and acceleration at the start of a step predict for it.
 const CLOSING: f64 = 3.0;
 
 /// Index of the roll among the displacements of a body.
@@ -96,8 +97,8 @@ impl Element for FlangeContact<'_> {
         true
     }
 
-    /// A flange may touch if its distance from the rail is a tenth of the clearance, or if the distance at its present
-    /// speed and acceleration closes within some times `h`.
+    /// A flange may touch if what is left of its clearance is a tenth of it, or less than three times what its present speed
+    /// and acceleration close within `h`.
     fn may_act(&self, at: &At, h: f64) -> bool {
         let shape = at.rows.rise[at.index] * at.mechanics.speed_along(self.wheel, at.state);
         let by = |motion: &DVector<f64>| along(&at.rows.approach, at.index, motion.as_slice()).abs();

@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::system::System;
 use crate::Error;
+use crate::mechanics::inertia::columns_of;
 use crate::mechanics::mobility::Mobility;
 use crate::mechanics::state::{Known, State};
 
@@ -110,8 +111,7 @@ impl<'a> FreeMotion<'a> {
                 system.mechanics.carried.add(&system.mechanics.kinematics, state, sums, &mut self.columns);
             }
             let load = self.load.as_mut_slice();
-            for (column, a) in self.mass.as_slice().chunks_exact(constant.nrows().max(1)).zip(at.a.as_slice())
-            {
+            for (column, a) in columns_of(&self.mass).zip(at.a.as_slice()) {
                 load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
             }
         }

@@ -284,18 +284,18 @@ impl CompliancePath {
         true
     }
 
-    /// Writes the latest values and slopes of the rows of `elements` into the matrices over `m` elements.
-    pub fn put(&self, m: usize, matrices: &mut RailMatrices, elements: &Candidates) {
+    /// Writes the latest values and slopes of the rows that are current into the matrices over `m` elements.
+    pub fn put(&self, m: usize, matrices: &mut RailMatrices) {
         let RailMatrices { value: sums, slope: rates, tangential } = matrices;
-        let is_wanted = |group: &&Group| elements.has(group.element);
-        for group in self.groups.iter().filter(is_wanted) {
-            let row = group.element * m..(group.element + 1) * m;
-            sums[row.clone()].fill(0.0);
-            rates[row].fill(0.0);
+        for &row in &self.rows {
+            let element = self.groups[row].element;
+            sums[element * m..(element + 1) * m].fill(0.0);
+            rates[element * m..(element + 1) * m].fill(0.0);
         }
         let count = self.groups.len();
-        let lines = self.now[0].chunks_exact(count).zip(self.now[1].chunks_exact(count));
-        for (row, (value, slope)) in self.groups.iter().zip(lines).filter(|(row, _)| is_wanted(row)) {
+        for &place in &self.rows {
+            let row = &self.groups[place];
+            let [value, slope] = self.now.each_ref().map(|now| &now[place * count..(place + 1) * count]);
             let span = row.element * m..(row.element + 1) * m;
             let (sums, rates) = (&mut sums[span.clone()], &mut rates[span]);
             for (column, (value, slope)) in self.groups.iter().zip(value.iter().zip(slope)) {

@@ -150,7 +150,7 @@ impl Block {
 }
 
 /// Columns of a matrix as slices.
-fn columns_of(matrix: &DMatrix<f64>) -> impl Iterator<Item = &[f64]> {
+pub(crate) fn columns_of(matrix: &DMatrix<f64>) -> impl Iterator<Item = &[f64]> {
     matrix.as_slice().chunks_exact(matrix.nrows().max(1))
 }
 

@@ -1,4 +1,5 @@
-//! Small dense products and linear systems without allocation, used in the innermost loop of the contact solver.
+//! Dense products and linear systems of the contact solver: small ones without allocation, for its innermost loop, large
+//! ones in blocks.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltRegularization, cholesky_in_place, cholesky_in_place_scratch};
@@ -47,8 +48,8 @@ fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + rest
 }
 
-/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n) and one or more right sides,
-/// which follow each other in `b`.
+/// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n, both triangles given) and one or
+/// more right sides, which follow each other in `b`.
 ///
 /// `a` is overwritten by its factor and `b` by the solutions. The factor of a small matrix is computed row by row from the
 /// top, so that every scalar product uses contiguous memory, that of a large one by faer in blocks. Returns false where A

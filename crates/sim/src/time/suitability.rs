@@ -9,9 +9,9 @@ use crate::{Dynamics, Error, Foundation, Method, Scene};
 const MANY: usize = 12;
 
 /// Whether collocation would have to solve a large system; see [`MANY`]. Without these dampers its forces are eliminated
-/// node by node.
+/// node by node. On structures with mass stages would have the order two under these dampers.
 fn is_large(system: &System) -> bool {
-    system.traits.has_memory && system.verticals() >= MANY
+    system.traits.has_memory && system.verticals() >= MANY && !system.mechanics.has_structures()
 }
 
 impl Method {

@@ -63,3 +63,25 @@ fn sum_has_the_corners_and_the_values_of_both() {
     );
     assert_eq!(sum.vertical(piece(8.0), 8.0), [0.5, 0.0]);
 }
+
+/// Beside the mean of the values at the points.
+#[test]
+fn average_over_points_is_the_mean_of_their_values() {
+    let wave = |length: f64, phase: f64| {
+        let range = [f64::NEG_INFINITY, f64::INFINITY];
+        let wave = Wave { amplitude: 2e-3, length, phase, range };
+        Irregularity::wave(Axis::Vertical, wave).expect("a wave")
+    };
+    let shape = wave(60.0, 0.3).plus(&wave(7.0, -1.1));
+    let ahead = [0.0, 1.5, 4.0, 9.25];
+    let average = shape.averaged(&ahead).expect("it has no corners");
+    for x in [-20.0, 0.0, 3.7, 55.0] {
+        let all = ahead.map(|distance| shape.vertical(0, x + distance));
+        let found = average.vertical(0, x);
+        for (k, found) in found.into_iter().enumerate() {
+            let mean = all.iter().map(|own| own[k]).sum::<f64>() / ahead.len() as f64;
+            assert!((found - mean).abs() < 1e-16, "{x}: {found} for {mean}");
+        }
+    }
+    assert!(Irregularity::new(&[[1.0, 0.0], [2.0, 1.0]], &[]).expect("rows").averaged(&ahead).is_none());
+}
