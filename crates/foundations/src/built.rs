@@ -34,6 +34,8 @@ pub enum MotionBasis {
     Modes {
         /// The subdivided model, its frame and its modes.
         refined: Box<fea::RefinedModes>,
+        /// The inertia of these modes, for the effects of their accelerations.
+        inertia: fea::ModeInertia,
     },
     /// Rigid parts of a straight girder.
     Parts(RigidParts),

@@ -158,7 +158,8 @@ impl MeshModes {
             carrier: excitation.carrier.map(|carrier| mount::inertia(kept, carrier)),
             ..Foundation::default()
         };
-        let motion = MotionBasis::Modes { refined: Box::new(refined) };
+        let inertia = refined.frame.inertia_of_modes(&refined.model, &refined.modes.modes);
+        let motion = MotionBasis::Modes { refined: Box::new(refined), inertia };
         Ok(BuiltFoundation { foundation, basis: Some(motion) })
     }
 }

@@ -83,7 +83,7 @@ fn frequencies_of_modes_have_the_accuracy_that_their_use_needs() {
     let mut structure = document.scene().structures[0].clone();
     structure.foundation = Foundation::Modal { modes: 6, damping: 0.03 };
     let elements = |built: &BuiltFoundation| match &built.basis {
-        Some(MotionBasis::Modes { refined }) => refined.model.members.len(),
+        Some(MotionBasis::Modes { refined, .. }) => refined.model.members.len(),
         _ => panic!("natural modes"),
     };
     let mut counts = Vec::new();
@@ -128,7 +128,7 @@ fn a_full_mesh_has_the_frequencies_of_the_bridge_without_damping() {
     assert!(coarse.dofs() < fine.dofs());
     // The scene asks for 32 elements.
     let BuiltFoundation { foundation, basis } = built(structure, &solved).expect("a bridge with mass");
-    let Some(MotionBasis::Modes { refined }) = basis else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = basis else { panic!("natural modes") };
     assert_eq!((refined.parts, refined.model.members.len()), (vec![32], 32));
     assert!(error(&foundation) < 1e-7);
 }
@@ -214,7 +214,7 @@ fn a_rail_on_ties_moves_at_its_ties() {
     let structure = &document.scene().structures[0];
     let known = solution_of(&solved, &structure.origin).expect("solved");
     let BuiltFoundation { foundation, basis } = built(structure, &solved).expect("ties with mass");
-    let Some(MotionBasis::Modes { refined }) = basis else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = basis else { panic!("natural modes") };
     assert_eq!(refined.model.members.len(), known.model.members.len());
     assert!(refined.parts.iter().all(|parts| *parts == 1) && foundation.dofs() > 0);
     let light = document.cases.iter().find(|case| case.label.as_deref() == Some("without mass"));

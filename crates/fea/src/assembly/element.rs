@@ -1,6 +1,6 @@
 //! The straight uniform member: exact 12 x 12 stiffness, releases, local axes.
 
-use nalgebra::{Matrix3, RowSVector, SMatrix, SVector, Vector3};
+use nalgebra::{Matrix3, RowSVector, SMatrix, Vector3};
 use num_traits::Zero;
 use splines::{BeamColumn, Flexibility, ForceComponent};
 
@@ -278,20 +278,13 @@ impl Element {
         }
     }
 
-    /// What the axial force adds to an internal force by the deflection of the clamped member under the inertia of a uniform
-    /// acceleration, whose local components are the first three of `acceleration`.
-    pub fn uniform_load_under_tension(
-        &self,
-        mass: f64,
-        acceleration: &SVector<f64, 12>,
-        section: &splines::InternalForce,
-    ) -> f64 {
-        let under = section.component.under_tension().filter(|_| self.flexibility.tension != 0.0);
-        let Some((plane, factors)) = under else { return 0.0 };
+    /// What the axial force adds to an internal force by the deflection of the clamped member under the inertia of a unit
+    /// of uniform acceleration, and the degree of freedom of its first end in that direction.
+    pub fn uniform_load_under_tension(&self, mass: f64, section: &splines::InternalForce) -> Option<(usize, f64)> {
+        let (plane, factors) = section.component.under_tension().filter(|_| self.flexibility.tension != 0.0)?;
         let own = &bending_planes(&self.flexibility)[plane];
-        let Some(column) = self.column(own) else { return 0.0 };
-        let [deflected, slope] = column.under_uniform_load(section.place);
-        mass * acceleration[own.deflection] * (factors[0] * deflected + factors[1] * slope)
+        let [deflected, slope] = self.column(own)?.under_uniform_load(section.place);
+        Some((own.deflection, mass * (factors[0] * deflected + factors[1] * slope)))
     }
 
     /// The plane under the axial force; `None` where it has no bending stiffness.

@@ -63,8 +63,7 @@ impl InertiaMotions {
                 * (mass.deflection * integral_of_product(&a[0], &b[0])
                     + mass.rotation * integral_of_product(&a[1], &b[1]))
         };
-        let of_shapes: [[f64; MOTIONS]; MOTIONS] =
-            std::array::from_fn(|i| std::array::from_fn(|j| work(&shapes[i], &shapes[j])));
+        let of_shapes = products(|i, j| work(&shapes[i], &shapes[j]));
         let uniform = &shapes[MOTIONS - 1];
         let energy = uniform_load_stiffness(plane, length);
         let rest: [[Polynomial; 2]; MOTIONS] = std::array::from_fn(|j| {
@@ -81,34 +80,26 @@ impl InertiaMotions {
             }
             rest
         });
-        let products = |a: &[[Polynomial; 2]; MOTIONS]| -> [[f64; MOTIONS]; MOTIONS] {
-            let one_way: [[f64; MOTIONS]; MOTIONS] =
-                std::array::from_fn(|i| std::array::from_fn(|j| work(&a[i], &rest[j])));
-            std::array::from_fn(|i| std::array::from_fn(|j| 0.5 * (one_way[i][j] + one_way[j][i])))
-        };
         InertiaMotions {
             motions: rest.map(|[deflection, rotation]| MemberMotion { plane: index, deflection, rotation }),
-            stiffness: products(&shapes),
-            mass: products(&rest),
+            // Its two halves are equal but for rounding.
+            stiffness: products(|i, j| 0.5 * (work(&shapes[i], &rest[j]) + work(&shapes[j], &rest[i]))),
+            mass: products(|i, j| work(&rest[i], &rest[j])),
             uniform: uniform_load_motion(index, plane, length),
         }
     }
+}
 
-    /// The interior motion and all others, each with its amplitude.
-    pub fn sum(&self, amplitudes: &[f64; 1 + MOTIONS]) -> MemberMotion {
-        let mut out = self.uniform;
-        let scaled = |of: &mut Polynomial| of.iter_mut().for_each(|c| *c *= amplitudes[0]);
-        scaled(&mut out.deflection);
-        scaled(&mut out.rotation);
-        for (motion, amplitude) in self.motions.iter().zip(&amplitudes[1..]) {
-            let add = |to: &mut Polynomial, of: &Polynomial| {
-                to.iter_mut().zip(of).for_each(|(to, of)| *to += amplitude * of);
-            };
-            add(&mut out.deflection, &motion.deflection);
-            add(&mut out.rotation, &motion.rotation);
+/// A symmetric matrix of products.
+fn products(product: impl Fn(usize, usize) -> f64) -> [[f64; MOTIONS]; MOTIONS] {
+    let mut out = [[0.0; MOTIONS]; MOTIONS];
+    for i in 0..MOTIONS {
+        for j in 0..=i {
+            out[i][j] = product(i, j);
+            out[j][i] = out[i][j];
         }
-        out
     }
+    out
 }
 
 /// Deflection and rotation of the motions N_j.

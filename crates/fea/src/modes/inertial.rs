@@ -1,8 +1,10 @@
 //! Reactions and internal forces of forces on the mass: of weight, and of inertia in motion.
 
+use std::sync::OnceLock;
+
 use nalgebra::{DMatrix, SMatrix, SVector, Vector3};
 
-use splines::{MemberMotion, Probe};
+use splines::{InternalForce, Probe};
 
 use crate::assembly::{BendingPlane, Combination, Element, Matrix12, arm, bending_planes, transformation};
 use crate::error::Error;
@@ -10,10 +12,10 @@ use crate::factor::SparseLoad;
 use crate::influence::{Effect, FactoredFrame, Functional};
 use crate::model::{BeamTheory, CrossSection, Member, MemberKind, Model, PointMass};
 use crate::modes::inertia_motions::InertiaMotions;
-use crate::modes::interior::InteriorMotion;
+use crate::modes::interior::{InteriorMotion, end_degrees};
 use crate::modes::mass::{release_shapes, unreleased_mass};
 use crate::modes::mode::{BETWEEN, Mode};
-use crate::modes::shapes::{Vector12, bending_shapes};
+use crate::modes::shapes::{Polynomial, Vector12, bending_shapes};
 
 type Vector6 = SVector<f64, 6>;
 
@@ -33,15 +35,38 @@ pub struct Weight {
     forces: InertiaForces,
 }
 
-/// Forces M a on the references of the bodies, and the acceleration of each member, local: of its flexible ends, and of
-/// its motions between them ([`Mode::between`]).
+/// The forces M a where a is the shape of each of some modes ([`FactoredFrame::inertia_of_modes`]).
+#[derive(Clone, Debug)]
+pub struct ModeInertia {
+    forces: Vec<InertiaForces>,
+    /// [`Mode::between`] of each mode.
+    between: Vec<Vec<[[f64; BETWEEN]; 2]>>,
+    /// Motions of the references of all bodies under the forces of each mode, once an effect has asked for them.
+    motions: OnceLock<Vec<Vec<Vector6>>>,
+}
+
+/// Forces M a on the references of the bodies, and the accelerations a of these references.
 #[derive(Clone, Debug)]
 struct InertiaForces {
     on_bodies: Vec<Vector6>,
-    end_accelerations: Vec<Vector12>,
-    between: Vec<[[f64; BETWEEN]; 2]>,
-    /// Whether the acceleration is the same everywhere.
-    is_uniform: bool,
+    accelerations: Vec<Vector6>,
+}
+
+/// The part of an effect of forces M a that does not follow from the motions of the bodies: less what acts on the effect
+/// directly, plus what the mass of its own member adds between the fixed ends.
+struct HeldEffect<'a> {
+    direct: &'a Combination,
+    own: Option<OwnMember>,
+}
+
+/// What the mass of a member between fixed ends adds to an internal force of it.
+struct OwnMember {
+    member: usize,
+    bodies: [usize; 2],
+    /// By the accelerations of the references of the two bodies.
+    by_bodies: Vector12,
+    /// By the accelerations of its motions between the ends, by plane.
+    by_motions: [[f64; BETWEEN]; 2],
 }
 
 impl FactoredFrame {
@@ -51,10 +76,9 @@ impl FactoredFrame {
         let reference = |body: usize| self.bodies.list[body].reference;
         let [a, b, c] = acceleration;
         let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
-        let mut forces = self.inertia_forces(m, &[motion], true, |motion, body| {
-            arm(&Vector3::from(m.points[reference(body)])) * motion
-        });
-        Weight { forces: forces.swap_remove(0) }
+        let bodies = 0..self.bodies.list.len();
+        let accelerations = bodies.map(|body| arm(&Vector3::from(m.points[reference(body)])) * motion).collect();
+        Weight { forces: self.inertia_forces(m, vec![accelerations], true).swap_remove(0) }
     }
 
     /// Effects of the forces of a uniform acceleration. The frame is solved once for each effect, for its adjoint load, so
@@ -75,21 +99,34 @@ impl FactoredFrame {
     ) -> Result<Vec<f64>, Error> {
         let one = |functional: &Functional| {
             let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
-            weight.forces.work(&adjoint) + self.held_effect(m, functional, &weight.forces, &[])
+            weight.forces.work(&adjoint) + self.held_effect(m, functional, true).under(&weight.forces, &[])
         };
         Ok(self.functionals(m, effects)?.iter().map(one).collect())
     }
 
-    /// Effects of the forces M a where a is the shape of each mode, M being the consistent mass of the members and the rigid
-    /// masses, supports included: effects x modes. A structure whose modes move with accelerations q'' under rail loads F has
-    /// the effects
+    /// The forces M a where a is the shape of each mode, M being the consistent mass of the members and the rigid masses,
+    /// supports included. `m` is the model that the frame was made of; `modes` are modes of the same frame.
+    #[must_use]
+    pub fn inertia_of_modes(&self, m: &Model, modes: &[Mode]) -> ModeInertia {
+        let of_mode = |mode: &Mode| -> Vec<Vector6> {
+            self.bodies.list.iter().map(|body| mode.points[body.reference].into()).collect()
+        };
+        let mut forces = self.inertia_forces(m, modes.iter().map(of_mode).collect(), false);
+        self.add_interior_motions(m, modes, &mut forces);
+        let between = modes.iter().map(|mode| mode.between.clone()).collect();
+        ModeInertia { forces, between, motions: OnceLock::new() }
+    }
+
+    /// Effects of the inertia of modes: effects x modes. A structure whose modes move with accelerations q'' under rail
+    /// loads F has the effects
     ///
     /// E = A F - (these) q''
     ///
     /// where A are the static effects of the loads. Forces of damping are internal: they act like its stiffness. The frame is
-    /// solved once for each effect (its adjoint load) or once for each mode, whichever are fewer.
+    /// solved once for each effect (its adjoint load) or once for each mode, whichever are fewer; the motions of the modes are
+    /// kept for the next effects.
     ///
-    /// `m` is the model that the frame was made of; `modes` are modes of the same frame.
+    /// `m` is the model that the frame was made of; `inertia` is that of modes of the same frame.
     ///
     /// Guarantee: forces M a and reactions are in equilibrium to the rounding of the factor, whatever the
     /// residuals of the modes. The reactions to the shape of a mode along a global axis add up to minus its
@@ -105,28 +142,24 @@ impl FactoredFrame {
         &self,
         m: &Model,
         effects: &[Effect],
-        modes: &[Mode],
+        inertia: &ModeInertia,
     ) -> Result<DMatrix<f64>, Error> {
         let functionals = self.functionals(m, effects)?;
-        let reference = |body: usize| self.bodies.list[body].reference;
-        let mut shapes =
-            self.inertia_forces(m, modes, false, |mode, body| mode.points[reference(body)].into());
-        let between = self.add_interior_motions(m, modes, &mut shapes);
-        let mut out = DMatrix::zeros(effects.len(), modes.len());
-        if functionals.len() <= shapes.len() {
-            for (e, functional) in functionals.iter().enumerate() {
-                let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
-                for (k, forces) in shapes.iter().enumerate() {
-                    out[(e, k)] = forces.work(&adjoint) + self.held_effect(m, functional, forces, &between);
+        let ModeInertia { forces, between, motions } = inertia;
+        let mut out = DMatrix::zeros(effects.len(), forces.len());
+        let motions = (functionals.len() > forces.len())
+            .then(|| motions.get_or_init(|| forces.iter().map(|own| self.motions_under(own)).collect()));
+        for (e, functional) in functionals.iter().enumerate() {
+            let elastic: Vec<f64> = match motions {
+                Some(motions) => motions.iter().map(|own| functional.strain.evaluate(own)).collect(),
+                None => {
+                    let adjoint = self.motions(&self.scaled_where_stiffened(&functional.strain));
+                    forces.iter().map(|own| own.work(&adjoint)).collect()
                 }
-            }
-        } else {
-            for (k, forces) in shapes.iter().enumerate() {
-                let motions = self.motions_under(forces);
-                for (e, functional) in functionals.iter().enumerate() {
-                    let elastic = functional.strain.evaluate(&motions);
-                    out[(e, k)] = elastic + self.held_effect(m, functional, forces, &between);
-                }
+            };
+            let held = self.held_effect(m, functional, false);
+            for (k, (forces, between)) in forces.iter().zip(between).enumerate() {
+                out[(e, k)] = elastic[k] + held.under(forces, between);
             }
         }
         Ok(out)
@@ -164,76 +197,53 @@ impl FactoredFrame {
         forces.on_bodies.iter().enumerate().flat_map(on_body).collect()
     }
 
-    /// The forces M a for each of `all`; `motion` gives the acceleration of the reference of a body.
-    fn inertia_forces<T>(
-        &self,
-        m: &Model,
-        all: &[T],
-        is_uniform: bool,
-        motion: impl Fn(&T, usize) -> Vector6,
-    ) -> Vec<InertiaForces> {
-        let bodies = self.bodies.list.len();
-        let motions: Vec<Vec<Vector6>> =
-            all.iter().map(|one| (0..bodies).map(|body| motion(one, body)).collect()).collect();
-        let zero = || InertiaForces {
-            on_bodies: vec![SVector::zeros(); bodies],
-            end_accelerations: vec![Vector12::zeros(); self.elements.len()],
-            between: vec![[[0.0; BETWEEN]; 2]; self.elements.len()],
-            is_uniform,
-        };
-        let mut out: Vec<InertiaForces> = all.iter().map(|_| zero()).collect();
-        for (index, (element, member)) in self.elements.iter().zip(&m.members).enumerate() {
-            let section = &m.sections[member.section];
-            if section.mass == 0.0 {
+    /// The forces M a for each of some accelerations of the references of all bodies.
+    fn inertia_forces(&self, m: &Model, all: Vec<Vec<Vector6>>, is_uniform: bool) -> Vec<InertiaForces> {
+        let zeros = vec![SVector::zeros(); self.bodies.list.len()];
+        let new = |accelerations| InertiaForces { on_bodies: zeros.clone(), accelerations };
+        let mut out: Vec<InertiaForces> = all.into_iter().map(new).collect();
+        for (element, member) in self.elements.iter().zip(&m.members) {
+            if m.sections[member.section].mass == 0.0 {
                 continue;
             }
             let pair = self.bodies.pair(element.points);
-            let b = transformation(element, &self.bodies);
-            let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
-            let own = member_mass(m, member, element, is_uniform);
-            let mass = ends.transpose() * own;
-            for (forces, motions) in out.iter_mut().zip(&motions) {
-                forces.add_member(index, pair, &ends, &mass, motions);
-            }
+            let ends = self.flexible_ends(element);
+            let mass = ends.transpose() * member_mass(m, member, element, is_uniform) * ends;
+            out.iter_mut().for_each(|forces| forces.add_member(pair, &mass));
         }
         for mass in &m.masses {
-            self.add_rigid_mass(mass, &motions, &mut out);
+            self.add_rigid_mass(mass, &mut out);
         }
         out
     }
 
-    /// Adds the forces of the motions of members between their ends in modes, and returns these motions by member and plane.
-    fn add_interior_motions(
-        &self,
-        m: &Model,
-        modes: &[Mode],
-        out: &mut [InertiaForces],
-    ) -> Vec<[Option<MotionsBetween>; 2]> {
-        let mut all = vec![[None, None]; self.elements.len()];
+    /// Motions of the flexible ends of a member by those of its two bodies, without load.
+    fn flexible_ends(&self, element: &Element) -> Matrix12 {
+        let tips = transformation(element, &self.bodies);
+        release_shapes(element).map_or(tips, |recovery| recovery * tips)
+    }
+
+    /// Adds the forces of the motions of members between their ends in modes.
+    fn add_interior_motions(&self, m: &Model, modes: &[Mode], out: &mut [InertiaForces]) {
         for motion in InteriorMotion::all(m, &self.elements, &self.bodies) {
-            let InteriorMotion { member, plane, .. } = motion;
-            let element = &self.elements[member];
-            let b = transformation(element, &self.bodies);
-            let ends = release_shapes(element).map_or(b, |recovery| recovery * b);
-            let own = MotionsBetween::new(m, element, &motion);
+            let element = &self.elements[motion.member];
+            let by_ends = self.flexible_ends(element).transpose() * MotionsBetween::new(m, element, &motion).end_forces;
+            let bodies = self.bodies.pair(element.points);
             for (forces, mode) in out.iter_mut().zip(modes) {
-                let Some(amplitudes) = mode.between.get(member).map(|planes| planes[plane]) else { continue };
-                forces.between[member][plane] = amplitudes;
-                let force = ends.transpose() * (own.end_forces * SVector::from(amplitudes));
-                for (end, body) in self.bodies.pair(element.points).into_iter().enumerate() {
+                let Some(amplitudes) = mode.between.get(motion.member) else { continue };
+                let force = by_ends * SVector::from(amplitudes[motion.plane]);
+                for (end, &body) in bodies.iter().enumerate() {
                     forces.on_bodies[body] += force.fixed_rows::<6>(6 * end);
                 }
             }
-            all[member][plane] = Some(own);
         }
-        all
     }
 
-    fn add_rigid_mass(&self, mass: &PointMass, motions: &[Vec<Vector6>], out: &mut [InertiaForces]) {
+    fn add_rigid_mass(&self, mass: &PointMass, out: &mut [InertiaForces]) {
         let body = self.bodies.of_point[mass.point];
         let motion = self.bodies.motion(mass.point, &Vector3::from(mass.offset));
-        for (forces, motions) in out.iter_mut().zip(motions) {
-            let mut own = motion * motions[body];
+        for forces in out {
+            let mut own = motion * forces.accelerations[body];
             for k in 0..3 {
                 own[k] *= mass.mass;
                 own[k + 3] *= mass.inertia[k];
@@ -242,66 +252,48 @@ impl FactoredFrame {
         }
     }
 
-    /// The part of an effect of forces M a that does not follow from the motions of the bodies: less what acts on the
-    /// effect directly, plus what the mass of its own member adds between the fixed ends. `between` has the motions of the
-    /// members between their ends, where the forces have any.
-    fn held_effect(
-        &self,
-        m: &Model,
-        functional: &Functional,
-        forces: &InertiaForces,
-        between: &[[Option<MotionsBetween>; 2]],
-    ) -> f64 {
-        let own = functional.section.as_ref();
-        let own = own.map_or(0.0, |section| self.own_member(m, section, forces, between.get(section.member)));
-        own - functional.direct.evaluate(&forces.on_bodies)
+    /// The part of an effect that the motions of the bodies do not cause, for accelerations by the shapes of modes or for a
+    /// uniform one.
+    fn held_effect<'a>(&self, m: &Model, functional: &'a Functional, is_uniform: bool) -> HeldEffect<'a> {
+        let own = functional.section.as_ref().and_then(|section| self.own_member(m, section, is_uniform));
+        HeldEffect { direct: &functional.direct, own }
     }
 
     /// Internal force at a section from the mass of its own member between fixed ends: the end forces, and the
-    /// integral of m N a over the part before the section.
-    fn own_member(
-        &self,
-        m: &Model,
-        section: &splines::InternalForce,
-        forces: &InertiaForces,
-        motions: Option<&[Option<MotionsBetween>; 2]>,
-    ) -> f64 {
-        let (ends, between) = (&forces.end_accelerations[section.member], &forces.between[section.member]);
+    /// integral of m N a over the part before the section, N being the motions of the member.
+    fn own_member(&self, m: &Model, section: &InternalForce, is_uniform: bool) -> Option<OwnMember> {
         let (element, member) = (&self.elements[section.member], &m.members[section.member]);
-        let pair = self.bodies.pair(element.points);
+        let bodies = self.bodies.pair(element.points);
         let cross_section = &m.sections[member.section];
-        if pair[0] == pair[1] || cross_section.mass == 0.0 {
-            return 0.0;
+        if bodies[0] == bodies[1] || cross_section.mass == 0.0 {
+            return None;
+        }
+        let ends = Vector12::from(section.ends);
+        let mut force = LinearForce {
+            by_ends: member_mass(m, member, element, is_uniform).transpose() * ends,
+            by_motions: [[0.0; BETWEEN]; 2],
+        };
+        if is_uniform && let Some((degree, turned)) = element.uniform_load_under_tension(cross_section.mass, section) {
+            force.by_ends[degree] += turned;
+        }
+        let mut motions = [None, None];
+        if !is_uniform {
+            for motion in InteriorMotion::of_member(m, section.member, element) {
+                let own = MotionsBetween::new(m, element, &motion);
+                force.by_motions[motion.plane] = (own.end_forces.transpose() * ends).into();
+                motions[motion.plane] = Some(own.inertia);
+            }
         }
         let distributed =
-            DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind };
-        let own = member_mass(m, member, element, forces.is_uniform);
-        let mut turned = 0.0;
-        if forces.is_uniform {
-            turned = element.uniform_load_under_tension(cross_section.mass, ends, section);
-        }
-        let mut fixed = own * ends;
-        let moved = [0, 1].map(|plane| {
-            let own = motions.and_then(|motions| motions[plane].as_ref())?;
-            (between[plane] != [0.0; BETWEEN]).then_some((own, &between[plane]))
-        });
-        for (own, amplitudes) in moved.into_iter().flatten() {
-            fixed += own.end_forces * SVector::from(*amplitudes);
-        }
-        let added = moved.map(|of| of.map(|(own, amplitudes)| own.inertia.sum(amplitudes)));
-        let end_forces: f64 = section.ends.iter().zip(fixed.iter()).map(|(a, b)| a * b).sum();
+            DistributedMass { element, section: cross_section, theory: m.theory, kind: member.kind, motions };
         let to = section.place * element.length;
-        end_forces
-            + turned
-            + GAUSS
-                .iter()
-                .map(|[place, weight]| {
-                    let z = 0.5 * to * (1.0 + place);
-                    let load = distributed.force(ends, &added, z / element.length);
-                    let balance = section.component.balance(to - z);
-                    0.5 * to * weight * balance.iter().zip(load).map(|(a, b)| a * b).sum::<f64>()
-                })
-                .sum::<f64>()
+        for [place, weight] in GAUSS {
+            let z = 0.5 * to * (1.0 + place);
+            let balance = section.component.balance(to - z).map(|share| 0.5 * to * weight * share);
+            distributed.add_balance(&balance, z / element.length, &mut force);
+        }
+        let by_bodies = self.flexible_ends(element).transpose() * force.by_ends;
+        Some(OwnMember { member: section.member, bodies, by_bodies, by_motions: force.by_motions })
     }
 }
 
@@ -348,24 +340,37 @@ impl InertiaForces {
         motions.iter().zip(&self.on_bodies).map(|(motion, force)| motion.dot(force)).sum()
     }
 
-    /// Adds the forces on the mass of a member whose flexible ends move by `ends` with its two bodies;
-    /// `mass` = ends^T M.
-    fn add_member(
-        &mut self,
-        index: usize,
-        pair: [usize; 2],
-        ends: &Matrix12,
-        mass: &Matrix12,
-        motions: &[Vector6],
-    ) {
-        let both = Vector12::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
-        let local = ends * both;
-        let load = mass * local;
-        for (k, &body) in pair.iter().enumerate() {
-            self.on_bodies[body] += load.fixed_rows::<6>(6 * k);
+    /// Adds the forces on the mass of a member between two bodies.
+    fn add_member(&mut self, bodies: [usize; 2], mass: &Matrix12) {
+        let load = mass * self.of_both(bodies);
+        for (end, body) in bodies.into_iter().enumerate() {
+            self.on_bodies[body] += load.fixed_rows::<6>(6 * end);
         }
-        self.end_accelerations[index] = local;
     }
+
+    /// Accelerations of the references of two bodies.
+    fn of_both(&self, bodies: [usize; 2]) -> Vector12 {
+        Vector12::from_fn(|k, _| self.accelerations[bodies[k / 6]][k % 6])
+    }
+}
+
+impl HeldEffect<'_> {
+    /// The part under forces M a; `between` has the accelerations of the motions of all members between their ends, or is
+    /// empty.
+    fn under(&self, forces: &InertiaForces, between: &[[[f64; BETWEEN]; 2]]) -> f64 {
+        let own = self.own.as_ref().map_or(0.0, |own| {
+            let planes = between.get(own.member).into_iter().flatten().zip(&own.by_motions);
+            let motions = planes.flat_map(|(amplitudes, forces)| amplitudes.iter().zip(forces)).map(|(a, b)| a * b);
+            own.by_bodies.dot(&forces.of_both(own.bodies)) + motions.sum::<f64>()
+        });
+        own - self.direct.evaluate(&forces.on_bodies)
+    }
+}
+
+/// A force that is linear in the accelerations of the flexible ends of a member, and of its motions between them by plane.
+struct LinearForce {
+    by_ends: Vector12,
+    by_motions: [[f64; BETWEEN]; 2],
 }
 
 /// The mass along a member.
@@ -374,50 +379,48 @@ struct DistributedMass<'a> {
     section: &'a CrossSection,
     theory: BeamTheory,
     kind: MemberKind,
+    /// Its motions between the ends, by plane.
+    motions: [Option<InertiaMotions>; 2],
 }
 
 impl DistributedMass<'_> {
-    /// Force and moment per length, local, at the fraction `at` of the length, for accelerations `ends` of the
-    /// flexible ends and the motions `added` between them.
-    fn force(&self, ends: &Vector12, added: &[Option<MemberMotion>; 2], at: f64) -> [f64; 6] {
+    /// Adds the force that balances the mass at the fraction `at` of the length; `balance` is the share of each component of
+    /// force and moment per length there, local.
+    fn add_balance(&self, balance: &[f64; 6], at: f64, force: &mut LinearForce) {
         let section = self.section;
-        let linear = |k: usize| section.mass * ((1.0 - at) * ends[k] + at * ends[k + 6]);
-        let mut out = [0.0; 6];
-        out[0] = linear(0);
+        let linear = |by_ends: &mut Vector12, k: usize, share: f64| {
+            by_ends[k] += share * (1.0 - at);
+            by_ends[k + 6] += share * at;
+        };
+        let LinearForce { by_ends, by_motions } = force;
+        linear(by_ends, 0, section.mass * balance[0]);
         if self.kind == MemberKind::Beam {
-            out[3] = linear(3) * section.gyration_squared(section.iy + section.iz);
+            linear(by_ends, 3, section.mass * section.gyration_squared(section.iy + section.iz) * balance[3]);
         }
+        let value = |powers: &[f64]| powers.iter().rev().fold(0.0, |sum, c| sum * at + c);
         let planes = bending_planes(&self.element.flexibility);
-        for ((plane, second), added) in planes.iter().zip([section.iz, section.iy]).zip(added) {
+        for (index, (plane, second)) in planes.iter().zip([section.iz, section.iy]).enumerate() {
+            let deflected = section.mass * balance[plane.deflection];
             if plane.bending.is_infinite() {
-                out[plane.deflection] = linear(plane.deflection);
+                linear(by_ends, plane.deflection, deflected);
                 continue;
             }
-            let [deflection, rotation] = self.bending(plane, ends, added.as_ref(), at);
-            out[plane.deflection] = section.mass * deflection;
+            let mut turned = 0.0;
             if self.theory == BeamTheory::Timoshenko {
-                out[plane.rotation] = plane.sign * section.mass * section.gyration_squared(second) * rotation;
+                let rotary = section.mass * section.gyration_squared(second);
+                turned = plane.sign * rotary * balance[plane.rotation];
+            }
+            let share = |shape: &[Polynomial; 2]| deflected * value(&shape[0]) + turned * value(&shape[1]);
+            let shapes = bending_shapes(plane, self.element.length);
+            for ((degree, sign), shape) in end_degrees(plane).into_iter().zip(&shapes) {
+                by_ends[degree] += sign * share(shape);
+            }
+            if let Some(motions) = &self.motions[index] {
+                let all = std::iter::once(&motions.uniform).chain(&motions.motions);
+                for (own, motion) in by_motions[index].iter_mut().zip(all) {
+                    *own += share(&[motion.deflection, motion.rotation]);
+                }
             }
         }
-        out
-    }
-
-    /// Accelerations of deflection and rotation of the section at the fraction `at` of the length.
-    fn bending(
-        &self,
-        plane: &BendingPlane,
-        ends: &Vector12,
-        added: Option<&MemberMotion>,
-        at: f64,
-    ) -> [f64; 2] {
-        let length = self.element.length;
-        let shapes = bending_shapes(plane, length);
-        let (v, turn, sign) = (plane.deflection, plane.rotation, plane.sign);
-        let moved = [ends[v], sign * ends[turn], ends[v + 6], sign * ends[turn + 6]];
-        let value = |powers: &[f64]| powers.iter().rev().fold(0.0, |sum, c| sum * at + c);
-        let sum =
-            |k: usize| -> f64 { shapes.iter().zip(moved).map(|(pair, moved)| value(&pair[k]) * moved).sum() };
-        let own = added.map_or([0.0; 2], |motion| [value(&motion.deflection), value(&motion.rotation)]);
-        [sum(0) + own[0], sum(1) + own[1]]
     }
 }

@@ -119,7 +119,8 @@ impl InteriorMotion {
     }
 }
 
-fn end_degrees(plane: &BendingPlane) -> [(usize, f64); 4] {
+/// Index and sign, among the degrees of freedom of the flexible ends, of the deflections and rotations of both ends.
+pub(super) fn end_degrees(plane: &BendingPlane) -> [(usize, f64); 4] {
     [
         (plane.deflection, 1.0),
         (plane.rotation, plane.sign),

@@ -11,7 +11,7 @@ use crate::dof::Dof;
 use crate::error::Error;
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
 use crate::modes::interior::InteriorMotion;
-use crate::modes::shapes::{bending_shapes, integral_of_product};
+use crate::modes::shapes::{bending_shapes, integral_of_product, polynomial};
 
 /// Mass of a degree of freedom that nothing stiffens, relative to what was added up, that is only rounding.
 const ROUNDING: f64 = 1e-24;
@@ -297,7 +297,7 @@ fn member_mass(
 impl MemberMass {
     /// Adds `density` moving along straight lines between the ends, in degree of freedom `at`.
     fn add_linear(&mut self, at: usize, density: f64, length: f64, resists: bool) {
-        let shapes = [[1.0, -1.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0]];
+        let shapes = [polynomial(&[1.0, -1.0]), polynomial(&[0.0, 1.0])];
         let target = if resists { &mut self.resisted } else { &mut self.unresisted };
         for (i, a) in shapes.iter().enumerate() {
             for (j, b) in shapes.iter().enumerate() {

@@ -26,7 +26,7 @@ mod shapes;
 
 pub use all::MOST_DENSE_UNKNOWNS;
 pub use decoupled::ExcitingForces;
-pub use inertial::Weight;
+pub use inertial::{ModeInertia, Weight};
 pub use lowest::modes;
 pub use mass::rigid_mass;
 pub use mode::{Mode, Modes};

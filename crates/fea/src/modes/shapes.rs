@@ -17,13 +17,28 @@ const SERIES: usize = 20;
 /// A polynomial in the fraction of the length: the coefficient of each power.
 pub(super) type Polynomial = [f64; LONGEST];
 
-/// Integral over 0 to 1 of a product of two polynomials, given by their coefficients.
-pub(super) fn integral_of_product(a: &[f64], b: &[f64]) -> f64 {
-    let mut product = [0.0; 2 * LONGEST - 1];
-    for (p, x) in a.iter().enumerate().filter(|(_, x)| **x != 0.0) {
-        product[p..].iter_mut().zip(b).for_each(|(sum, y)| *sum += x * y);
+/// Integrals over 0 to 1 of products of two powers.
+const POWERS: [Polynomial; LONGEST] = {
+    let mut table = [[0.0; LONGEST]; LONGEST];
+    let mut p = 0;
+    while p < LONGEST {
+        let mut q = 0;
+        while q < LONGEST {
+            table[p][q] = 1.0 / (p + q + 1) as f64;
+            q += 1;
+        }
+        p += 1;
     }
-    product.iter().enumerate().map(|(power, c)| c / (power + 1) as f64).sum()
+    table
+};
+
+/// Integral over 0 to 1 of a product of two polynomials.
+pub(super) fn integral_of_product(a: &Polynomial, b: &Polynomial) -> f64 {
+    let mut weighted = [0.0; LONGEST];
+    for (coefficient, row) in a.iter().zip(&POWERS) {
+        weighted.iter_mut().zip(row).for_each(|(sum, integral)| *sum += coefficient * integral);
+    }
+    weighted.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// |(lambda l)^2| up to which an axial force bends the shapes; parts of members with more have those without.
@@ -80,7 +95,7 @@ pub(super) fn uniform_load_stiffness(plane: &BendingPlane, length: f64) -> f64 {
     if is_bent(plane, length) {
         // The work of the load.
         let [deflection, _] = uniform_load_shape(plane, length);
-        return length * integral_of_product(&deflection, &[1.0]);
+        return length * integral_of_product(&deflection, &polynomial(&[1.0]));
     }
     let mut stiffness = c * length.powi(5) / 720.0 + g * length.powi(3) / 12.0;
     if plane.tension != 0.0 {

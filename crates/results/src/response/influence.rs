@@ -405,9 +405,9 @@ pub(crate) fn inertia(
 ) -> Result<DMatrix<f64>, fea::Error> {
     match basis {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
-        Some(MotionBasis::Modes { refined }) => {
+        Some(MotionBasis::Modes { refined, inertia }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            refined.frame.effects_of_modes(&refined.model, &own, &refined.modes.modes)
+            refined.frame.effects_of_modes(&refined.model, &own, inertia)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),
