@@ -170,3 +170,30 @@ fn the_first_force_of_a_falling_wheel_contains_its_speed() {
     let wanted = 0.5 * WEIGHT + 1e5 * 0.5;
     assert!((force / wanted - 1.0).abs() < 1e-12, "{force} for {wanted}");
 }
+
+/// Analytic: each wheel of two bodies carries half of its body, whatever its law, and F = k p^e. With penetrations a
+/// hundred-thousandth of the deflection, which keep the rounding of it, they find their places at rest as well.
+#[test]
+fn wheels_much_stiffer_than_their_rail_are_at_rest() {
+    for x0 in [3.0, 11.7, 22.2, 29.9] {
+        for exponent in [1.1, 1.5, 2.2] {
+            let mut scene = moving(x0, 0.0, 1e-6);
+            let law = &mut scene.wheels[0].normal;
+            (law.stiffness, law.exponent, law.damping) = (0.5 * WEIGHT / 5e-6_f64.powf(exponent), exponent, 0.0);
+            let mut second = scene.bodies[0].clone();
+            second.motion =
+                Some(Profile::new(MotionKind::Speed, &[[0.0, 0.0]], x0 + 17.3, 0.0).expect("a valid table"));
+            scene.bodies.push(second);
+            let others: Vec<_> =
+                scene.contacts.iter().map(|own| sim::Contact { body: 1, ..own.clone() }).collect();
+            scene.contacts.extend(others);
+            let run = go(Method::Sdirk4, &scene, Foundation::massless(Box::new(surface()), 1));
+            for w in 0..4 {
+                let force = run.history.column(Channel::Vertical(w))[0];
+                let depth = run.history.column(Channel::Penetration(w))[0];
+                assert!((force / (0.5 * WEIGHT) - 1.0).abs() < 1e-9, "{x0}, {exponent}: {force}");
+                assert!((depth / 5e-6 - 1.0).abs() < 1e-9, "{x0}, {exponent}: {depth}");
+            }
+        }
+    }
+}

@@ -17,6 +17,11 @@ const FLANGES: usize = 60;
 const SETTLED: f64 = 1e-9;
 /// Largest number of Newton iterations on the contact laws of one active set.
 const ITERATIONS: usize = 50;
+/// Change of the penetrations, relative to the largest, at which Newton's method ends.
+const CONVERGED: f64 = 1e-14;
+/// The same where the change has stopped falling: penetrations that are small beside the deflection of the rails keep the
+/// rounding of it.
+const STAGNANT: f64 = 1e-9;
 /// Relative residual of the equilibrium equations above which the wheels cannot carry the weight.
 const BALANCE: f64 = 1e-6;
 
@@ -307,13 +312,15 @@ impl<'a> Balance<'a> {
     /// Newton's method with the active contacts. Returns `None` if they cannot carry the weight, otherwise whether
     /// the iteration converged.
     fn iterate(&mut self) -> Option<bool> {
+        let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
             let solved = self.linearised()?;
             let change = self.advance(&solved);
             let depth = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
-            if change <= 1e-14 * depth {
+            if change <= CONVERGED * depth || (change <= STAGNANT * depth && change >= 0.5 * before) {
                 return Some(true);
             }
+            before = change;
         }
         Some(false)
     }
