@@ -70,8 +70,8 @@ pub use model::{
     RailSegment, RigidLink, Support, Taper,
 };
 pub use modes::{
-    ExcitingForces, MOST_DENSE_UNKNOWNS, Mode, ModeInertia, Modes, RefinedModes, Weight, check_full_modes, excited_modes,
-    full_modes, modes, refined_modes, rigid_mass,
+    ExcitingForces, MOST_DENSE_UNKNOWNS, Mode, ModeInertia, Modes, RefinedModes, Weight, check_full_modes,
+    excited_modes, full_modes, modes, refined_modes, rigid_mass,
 };
 pub use preload::{
     BucklingMode, Caution, CautionKind, CriticalFactor, LoadedFrame, MOST_CRITICAL, Preload, PreloadedState,

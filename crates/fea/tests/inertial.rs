@@ -158,7 +158,7 @@ fn reactions_to_inertia_balance_the_momentum_of_every_mode() {
     let holds = frame.restraints(&refined.model);
     let effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
     let inertia = frame.inertia_of_modes(&refined.model, &refined.modes.modes);
-        let found = frame.effects_of_modes(&refined.model, &effects, &inertia).expect("effects");
+    let found = frame.effects_of_modes(&refined.model, &effects, &inertia).expect("effects");
     for (k, freedom) in [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().enumerate() {
         let own = |value: &dyn Fn(usize) -> f64| -> f64 {
             let rows = holds.iter().enumerate().filter(|(_, hold)| hold.dof == freedom);

@@ -179,7 +179,8 @@ fn wheels_much_stiffer_than_their_rail_are_at_rest() {
         for exponent in [1.1, 1.5, 2.2] {
             let mut scene = moving(x0, 0.0, 1e-6);
             let law = &mut scene.wheels[0].normal;
-            (law.stiffness, law.exponent, law.damping) = (0.5 * WEIGHT / 5e-6_f64.powf(exponent), exponent, 0.0);
+            (law.stiffness, law.exponent, law.damping) =
+                (0.5 * WEIGHT / 5e-6_f64.powf(exponent), exponent, 0.0);
             let mut second = scene.bodies[0].clone();
             second.motion =
                 Some(Profile::new(MotionKind::Speed, &[[0.0, 0.0]], x0 + 17.3, 0.0).expect("a valid table"));

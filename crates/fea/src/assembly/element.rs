@@ -280,8 +280,13 @@ impl Element {
 
     /// What the axial force adds to an internal force by the deflection of the clamped member under the inertia of a unit
     /// of uniform acceleration, and the degree of freedom of its first end in that direction.
-    pub fn uniform_load_under_tension(&self, mass: f64, section: &splines::InternalForce) -> Option<(usize, f64)> {
-        let (plane, factors) = section.component.under_tension().filter(|_| self.flexibility.tension != 0.0)?;
+    pub fn uniform_load_under_tension(
+        &self,
+        mass: f64,
+        section: &splines::InternalForce,
+    ) -> Option<(usize, f64)> {
+        let (plane, factors) =
+            section.component.under_tension().filter(|_| self.flexibility.tension != 0.0)?;
         let own = &bending_planes(&self.flexibility)[plane];
         let [deflected, slope] = self.column(own)?.under_uniform_load(section.place);
         Some((own.deflection, mass * (factors[0] * deflected + factors[1] * slope)))

@@ -77,7 +77,8 @@ impl FactoredFrame {
         let [a, b, c] = acceleration;
         let motion = SVector::from([a, b, c, 0.0, 0.0, 0.0]);
         let bodies = 0..self.bodies.list.len();
-        let accelerations = bodies.map(|body| arm(&Vector3::from(m.points[reference(body)])) * motion).collect();
+        let accelerations =
+            bodies.map(|body| arm(&Vector3::from(m.points[reference(body)])) * motion).collect();
         Weight { forces: self.inertia_forces(m, vec![accelerations], true).swap_remove(0) }
     }
 
@@ -227,7 +228,8 @@ impl FactoredFrame {
     fn add_interior_motions(&self, m: &Model, modes: &[Mode], out: &mut [InertiaForces]) {
         for motion in InteriorMotion::all(m, &self.elements, &self.bodies) {
             let element = &self.elements[motion.member];
-            let by_ends = self.flexible_ends(element).transpose() * MotionsBetween::new(m, element, &motion).end_forces;
+            let by_ends =
+                self.flexible_ends(element).transpose() * MotionsBetween::new(m, element, &motion).end_forces;
             let bodies = self.bodies.pair(element.points);
             for (forces, mode) in out.iter_mut().zip(modes) {
                 let Some(amplitudes) = mode.between.get(motion.member) else { continue };
@@ -273,7 +275,9 @@ impl FactoredFrame {
             by_ends: member_mass(m, member, element, is_uniform).transpose() * ends,
             by_motions: [[0.0; BETWEEN]; 2],
         };
-        if is_uniform && let Some((degree, turned)) = element.uniform_load_under_tension(cross_section.mass, section) {
+        if is_uniform
+            && let Some((degree, turned)) = element.uniform_load_under_tension(cross_section.mass, section)
+        {
             force.by_ends[degree] += turned;
         }
         let mut motions = [None, None];
@@ -360,7 +364,8 @@ impl HeldEffect<'_> {
     fn under(&self, forces: &InertiaForces, between: &[[[f64; BETWEEN]; 2]]) -> f64 {
         let own = self.own.as_ref().map_or(0.0, |own| {
             let planes = between.get(own.member).into_iter().flatten().zip(&own.by_motions);
-            let motions = planes.flat_map(|(amplitudes, forces)| amplitudes.iter().zip(forces)).map(|(a, b)| a * b);
+            let motions =
+                planes.flat_map(|(amplitudes, forces)| amplitudes.iter().zip(forces)).map(|(a, b)| a * b);
             own.by_bodies.dot(&forces.of_both(own.bodies)) + motions.sum::<f64>()
         });
         own - self.direct.evaluate(&forces.on_bodies)

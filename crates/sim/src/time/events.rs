@@ -205,7 +205,8 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
 ///
 /// The forces of contacts whose penetration is a state relax faster than the interpolant can follow. For these the
 /// fraction is found from the secant of the forces at both ends of the step; for all others it is the root on the
-/// interpolant. When repeated, both end within [`OVERSHOOT`] beyond the event.
+/// interpolant. When repeated, both end within [`OVERSHOOT`] beyond the event. Where a contact opens and closes within a
+/// step, or closes and opens, the fraction is the first stage at which it should have been switched.
 ///
 /// # Errors
 /// Any error from evaluating the rails.
@@ -230,7 +231,8 @@ pub(crate) fn first_switch(step: &mut Step, largest: f64) -> Result<Option<(f64,
     if has_looked {
         step.return_to_end()?;
     }
-    Ok(first)
+    let passed = step.passed_switch(OVERSHOOT * largest);
+    Ok(passed.filter(|(share, _)| first.is_none_or(|(known, _)| *share < known)).or(first))
 }
 
 /// Fraction of the step at which the switch guard of element `i` reaches the value `aim` on the interpolant.

@@ -18,6 +18,8 @@ pub(crate) struct Nodes {
     pub rate: Vec<f64>,
     /// Weights of the extrapolation to the last node from 0 and all other nodes.
     pub ahead: Vec<f64>,
+    /// Places in the middle between two nodes, and the weights of the interpolation there from the nodes.
+    pub middles: Vec<(f64, Vec<f64>)>,
 }
 
 impl Nodes {
@@ -78,7 +80,11 @@ impl Nodes {
                 (0..s).map(|k| poly[k] * c[s - 1].powi(k as i32)).sum()
             })
             .collect();
-        Some(Nodes { c: ends, lagrange, a, a2, rate, ahead })
+        let mut nodes = Nodes { c: ends, lagrange, a, a2, rate, ahead, middles: Vec::new() };
+        let middle = |pair: &[f64]| 0.5 * (pair[0] + pair[1]);
+        let weights = |share: f64| (0..s).map(|b| nodes.value(b, share)).collect();
+        nodes.middles = c.windows(2).map(middle).map(|share| (share, weights(share))).collect();
+        Some(nodes)
     }
 
     /// Response to the Lagrange polynomial of node `b`, from the responses `powers` to the powers of time; `part` is

@@ -24,6 +24,8 @@ struct Done {
     p_rates: Vec<f64>,
     forces: Vec<f64>,
     power: Exchanged,
+    /// Largest force by which a vertical contact had exceeded its limit of opening or closing.
+    excess: f64,
 }
 
 impl Sdirk {
@@ -36,6 +38,7 @@ impl Sdirk {
             p_rates: vec![0.0; count],
             forces: vec![0.0; system.elements.len()],
             power: Exchanged::default(),
+            excess: 0.0,
         };
         Sdirk {
             tableau,
@@ -79,6 +82,9 @@ impl Sdirk {
             done.p_rates.copy_from_slice(&self.stage.p_rate);
             solver.update_rail_slope(&self.stage);
             done.power = power(solver.system(), solver.geometry(), &self.stage);
+            let frame = solver.frame(&self.stage);
+            let excess = (0..solver.system().verticals()).map(|i| solver.excess(i, &frame));
+            done.excess = excess.fold(f64::NEG_INFINITY, f64::max);
         }
         solver.end_step(&self.stage)?;
         to.copy_from(&self.stage);
@@ -127,6 +133,13 @@ impl Sdirk {
             }
             stage.force.iter_mut().zip(&done.forces).for_each(|(to, from)| *to += share * from);
         }
+    }
+
+    /// The first stage before the end of the step just taken at which a vertical contact must open or close by more than
+    /// `slack`, as a fraction of the step, and by which force.
+    pub fn passed_switch(&self, slack: f64) -> Option<(f64, f64)> {
+        let stages = self.tableau.c.iter().zip(&self.done).map(|(share, done)| (*share, done.excess));
+        stages.filter(|(share, excess)| *share < 1.0 && *excess > slack).min_by(|a, b| a.0.total_cmp(&b.0))
     }
 
     /// Embedded error of q and v of degree of freedom `k`, per unit of step length.

@@ -211,6 +211,14 @@ impl<'a, 'b> Step<'a, 'b> {
         force
     }
 
+    /// [`Collocation::passed_switch`], [`Sdirk::passed_switch`].
+    pub fn passed_switch(&self, slack: f64) -> Option<(f64, f64)> {
+        match &self.integrator {
+            Integrator::Collocation(collocation) => collocation.passed_switch(self.solver, slack),
+            Integrator::Sdirk(sdirk) => sdirk.passed_switch(slack),
+        }
+    }
+
     /// Energy exchanged in the step just taken, of length `h`.
     pub fn exchanged(&self, h: f64) -> Exchanged {
         match &self.integrator {

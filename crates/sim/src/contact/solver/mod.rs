@@ -220,6 +220,12 @@ impl<'a> Solver<'a> {
         })
     }
 
+    /// The force by which vertical contact `i` has exceeded its limit of opening or closing at `frame`, beyond rounding.
+    pub fn excess(&self, i: usize, frame: &Frame) -> f64 {
+        let noise = frame.at(i).local().spring.noise;
+        self.switch_guard(i, frame).map_or(f64::NEG_INFINITY, |excess| excess - noise)
+    }
+
     /// Whether the rail below vertical contact `i` is rigid relative to the wheel.
     pub fn is_on_rigid_rail(&self, i: usize) -> bool {
         self.geometry.own_compliance(i) * self.system.law(i).stiffness <= RIGID
