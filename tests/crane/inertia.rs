@@ -42,7 +42,7 @@ fn columns_of_a_building_with_mass_carry_wheel_forces_less_its_inertia() {
         true,
     )
     .expect("a foundation");
-    let Some(MotionBasis::Modes { refined }) = &laid.basis else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else { panic!("natural modes") };
     let (record, history) = (&outcomes[0].columns, &outcomes[0].run.history);
     let all = |begin: &str, end: &str| -> Vec<&Vec<f64>> {
         let own = record.columns.iter().filter(|c| c.name.starts_with(begin) && c.name.ends_with(end));

@@ -25,7 +25,7 @@ pub(super) fn momenta(laid: &BuiltFoundation, mass: f64) -> Vec<f64> {
     let mut cuts: Vec<f64> =
         extent.range.into_iter().flatten().chain(extent.breaks.iter().copied()).collect();
     // shapes are cubics between the joints of the members as they are cut
-    if let Some(MotionBasis::Modes { refined }) = &laid.basis {
+    if let Some(MotionBasis::Modes { refined, .. }) = &laid.basis {
         cuts.extend(refined.frame.line().expect("a rail").breaks(0));
     }
     cuts.sort_by(f64::total_cmp);
@@ -163,7 +163,7 @@ fn the_mill_girderway_with_mass_balances_in_three_directions() {
         true,
     )
     .expect("a foundation");
-    let Some(MotionBasis::Modes { refined }) = &laid.basis else { panic!("natural modes") };
+    let Some(MotionBasis::Modes { refined, .. }) = &laid.basis else { panic!("natural modes") };
     let record = &ran.outcomes[0].columns;
     let history = &ran.outcomes[0].run.history;
     let wheels = |part: &str, sign: f64| -> Vec<f64> {

@@ -4,6 +4,7 @@ use sim::History;
 
 use formats::scene::Scene;
 use formats::scene::quantity::{Quantity, quantities};
+use formats::text::number::push_number;
 use formats::units::Dimension;
 
 /// One column of a history file.
@@ -91,12 +92,18 @@ impl NamedColumns {
     pub fn csv(&self) -> Result<Vec<u8>, csv::Error> {
         let mut writer = csv::Writer::from_writer(Vec::new());
         writer.write_record(self.columns.iter().map(|column| &column.name))?;
+        let mut out = bytes(writer)?;
         let rows = self.columns.first().map_or(0, |column| column.values.len());
         for i in 0..rows {
-            // adding zero turns -0 into 0
-            writer.write_record(self.columns.iter().map(|column| format!("{:?}", column.values[i] + 0.0)))?;
+            for (k, column) in self.columns.iter().enumerate() {
+                if k > 0 {
+                    out.push(b',');
+                }
+                push_number(&mut out, column.values[i]);
+            }
+            out.push(b'\n');
         }
-        bytes(writer)
+        Ok(out)
     }
 }
 

@@ -90,16 +90,11 @@ impl InertiaMotions {
     }
 }
 
-/// A symmetric matrix of products.
+/// A symmetric matrix of products, each computed once.
 fn products(product: impl Fn(usize, usize) -> f64) -> [[f64; MOTIONS]; MOTIONS] {
-    let mut out = [[0.0; MOTIONS]; MOTIONS];
-    for i in 0..MOTIONS {
-        for j in 0..=i {
-            out[i][j] = product(i, j);
-            out[j][i] = out[i][j];
-        }
-    }
-    out
+    let upper: [[f64; MOTIONS]; MOTIONS] =
+        std::array::from_fn(|i| std::array::from_fn(|j| if i <= j { product(i, j) } else { 0.0 }));
+    std::array::from_fn(|i| std::array::from_fn(|j| upper[i.min(j)][i.max(j)]))
 }
 
 /// Deflection and rotation of the motions N_j.

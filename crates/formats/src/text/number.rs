@@ -14,6 +14,18 @@ pub fn number(value: f64) -> String {
     if plain { value.to_string() } else { format!("{value:e}") }
 }
 
+/// Appends a number of a table with all its digits, the fewest from which it is read back: the bytes that `{:?}` writes, in
+/// half of the time. Zero has no sign.
+pub fn push_number(out: &mut Vec<u8>, value: f64) {
+    let value = value + 0.0;
+    // Numbers of this decade are written in two ways.
+    if value.is_finite() && !(1e-5..1e-4).contains(&value.abs()) {
+        out.extend_from_slice(zmij::Buffer::new().format_finite(value).as_bytes());
+    } else {
+        out.extend_from_slice(format!("{value:?}").as_bytes());
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -24,6 +36,25 @@ mod tests {
             [(-60.0, "-60"), (0.0, "0"), (4.32e307, "4.32e307"), (2e-9, "2e-9"), (0.1, "0.1"), (-0.0, "0")]
         {
             assert_eq!(number(value), text);
+        }
+    }
+
+    /// The formatter of the standard library, at every power of ten and at numbers of all sizes.
+    #[test]
+    fn numbers_of_tables_are_those_of_the_standard_library() {
+        let mut bits = 1_u64;
+        let drawn = (0..200_000).map(|_| {
+            bits = bits.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            f64::from_bits(bits)
+        });
+        let powers = (-320..309)
+            .flat_map(|power| [1.0, 1.5, -9.999, 2.0_f64.sqrt()].map(|c| c * 10.0_f64.powi(power)));
+        let others =
+            [0.0, -0.0, 0.1, 100.0, 123_456.0, 1e15, 1e16, 9.99e15, f64::MAX, f64::MIN_POSITIVE, 5e-324];
+        for value in drawn.chain(powers).chain(others) {
+            let mut out = Vec::new();
+            push_number(&mut out, value);
+            assert_eq!(String::from_utf8_lossy(&out), format!("{:?}", value + 0.0));
         }
     }
 }

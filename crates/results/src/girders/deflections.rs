@@ -12,9 +12,8 @@
 use trains::SectionSide;
 
 use super::distributed::FORCES;
-use super::peaks::{Peak, largest};
+use super::peaks::{Peak, SIGNS, largest};
 use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, offer};
-use super::scan::SIGNS;
 
 /// An extreme of a deflection of a span: its plane (0: vertical, 1: lateral) and kind (0: largest, 1: smallest).
 #[derive(Clone, Copy)]

@@ -1,16 +1,27 @@
 //! Peaks of values that are known row by row, and their refinement between the rows.
 
-/// The highest peak of a sequence of values at consecutive rows.
+use std::ops::Index;
+
+/// Signs with which the largest and the smallest values are the largest.
+pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
+
+/// The highest and the lowest peak of a sequence of values at consecutive rows: by index 0 and 1.
 ///
-/// A peak is a row whose neighbours are not higher. Peaks are compared by the vertex of the parabola through the three
-/// values, so that of two peaks between the rows the higher one is found.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Peak {
-    /// Row of the last value, and the last two values.
+/// A peak is a row whose neighbours are not higher; for the lowest the values count with the opposite sign. Peaks are
+/// compared by the vertex of the parabola through the three values, so that of two peaks between the rows the higher one is
+/// found.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Peaks {
+    /// Row of the last value, the last two values, and how many of them there are.
     last: usize,
     values: [f64; 2],
-    is_started: bool,
-    /// Height of the highest vertex, its row, and the value there.
+    count: usize,
+    found: [Peak; 2],
+}
+
+/// A peak: height of its vertex, its row, and the value there, times the sign for which it is a peak.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Peak {
     pub height: f64,
     pub row: usize,
     pub value: f64,
@@ -18,53 +29,62 @@ pub(super) struct Peak {
 
 impl Default for Peak {
     fn default() -> Peak {
-        Peak {
-            last: 0,
-            values: [f64::NEG_INFINITY; 2],
-            is_started: false,
-            height: f64::NEG_INFINITY,
-            row: 0,
-            value: f64::NEG_INFINITY,
-        }
+        Peak { height: f64::NEG_INFINITY, row: 0, value: f64::NEG_INFINITY }
     }
 }
 
-impl Peak {
+impl Index<usize> for Peaks {
+    type Output = Peak;
+
+    fn index(&self, kind: usize) -> &Peak {
+        &self.found[kind]
+    }
+}
+
+impl Peaks {
     /// Adds the value of a row; rows that are left out separate sequences.
     pub fn add(&mut self, row: usize, value: f64) {
-        if self.is_started && row != self.last + 1 {
+        if self.count > 0 && row == self.last + 1 {
+            self.offer(Some(value));
+        } else {
             self.finish();
         }
-        if self.is_started {
-            self.offer(value);
-        }
         self.values = [self.values[1], value];
-        (self.last, self.is_started) = (row, true);
+        (self.last, self.count) = (row, 2.min(self.count + 1));
     }
 
     /// Ends the sequence.
     pub fn finish(&mut self) {
-        if self.is_started {
-            self.offer(f64::NEG_INFINITY);
+        if self.count > 0 {
+            self.offer(None);
         }
-        self.values = [f64::NEG_INFINITY; 2];
-        self.is_started = false;
+        self.count = 0;
+    }
+
+    /// The highest and the lowest peak.
+    pub fn both(&self) -> &[Peak; 2] {
+        &self.found
     }
 
     /// Considers the last value, now that the next one is known.
-    fn offer(&mut self, next: f64) {
+    fn offer(&mut self, next: Option<f64>) {
         let [before, own] = self.values;
-        if before > own || next > own {
-            return;
-        }
-        let curvature = 2.0 * own - before - next;
-        let bulge = if curvature.is_finite() && curvature > 0.0 {
-            (next - before).powi(2) / (8.0 * curvature)
-        } else {
-            0.0
-        };
-        if own + bulge > self.height {
-            (self.height, self.row, self.value) = (own + bulge, self.last, own);
+        let rise = (self.count > 1).then_some(own - before);
+        let fall = next.map(|next| own - next);
+        for (peak, sign) in self.found.iter_mut().zip(SIGNS) {
+            let is_beyond = |change: Option<f64>| change.is_none_or(|change| sign * change >= 0.0);
+            if !(is_beyond(rise) && is_beyond(fall)) {
+                continue;
+            }
+            let bulge = match (rise, fall) {
+                (Some(rise), Some(fall)) if rise + fall != 0.0 => {
+                    (rise - fall).powi(2) / (8.0 * (rise + fall).abs())
+                }
+                _ => 0.0,
+            };
+            if sign * own + bulge > peak.height {
+                *peak = Peak { height: sign * own + bulge, row: self.last, value: sign * own };
+            }
         }
     }
 }
@@ -162,16 +182,21 @@ mod tests {
     /// Analytic: of two equal waves the one whose crest lies between rows has the lower rows.
     #[test]
     fn the_higher_of_two_crests_is_found_between_rows() {
-        let mut peak = Peak::default();
+        let mut peaks = Peaks::default();
         let wave = |x: f64, height: f64| height - x * x;
         for (row, x) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
-            peak.add(row, wave(x, 1.0));
+            peaks.add(row, wave(x, 1.0));
         }
         for (row, x) in [-1.5, -0.5, 0.5, 1.5].into_iter().enumerate() {
-            peak.add(3 + row, wave(x, 1.1));
+            peaks.add(3 + row, wave(x, 1.1));
         }
-        peak.finish();
-        assert!((peak.height - 1.1).abs() < 1e-12 && (peak.row == 4 || peak.row == 5), "{peak:?}");
+        peaks.finish();
+        let [highest, lowest] = peaks.both();
+        assert!(
+            (highest.height - 1.1).abs() < 1e-12 && (highest.row == 4 || highest.row == 5),
+            "{highest:?}"
+        );
+        assert!((lowest.value + wave(1.5, 1.1)).abs() < 1e-12 && lowest.row == 3, "{lowest:?}");
     }
 
     /// Analytic: the vertex of a parabola.

@@ -14,9 +14,8 @@ use splines::{Axis, InfluenceLines, Probe, RailElement};
 use trains::{MemberForces, RailLoad};
 
 use super::instants::LoadState;
-use super::peaks::Peak;
+use super::peaks::{Peaks, SIGNS};
 use super::refine::Refinement;
-use super::scan::SIGNS;
 use crate::response::{ColumnEnvelope, dead_load, inertia, relative_direction};
 use foundations::{BuiltFoundation, SolvedModel};
 
@@ -293,7 +292,7 @@ impl Refinement<'_> {
     pub fn reactions(&self, reactions: &Reactions) -> Vec<GirderReaction> {
         let states = &self.girders.states;
         let count = reactions.all.len();
-        let mut peaks = vec![[Peak::default(); 2]; count];
+        let mut peaks = vec![Peaks::default(); count];
         let mut rows = vec![[NONE; 2]; count];
         let mut passages = vec![[NONE; 2]; count];
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
@@ -303,7 +302,7 @@ impl Refinement<'_> {
             let state = states.at_row(row);
             reactions.fill(&state, &mut ordinates, &mut values);
             for ((peaks, value), reaction) in peaks.iter_mut().zip(&values).zip(&reactions.all) {
-                peaks.iter_mut().zip(SIGNS).for_each(|(peak, sign)| peak.add(row, sign * value));
+                peaks.add(row, *value);
                 let size = &mut sizes[usize::from(reaction.direction >= Dof::Rx)];
                 *size = size.max(value.abs());
             }
@@ -321,11 +320,11 @@ impl Refinement<'_> {
             return out;
         }
         for (index, mut peaks) in peaks.into_iter().enumerate() {
-            peaks.iter_mut().for_each(Peak::finish);
+            peaks.finish();
             let reaction = &reactions.all[index];
             let size = sizes[usize::from(reaction.direction >= Dof::Rx)];
-            let most = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.value.abs()));
-            for (kind, peak) in peaks.iter().enumerate() {
+            let most = peaks.both().iter().fold(0.0_f64, |most, peak| most.max(peak.value.abs()));
+            for (kind, peak) in peaks.both().iter().enumerate() {
                 let refined = |position: f64| {
                     self.near_in_time(position, 1, &mut |position| {
                         SIGNS[kind] * reactions.value(index, &states.at(position))

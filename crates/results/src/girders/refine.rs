@@ -5,8 +5,8 @@ use trains::{GirderResponse, SectionSide};
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
 use super::instants::LoadState;
-use super::peaks::{Peak, largest, largest_between};
-use super::scan::{SIGNS, Scan};
+use super::peaks::{Peak, SIGNS, largest, largest_between};
+use super::scan::Scan;
 
 /// Largest number of evaluations for the peak between two rows.
 pub(super) const EVALUATIONS: usize = 20;

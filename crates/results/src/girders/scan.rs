@@ -7,14 +7,11 @@ use super::distributed::{FORCES, Quantities};
 use super::fibres::StressRows;
 use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
-use super::peaks::Peak;
+use super::peaks::Peaks;
 use super::points::{PointBlock, probe};
 
-/// Signs with which the largest and the smallest values are the largest.
-pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
-
 /// Peaks of the largest and of the smallest values of each quantity.
-pub(super) type ForcePeaks = [[Peak; 2]; FORCES];
+pub(super) type ForcePeaks = [Peaks; FORCES];
 
 /// A wheel that passes a section: the time counted in rows.
 #[derive(Clone, Copy, Debug)]
@@ -34,11 +31,11 @@ pub(super) struct Scan {
     /// By section.
     pub sections: Vec<ForcePeaks>,
     /// By point and plane, with rows counted in steps of [`LoadedGirders::deflection_stride`].
-    pub points: Vec<[[Peak; 2]; 2]>,
+    pub points: Vec<[Peaks; 2]>,
     /// By load, side (before, behind) and number of the span over all rails.
     pub wheels: Vec<ForcePeaks>,
     /// Deflections under loads: by load and number of the span over all rails, with rows like those of `points`.
-    pub under: Vec<[[Peak; 2]; 2]>,
+    pub under: Vec<[Peaks; 2]>,
     /// First number of the spans of each rail, and the number of all.
     pub first_span: Vec<usize>,
     pub passages: Vec<Passage>,
@@ -114,9 +111,9 @@ impl Scan {
             let [before, after] = [row - 1, row].map(|row| girders.states.at_row(row));
             self.add_passages(girders, row - 1, &before, &after);
         }
-        let forces = self.sections.iter_mut().chain(&mut self.wheels).flatten().flatten();
-        let deflections = self.points.iter_mut().chain(&mut self.under).flatten().flatten();
-        forces.chain(deflections).for_each(Peak::finish);
+        let forces = self.sections.iter_mut().chain(&mut self.wheels).flatten();
+        let deflections = self.points.iter_mut().chain(&mut self.under).flatten();
+        forces.chain(deflections).for_each(Peaks::finish);
         self
     }
 
@@ -249,7 +246,7 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
         for PointBlock { plane, points, values, .. } in girders.points.blocks() {
             let own = &fixed[values.clone()];
             for (peaks, value) in scan.points[points.clone()].iter_mut().zip(own) {
-                add_signed(&mut peaks[*plane], row, *value);
+                peaks[*plane].add(row, *value);
             }
             scan.add_size(FORCES + plane, own);
         }
@@ -258,7 +255,7 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
         }
         for &(index, load, rail, span) in &under {
             let at = scan.under(load, rail, span);
-            add_signed(&mut scan.under[at][plane_of(index)], row, moving[index]);
+            scan.under[at][plane_of(index)].add(row, moving[index]);
         }
     }
 }
@@ -266,11 +263,6 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
 fn add(peaks: &mut ForcePeaks, sizes: &mut [f64], row: usize, values: &[f64; FORCES]) {
     for ((own, size), value) in peaks.iter_mut().zip(sizes).zip(values) {
         *size = size.max(value.abs());
-        add_signed(own, row, *value);
+        own.add(row, *value);
     }
-}
-
-/// Adds a value to the peaks of the largest and of the smallest values.
-fn add_signed(peaks: &mut [Peak; 2], row: usize, value: f64) {
-    peaks.iter_mut().zip(SIGNS).for_each(|(peak, sign)| peak.add(row, sign * value));
 }

@@ -4,9 +4,9 @@ use trains::SectionSide;
 
 use super::deflections::Wanted;
 use super::distributed::FORCES;
-use super::peaks::{Peak, largest};
+use super::peaks::{Peak, SIGNS, largest};
 use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
-use super::scan::{SIGNS, Scan};
+use super::scan::Scan;
 
 /// The largest or smallest value of one quantity over a span.
 #[derive(Clone, Copy, Debug)]

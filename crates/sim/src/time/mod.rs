@@ -6,6 +6,7 @@ pub(crate) mod books;
 pub(crate) mod collocation;
 pub(crate) mod counts;
 pub(crate) mod events;
+pub(crate) mod modal_loads;
 pub(crate) mod node_forces;
 pub(crate) mod nodes;
 pub(crate) mod passage;

@@ -13,6 +13,7 @@ use super::events::{
     OVERSHOOT, at_break, break_slack, can_predict, first_corner, first_switch, first_touch, guards,
     prescribed_break, rolling_break,
 };
+use super::modal_loads::ModalLoads;
 use super::step::Step;
 use super::step_size::StepSize;
 use super::strike::{Strike, StruckBy};
@@ -147,6 +148,8 @@ pub(crate) struct Stepper<'a, 'b> {
     strike: Option<Strike>,
     /// Sizes of the wheel forces, to which their errors are relative.
     wheel_forces: WheelForces,
+    /// Loads of the natural modes, to which the errors of their accelerations are relative.
+    modal_loads: ModalLoads,
     /// Whether the last step ended neither at a break nor at an event.
     ended_smoothly: bool,
     /// Touch guards at the start of the next step.
@@ -171,15 +174,22 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let scene = solver.system().scene;
         solver.store_open(&start);
         let period = period(solver, &start);
+        let system = solver.system();
+        let wheel_forces = WheelForces::new(system, &start.force);
+        let touches = guards(solver, GuardKind::Touch, &start);
+        let (triggers, books) = (Triggers::new(system)?, Books::new(solver, &start));
+        let size = StepSize::new(solver, &start, tolerance, stepping.step, first);
+        let step = Step::new(solver, start, stepping.method);
         Ok(Stepper {
             period: if period.is_finite() { period } else { 0.0 },
-            triggers: Triggers::new(solver.system())?,
-            books: Books::new(solver, &start),
-            touches: guards(solver, GuardKind::Touch, &start),
+            triggers,
+            books,
+            touches,
             ended_smoothly: false,
-            wheel_forces: WheelForces::new(solver.system(), &start.force),
-            size: StepSize::new(solver, &start, tolerance, stepping.step, first),
-            step: Step::new(solver, start, stepping.method),
+            wheel_forces,
+            modal_loads: ModalLoads::new(system, step.is_collocation()),
+            size,
+            step,
             counts: Counts::default(),
             limit: f64::INFINITY,
             force_scale: scene.bodies.iter().map(|body| body.mass * scene.gravity).sum(),
@@ -321,8 +331,12 @@ impl<'a, 'b> Stepper<'a, 'b> {
         if self.size.fixed.is_some() {
             return Ok(0.0);
         }
-        let (step, length) = (&self.step, self.step.length());
-        let error = step.error(|k, errors| self.size.weigh(&step.to, length, k, errors));
+        let (step, length, largest) = (&self.step, self.step.length(), self.force_scale);
+        self.modal_loads.grow(step.solver);
+        let error = step.error(|k, errors| {
+            let of_mode = self.modal_loads.relative(k, length * errors[0], largest);
+            self.size.weigh(&step.to, length, k, errors).max(of_mode)
+        });
         if length <= self.instant()
             && self.step.to.t - self.step.last_jump <= INSTANT.recip() * self.instant()
         {
