@@ -18,8 +18,8 @@ pub fn number(value: f64) -> String {
 /// half of the time. Zero has no sign.
 pub fn push_number(out: &mut Vec<u8>, value: f64) {
     let value = value + 0.0;
-    // Numbers of this decade are written in two ways.
-    if value.is_finite() && !(1e-5..1e-4).contains(&value.abs()) {
+    // The two differ in numbers of one decade, and in the sign of positive exponents.
+    if value.abs() < 1e16 && !(1e-5..1e-4).contains(&value.abs()) {
         out.extend_from_slice(zmij::Buffer::new().format_finite(value).as_bytes());
     } else {
         out.extend_from_slice(format!("{value:?}").as_bytes());
