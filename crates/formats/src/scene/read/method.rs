@@ -6,7 +6,7 @@ use crate::check::Check;
 use crate::scene::motion::simulation_input;
 use crate::scene::raw::RawScene;
 use crate::scene::values::scene::{Analysis, STEPPERS, Scene, stepper_word};
-use crate::scene::values::structure::{Foundation, Handover};
+use crate::scene::values::structure::{Foundation, Handover, Origin, Structure};
 use crate::text::fault::{Fault, Faults};
 use crate::text::place::Place;
 use crate::units::Dimension;
@@ -24,6 +24,11 @@ pub(super) fn read(raw: &RawScene, root: &Place<'_>, check: &mut Check<'_>) -> S
         check.faults.add(fault.hint("\"gauss2\" and \"gauss3\" integrate with steps of one size"));
     }
     Stepping { method, step }
+}
+
+/// Whether the spec of a structure gives it mass.
+fn has_mass(structure: &Structure) -> bool {
+    matches!(&structure.origin, Origin::Spec { spec, .. } if spec.has_mass())
 }
 
 /// Rejects a method that is not applicable to a scene without other faults.
@@ -47,6 +52,7 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
             Foundation::Parts { handover: Handover::PerPart { .. }, .. } => {
                 Some("one contact force for each wheel")
             }
+            Foundation::Parts { .. } if has_mass(structure) => Some("natural modes, or parts without mass"),
             Foundation::Ties { has_mass: true, c, .. } if c > 0.0 => Some("ties without dampers"),
             _ => None,
         }),
