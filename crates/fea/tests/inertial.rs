@@ -134,7 +134,9 @@ fn the_first_mode_bends_midspan_by_m_over_pi_squared() {
             effects.push(refined.effect(Effect::InternalForce { member: 0, place: 0.5, component }));
         }
         let inertia = frame.inertia_of_modes(&refined.model, &refined.modes.modes);
-        let found = frame.effects_of_modes(&refined.model, &effects, &inertia).expect("effects");
+        let found = frame
+            .effects_of_modes(&refined.model, &effects, &refined.modes.modes, &inertia)
+            .expect("effects");
         let mode = refined.modes.modes.iter().position(|mode| mode.coupling[1].abs() > 1.0);
         let mode = mode.expect("the first symmetric mode in the vertical plane");
         // Rotary inertia acts at midspan only through the size of the shape, which it changes.
@@ -158,7 +160,8 @@ fn reactions_to_inertia_balance_the_momentum_of_every_mode() {
     let holds = frame.restraints(&refined.model);
     let effects: Vec<Effect> = holds.iter().copied().map(Effect::Reaction).collect();
     let inertia = frame.inertia_of_modes(&refined.model, &refined.modes.modes);
-    let found = frame.effects_of_modes(&refined.model, &effects, &inertia).expect("effects");
+    let found =
+        frame.effects_of_modes(&refined.model, &effects, &refined.modes.modes, &inertia).expect("effects");
     for (k, freedom) in [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().enumerate() {
         let own = |value: &dyn Fn(usize) -> f64| -> f64 {
             let rows = holds.iter().enumerate().filter(|(_, hold)| hold.dof == freedom);

@@ -179,7 +179,7 @@ fn inertia_of_iterated_modes_is_in_equilibrium() {
     }
     let modes = &refined.modes.modes;
     let inertia = frame.inertia_of_modes(&refined.model, modes);
-    let found = frame.effects_of_modes(&refined.model, &effects, &inertia).expect("effects");
+    let found = frame.effects_of_modes(&refined.model, &effects, modes, &inertia).expect("effects");
     for (mode, shape) in modes.iter().enumerate() {
         for (k, freedom) in [Dof::Ux, Dof::Uy, Dof::Uz].into_iter().enumerate() {
             let rows = (0..holds.len()).filter(|&row| holds[row].dof == freedom);

@@ -39,8 +39,6 @@ pub struct Weight {
 #[derive(Clone, Debug)]
 pub struct ModeInertia {
     forces: Vec<InertiaForces>,
-    /// [`Mode::between`] of each mode.
-    between: Vec<Vec<[[f64; BETWEEN]; 2]>>,
     /// Motions of the references of all bodies under the forces of each mode, once an effect has asked for them.
     motions: OnceLock<Vec<Vec<Vector6>>>,
 }
@@ -114,8 +112,7 @@ impl FactoredFrame {
         };
         let mut forces = self.inertia_forces(m, modes.iter().map(of_mode).collect(), false);
         self.add_interior_motions(m, modes, &mut forces);
-        let between = modes.iter().map(|mode| mode.between.clone()).collect();
-        ModeInertia { forces, between, motions: OnceLock::new() }
+        ModeInertia { forces, motions: OnceLock::new() }
     }
 
     /// Effects of the inertia of modes: effects x modes. A structure whose modes move with accelerations q'' under rail
@@ -127,7 +124,7 @@ impl FactoredFrame {
     /// solved once for each effect (its adjoint load) or once for each mode, whichever are fewer; the motions of the modes are
     /// kept for the next effects.
     ///
-    /// `m` is the model that the frame was made of; `inertia` is that of modes of the same frame.
+    /// `m` is the model that the frame was made of; `modes` are modes of the same frame, and `inertia` is theirs.
     ///
     /// Guarantee: forces M a and reactions are in equilibrium to the rounding of the factor, whatever the
     /// residuals of the modes. The reactions to the shape of a mode along a global axis add up to minus its
@@ -143,10 +140,11 @@ impl FactoredFrame {
         &self,
         m: &Model,
         effects: &[Effect],
+        modes: &[Mode],
         inertia: &ModeInertia,
     ) -> Result<DMatrix<f64>, Error> {
         let functionals = self.functionals(m, effects)?;
-        let ModeInertia { forces, between, motions } = inertia;
+        let ModeInertia { forces, motions } = inertia;
         let mut out = DMatrix::zeros(effects.len(), forces.len());
         let motions = (functionals.len() > forces.len())
             .then(|| motions.get_or_init(|| forces.iter().map(|own| self.motions_under(own)).collect()));
@@ -159,8 +157,8 @@ impl FactoredFrame {
                 }
             };
             let held = self.held_effect(m, functional, false);
-            for (k, (forces, between)) in forces.iter().zip(between).enumerate() {
-                out[(e, k)] = elastic[k] + held.under(forces, between);
+            for (k, (forces, mode)) in forces.iter().zip(modes).enumerate() {
+                out[(e, k)] = elastic[k] + held.under(forces, &mode.between);
             }
         }
         Ok(out)

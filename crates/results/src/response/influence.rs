@@ -407,7 +407,7 @@ pub(crate) fn inertia(
         None => Ok(DMatrix::zeros(effects.len(), 0)),
         Some(MotionBasis::Modes { refined, inertia }) => {
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            refined.frame.effects_of_modes(&refined.model, &own, inertia)
+            refined.frame.effects_of_modes(&refined.model, &own, &refined.modes.modes, inertia)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),
