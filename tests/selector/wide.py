@@ -218,6 +218,8 @@ RUN_ACCURACY = {"extremes": 2e-3, "history": 1e-3}
 KINDS = {"x": "position", "speed": "speed", "pitch": "rotation", "penetration": "penetration"}
 # CPU seconds of the first two references from which no finer ones are run.
 LONG = 20
+# CPU seconds after which a run is ended; such a reference is left out.
+MOST = 300
 # Number of bounces above which their phases are not known, so that the wheels of a body are one in the extremes.
 MANY = 100
 MOMENTS = {"Mx", "My", "Mz", "rx", "ry", "rz", "twist"}
@@ -324,14 +326,15 @@ class Folder:
         scene = json.loads(json.dumps(self.scene)) | {"accuracy": accuracy}
         scene["structures"]["g"] |= structure
         (self.path / f"{name}.json").write_text(json.dumps(scene))
-        words = [self.program, "run", f"{name}.json", "-o", name, "--force", "--threads", "1"]
+        words = ["sh", "-c", f'ulimit -t {MOST}; exec "$0" "$@"']
+        words += [self.program, "run", f"{name}.json", "-o", name, "--force", "--threads", "1"]
         process = subprocess.Popen(words, cwd=self.path, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         message = process.stderr.read().decode()
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         cpu = usage.ru_utime + usage.ru_stime
         if process.returncode != 0:
-            return cpu, None, message.strip().splitlines()[-1]
+            return cpu, None, (message.strip().splitlines() or [f"ended after {MOST} s"])[-1]
         with open(self.path / name / "history.csv", newline="") as file:
             rows = list(csv.reader(file))
         columns = [[float(value) for value in column] for column in zip(*rows[1:])]
