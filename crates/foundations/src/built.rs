@@ -1,5 +1,7 @@
 //! A built foundation with the motions of its degrees of freedom.
 
+use std::sync::OnceLock;
+
 use nalgebra::DMatrix;
 use sim::Foundation;
 
@@ -34,8 +36,8 @@ pub enum MotionBasis {
     Modes {
         /// The subdivided model, its frame and its modes.
         refined: Box<fea::RefinedModes>,
-        /// The inertia of these modes, for the effects of their accelerations.
-        inertia: fea::ModeInertia,
+        /// The inertia of these modes, once effects of their accelerations have been asked for.
+        inertia: OnceLock<fea::ModeInertia>,
     },
     /// Rigid parts of a straight girder.
     Parts(RigidParts),

@@ -26,7 +26,7 @@
 //! # Source
 //! R. H. MacNeal, A hybrid method of component mode synthesis, Computers & Structures 1 (1971), 581-601.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use fea::{FactoredFrame, Modes, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
@@ -158,8 +158,7 @@ impl MeshModes {
             carrier: excitation.carrier.map(|carrier| mount::inertia(kept, carrier)),
             ..Foundation::default()
         };
-        let inertia = refined.frame.inertia_of_modes(&refined.model, &refined.modes.modes);
-        let motion = MotionBasis::Modes { refined: Box::new(refined), inertia };
+        let motion = MotionBasis::Modes { refined: Box::new(refined), inertia: OnceLock::new() };
         Ok(BuiltFoundation { foundation, basis: Some(motion) })
     }
 }

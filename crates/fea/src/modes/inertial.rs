@@ -314,7 +314,6 @@ fn member_mass(m: &Model, member: &Member, element: &Element, is_uniform: bool) 
 }
 
 /// The motions between the ends of a member in one plane.
-#[derive(Clone, Debug)]
 struct MotionsBetween {
     inertia: InertiaMotions,
     /// Products of their inertia with the motion of the member by each degree of freedom of its flexible ends, local axes:

@@ -10,7 +10,7 @@ use crate::assembly::{
 use crate::dof::Dof;
 use crate::error::Error;
 use crate::model::{BeamTheory, CrossSection, MemberKind, Model, PointMass};
-use crate::modes::interior::InteriorMotion;
+use crate::modes::interior::{InteriorMotion, end_degrees};
 use crate::modes::shapes::{bending_shapes, integral_of_product, polynomial};
 
 /// Mass of a degree of freedom that nothing stiffens, relative to what was added up, that is only rounding.
@@ -309,12 +309,7 @@ impl MemberMass {
     /// Adds bending in one plane: `mass` per length moves with the deflection, `rotary` with the rotation.
     fn add_bending(&mut self, plane: &BendingPlane, mass: f64, rotary: f64, length: f64) {
         let shapes = bending_shapes(plane, length);
-        let at = [
-            (plane.deflection, 1.0),
-            (plane.rotation, plane.sign),
-            (plane.deflection + 6, 1.0),
-            (plane.rotation + 6, plane.sign),
-        ];
+        let at = end_degrees(plane);
         for (i, [a, turn_a]) in shapes.iter().enumerate() {
             for (j, [b, turn_b]) in shapes.iter().enumerate() {
                 let value = mass * integral_of_product(a, b) + rotary * integral_of_product(turn_a, turn_b);

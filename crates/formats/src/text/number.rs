@@ -1,5 +1,7 @@
 //! Numbers in a form that is easy to read.
 
+use std::io::Write;
+
 /// Rounds `value` to `digits` significant digits (at least 1).
 #[must_use]
 pub fn rounded(value: f64, digits: usize) -> f64 {
@@ -22,7 +24,7 @@ pub fn push_number(out: &mut Vec<u8>, value: f64) {
     if value.abs() < 1e16 && !(1e-5..1e-4).contains(&value.abs()) {
         out.extend_from_slice(zmij::Buffer::new().format_finite(value).as_bytes());
     } else {
-        out.extend_from_slice(format!("{value:?}").as_bytes());
+        write!(out, "{value:?}").expect("memory takes all bytes");
     }
 }
 

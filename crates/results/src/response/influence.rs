@@ -406,8 +406,13 @@ pub(crate) fn inertia(
     match basis {
         None => Ok(DMatrix::zeros(effects.len(), 0)),
         Some(MotionBasis::Modes { refined, inertia }) => {
+            let modes = &refined.modes.modes;
+            if effects.is_empty() {
+                return Ok(DMatrix::zeros(0, modes.len()));
+            }
             let own: Vec<Effect> = effects.iter().map(|effect| refined.effect(*effect)).collect();
-            refined.frame.effects_of_modes(&refined.model, &own, &refined.modes.modes, inertia)
+            let inertia = inertia.get_or_init(|| refined.frame.inertia_of_modes(&refined.model, modes));
+            refined.frame.effects_of_modes(&refined.model, &own, modes, inertia)
         }
         Some(MotionBasis::Parts(parts)) => match &solved.girder {
             Some(girder) => part_inertia(girder, parts, effects),

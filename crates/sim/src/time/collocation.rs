@@ -293,10 +293,9 @@ impl Collocation {
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
 
-    /// The first place before the end of the step just taken at which a vertical contact must open or close by more than
-    /// `slack`, as a fraction of the step, and by which force: a wheel may leave its rail, or meet it, for less than a step.
-    /// The places are the nodes and, by the polynomials through these, the middles between them.
-    pub fn passed_switch(&self, solver: &Solver, slack: f64) -> Option<(f64, f64)> {
+    /// Places in the step just taken, as fractions of it, with the largest force by which a vertical contact has exceeded its
+    /// limit of opening or closing there: the nodes and, by the polynomials through these, the middles between them.
+    pub fn excesses(&self, solver: &Solver) -> Vec<(f64, f64)> {
         let (s, count) = (self.count(), solver.system().verticals());
         // The solver has that of the last node, if this is the end of the step.
         let last = if self.nodes.c[s - 1] < 1.0 { &self.geometries[s - 1] } else { solver.geometry() };
@@ -306,15 +305,16 @@ impl Collocation {
             let frame = geometry.frame(solver.system(), state);
             excess.extend((0..count).map(|i| solver.excess(i, &frame)));
         }
-        let at_node = |b: usize| excess[b * count..(b + 1) * count].iter().copied().fold(slack, f64::max);
+        let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::NEG_INFINITY, f64::max);
         let at_middle = |weights: &[f64]| {
             let of =
                 |i: usize| weights.iter().enumerate().map(|(b, weight)| weight * excess[b * count + i]).sum();
-            (0..count).map(of).filter(|excess: &f64| excess.is_finite()).fold(slack, f64::max)
+            largest(&mut (0..count).map(of).filter(|excess: &f64| excess.is_finite()))
         };
-        let nodes = (0..s).map(|b| (self.nodes.c[b], at_node(b))).filter(|(share, _)| *share < 1.0);
+        let nodes = (0..s)
+            .map(|b| (self.nodes.c[b], largest(&mut excess[b * count..(b + 1) * count].iter().copied())));
         let middles = self.nodes.middles.iter().map(|(share, weights)| (*share, at_middle(weights)));
-        nodes.chain(middles).filter(|(_, excess)| *excess > slack).min_by(|a, b| a.0.total_cmp(&b.0))
+        nodes.chain(middles).collect()
     }
 
     /// Sets the modes of `at` to their values at the fraction `share` of the step just taken from `from`. They are

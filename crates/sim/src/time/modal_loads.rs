@@ -13,25 +13,17 @@ const ALLOWED: f64 = 30.0;
 /// what it misses goes on as a free vibration of the amplitude dq. In the displacements of the rail the high modes are small.
 /// Reactions and internal forces take part in the accelerations, omega^2 dq, which are as large as the loads.
 pub(crate) struct ModalLoads {
-    /// Squares of the frequencies by degree of freedom; 0 where it is no natural mode, or the steps are none of collocation.
-    squares: Vec<f64>,
     /// Largest displacement of each degree of freedom at a wheel so far.
     reach: Vec<f64>,
 }
 
 impl ModalLoads {
-    pub fn new(system: &System, is_collocation: bool) -> ModalLoads {
-        let square =
-            |omega: &Option<f64>| omega.filter(|_| is_collocation).map_or(0.0, |omega| omega * omega);
-        let squares: Vec<f64> = system.mechanics.omegas.iter().map(square).collect();
-        ModalLoads { reach: vec![0.0; squares.len()], squares }
+    pub fn new(system: &System) -> ModalLoads {
+        ModalLoads { reach: vec![0.0; system.mechanics.dofs] }
     }
 
     /// Takes the displacements at the wheels for the geometry of the solver.
     pub fn grow(&mut self, solver: &Solver) {
-        if self.squares.iter().all(|square| *square == 0.0) {
-            return;
-        }
         for i in 0..solver.system().verticals() {
             let row = solver.geometry().rows().approach_row(i);
             self.reach.iter_mut().zip(row).for_each(|(reach, own)| *reach = reach.max(own.abs()));
@@ -39,9 +31,9 @@ impl ModalLoads {
     }
 
     /// Error of the acceleration of degree of freedom `k` by the error `dq` of its displacement in a step, relative to
-    /// [`ALLOWED`] times its load under the force `largest`.
-    pub fn relative(&self, k: usize, dq: f64, largest: f64) -> f64 {
-        let load = self.reach[k] * largest;
-        if load > 0.0 { self.squares[k] * dq.abs() / (ALLOWED * load) } else { 0.0 }
+    /// [`ALLOWED`] times its load under the force `largest`; 0 for a degree of freedom that is no natural mode.
+    pub fn relative(&self, system: &System, k: usize, dq: f64, largest: f64) -> f64 {
+        let (omega, load) = (system.mechanics.omegas[k].unwrap_or(0.0), self.reach[k] * largest);
+        if load > 0.0 { omega * omega * dq.abs() / (ALLOWED * load) } else { 0.0 }
     }
 }

@@ -24,7 +24,7 @@ struct Done {
     p_rates: Vec<f64>,
     forces: Vec<f64>,
     power: Exchanged,
-    /// Largest force by which a vertical contact had exceeded its limit of opening or closing.
+    /// Largest force by which a vertical contact had exceeded its limit of opening or closing, before the end of the step.
     excess: f64,
 }
 
@@ -38,7 +38,7 @@ impl Sdirk {
             p_rates: vec![0.0; count],
             forces: vec![0.0; system.elements.len()],
             power: Exchanged::default(),
-            excess: 0.0,
+            excess: f64::NEG_INFINITY,
         };
         Sdirk {
             tableau,
@@ -82,10 +82,12 @@ impl Sdirk {
             done.p_rates.copy_from_slice(&self.stage.p_rate);
             solver.update_rail_slope(&self.stage);
             done.power = power(solver.system(), solver.geometry(), &self.stage);
-            let frame = solver.frame(&self.stage);
-            // A penetration that is a state has only the first order inside a step.
-            let exact = (0..solver.system().verticals()).filter(|&i| !solver.remembers(i));
-            done.excess = exact.map(|i| solver.excess(i, &frame)).fold(f64::NEG_INFINITY, f64::max);
+            if tableau.c[i] < 1.0 {
+                let frame = solver.frame(&self.stage);
+                // A penetration that is a state has only the first order inside a step.
+                let exact = (0..solver.system().verticals()).filter(|&i| !solver.remembers(i));
+                done.excess = exact.map(|i| solver.excess(i, &frame)).fold(f64::NEG_INFINITY, f64::max);
+            }
         }
         solver.end_step(&self.stage)?;
         to.copy_from(&self.stage);
@@ -136,11 +138,10 @@ impl Sdirk {
         }
     }
 
-    /// The first stage before the end of the step just taken at which a vertical contact must open or close by more than
-    /// `slack`, as a fraction of the step, and by which force.
-    pub fn passed_switch(&self, slack: f64) -> Option<(f64, f64)> {
-        let stages = self.tableau.c.iter().zip(&self.done).map(|(share, done)| (*share, done.excess));
-        stages.filter(|(share, excess)| *share < 1.0 && *excess > slack).min_by(|a, b| a.0.total_cmp(&b.0))
+    /// Stages of the step just taken, as fractions of it, with the largest force by which a vertical contact had exceeded its
+    /// limit of opening or closing there.
+    pub fn excesses(&self) -> impl Iterator<Item = (f64, f64)> {
+        self.tableau.c.iter().zip(&self.done).map(|(share, done)| (*share, done.excess))
     }
 
     /// Embedded error of q and v of degree of freedom `k`, per unit of step length.

@@ -113,6 +113,11 @@ impl<'a, 'b> Step<'a, 'b> {
         matches!(self.integrator, Integrator::Collocation(_))
     }
 
+    /// Whether the method is a collocation method, and natural modes move by their propagators.
+    pub fn propagates_modes(&self) -> bool {
+        matches!(&self.integrator, Integrator::Collocation(collocation) if collocation.is_modal())
+    }
+
     /// Length of the step.
     pub fn length(&self) -> f64 {
         self.to.t - self.from.t
@@ -159,12 +164,7 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Length `h`, reduced to a power of 2^(1/4) if modal responses are stored by step length.
     pub fn rounded(&self, h: f64) -> f64 {
-        match &self.integrator {
-            Integrator::Collocation(collocation) if collocation.is_modal() => {
-                ((4.0 * h.log2() + 1e-9).floor() / 4.0).exp2()
-            }
-            _ => h,
-        }
+        if self.propagates_modes() { ((4.0 * h.log2() + 1e-9).floor() / 4.0).exp2() } else { h }
     }
 
     /// Embedded error of the step just taken: the largest value of `weigh` over the degrees of freedom. Its arguments
@@ -211,11 +211,16 @@ impl<'a, 'b> Step<'a, 'b> {
         force
     }
 
-    /// [`Collocation::passed_switch`], [`Sdirk::passed_switch`].
+    /// The first place before the end of the step just taken at which a vertical contact must open or close by more than
+    /// `slack`, as a fraction of the step, and by which force: a wheel may leave its rail, or meet it, for less than a step.
     pub fn passed_switch(&self, slack: f64) -> Option<(f64, f64)> {
+        let first = |places: &mut dyn Iterator<Item = (f64, f64)>| {
+            let passed = places.filter(|(share, excess)| *share < 1.0 && *excess > slack);
+            passed.min_by(|a, b| a.0.total_cmp(&b.0))
+        };
         match &self.integrator {
-            Integrator::Collocation(collocation) => collocation.passed_switch(self.solver, slack),
-            Integrator::Sdirk(sdirk) => sdirk.passed_switch(slack),
+            Integrator::Collocation(collocation) => first(&mut collocation.excesses(self.solver).into_iter()),
+            Integrator::Sdirk(sdirk) => first(&mut sdirk.excesses()),
         }
     }
 

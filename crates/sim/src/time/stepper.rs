@@ -148,8 +148,8 @@ pub(crate) struct Stepper<'a, 'b> {
     strike: Option<Strike>,
     /// Sizes of the wheel forces, to which their errors are relative.
     wheel_forces: WheelForces,
-    /// Loads of the natural modes, to which the errors of their accelerations are relative.
-    modal_loads: ModalLoads,
+    /// Loads of the natural modes, to which the errors of their accelerations are relative, where these have propagators.
+    modal_loads: Option<ModalLoads>,
     /// Whether the last step ended neither at a break nor at an event.
     ended_smoothly: bool,
     /// Touch guards at the start of the next step.
@@ -187,7 +187,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             touches,
             ended_smoothly: false,
             wheel_forces,
-            modal_loads: ModalLoads::new(system, step.is_collocation()),
+            modal_loads: step.propagates_modes().then(|| ModalLoads::new(system)),
             size,
             step,
             counts: Counts::default(),
@@ -332,9 +332,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
             return Ok(0.0);
         }
         let (step, length, largest) = (&self.step, self.step.length(), self.force_scale);
-        self.modal_loads.grow(step.solver);
+        if let Some(loads) = &mut self.modal_loads {
+            loads.grow(step.solver);
+        }
+        let loads = self.modal_loads.as_ref();
         let error = step.error(|k, errors| {
-            let of_mode = self.modal_loads.relative(k, length * errors[0], largest);
+            let of_mode =
+                loads.map_or(0.0, |own| own.relative(step.system(), k, length * errors[0], largest));
             self.size.weigh(&step.to, length, k, errors).max(of_mode)
         });
         if length <= self.instant()
