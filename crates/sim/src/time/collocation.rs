@@ -1,11 +1,11 @@
-//! A step of collocation in force form: the contact forces at all nodes are found from one linear system.
+//! A step of collocation in force form: the contact forces at all nodes are found from one system.
 //!
 //! The unknowns are the forces F of the active contacts at the s nodes. The response of bodies to the forces is given
 //! by the double integrals of the collocation polynomials, and that of natural modes by their exact propagators, so
 //! that a step has to resolve the forces but not the modes: q(c_i h) = free motion - sum_j W_ij M^-1 R_j^T F_j. The
-//! displacements and the compliance of the rails give the penetrations p as a linear function of F, and the linear
-//! contact laws F = k p + c r close the system, where r is the rate of the penetration or of the wheel. It is solved
-//! by elimination without an iteration.
+//! displacements and the compliance of the rails give the penetrations p as a linear function of F, and the
+//! contact laws F = f(p, r) close the system, where r is the rate of the penetration or of the wheel. Linear laws are
+//! solved by elimination, others by Newton's method.
 
 use nalgebra::DVector;
 
@@ -151,8 +151,7 @@ impl Collocation {
         sum
     }
 
-    /// Takes a step of length `h` from `from` with the active contacts; returns false if the linear system has no
-    /// solution.
+    /// Takes a step of length `h` from `from` with the active contacts; returns false if no forces are found.
     pub fn attempt(
         &mut self,
         solver: &mut Solver,
@@ -169,6 +168,7 @@ impl Collocation {
         for a in 0..s {
             let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
             self.states[a].t = t;
+            self.geometries[a].set_pieces(&solver.geometry().places().piece);
             self.geometries[a].update(solver.system(), t, &from.q, &from.force)?;
             if !(self.projection.is_filled && self.loads.is_steady) {
                 self.loads.free[a].copy_from(solver.free_accelerations(t));

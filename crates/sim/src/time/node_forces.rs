@@ -14,7 +14,9 @@
 //! u_a + S_a K_a^-1 sum_b (R_a Q_ab + (c/k) R'_a V_ab) u_b = S_a K_a^-1 (e_a + (c/k) r_a),
 //!
 //! which takes s m^3/3 + (s n)^3 operations for n degrees of freedom: a train of many wheels has few of these. Dampers
-//! between wheel and rail couple the compliance of all nodes; they and unsymmetric compliances take the first way.
+//! between wheel and rail couple the compliance of all nodes; they and unsymmetric compliances take the first way. So do
+//! laws that are not linear: Newton's method replaces each by its tangent at every node, and the influence of the forces on
+//! the penetrations is the same in all iterations.
 
 use super::nodes::Nodes;
 use crate::contact::geometry::Geometry;
@@ -22,9 +24,17 @@ use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::numerics::dense::{dot, solve_general, solve_spd};
+use crate::scene::wheel::LawValue;
 
 /// Advantage in operations from which the forces are eliminated first.
 const CHEAPER: f64 = 2.0;
+
+/// Number of Newton iterations at most for laws that are not linear.
+const ITERATIONS: usize = 12;
+
+/// Change of the forces, relative to the largest of them, from which the next iterate, whose change would be about the square
+/// of it, is not needed.
+const CONVERGED: f64 = 1e-9;
 
 /// The system of the forces at all nodes, and its solution.
 pub(crate) struct NodeForces {
@@ -42,8 +52,17 @@ pub(crate) struct NodeForces {
     matrix: Vec<f64>,
     /// Right sides and solutions.
     right: Vec<f64>,
+    /// The laws of the unknown forces near the last iterate.
+    tangents: Vec<Tangent>,
     /// Positions of the unknown forces among all (node, element) pairs.
     index: Vec<usize>,
+}
+
+/// A law F = by_penetration p + by_rate r + rest for one wheel.
+struct Tangent {
+    by_penetration: f64,
+    by_rate: f64,
+    rest: f64,
 }
 
 /// The step in which the forces are sought.
@@ -92,11 +111,12 @@ impl NodeForces {
             rate_effect: Vec::new(),
             matrix: Vec::new(),
             right: Vec::new(),
+            tangents: Vec::new(),
             index: Vec::with_capacity(size),
         }
     }
 
-    /// Solves for the forces of the active contacts in `motion`. Returns false if the matrix is singular.
+    /// Solves for the forces of the active contacts in `motion`. Returns false if none are found.
     pub fn solve(&mut self, solver: &Solver, motion: &NodeMotion) -> bool {
         let active = solver.active_contacts();
         let (s, m, n) = (motion.nodes.count(), active.len(), motion.dofs());
@@ -107,7 +127,10 @@ impl NodeForces {
             contacts * (m as f64) * (m as f64 / 3.0 + 2.0 * columns) + 2.0 / 3.0 * freedoms.powi(3);
         let has_memory = active.iter().any(|&i| solver.remembers(i));
         self.force.fill(0.0);
-        self.has_effects = !self.is_symmetric || has_memory || CHEAPER * in_motion >= in_forces;
+        self.has_effects = !self.is_symmetric
+            || has_memory
+            || !solver.system().traits.has_linear_laws
+            || CHEAPER * in_motion >= in_forces;
         if self.has_effects {
             self.fill_effects(solver.system(), motion, &active);
             self.solve_for_forces(solver, motion, &active)
@@ -217,48 +240,100 @@ impl NodeForces {
         }
     }
 
-    /// Solves F/k = p + (c/k) r at every node for the `active` contacts, where p = approach - effect F, and r is the
-    /// rate of p for a damper between wheel and rail and the rate of the wheel otherwise. Returns false if the matrix
-    /// is singular.
+    /// Solves the laws F = f(p, r) of the `active` contacts at every node, where p = approach - effect F, and r is the rate
+    /// of p for a damper between wheel and rail and the rate of the wheel otherwise. Linear laws need one solution; for
+    /// others Newton's method begins with the state at the start of the step at all nodes. Returns false if a matrix is
+    /// singular, or if the forces do not converge.
     fn solve_for_forces(&mut self, solver: &Solver, motion: &NodeMotion, active: &[usize]) -> bool {
+        let (s, all) = (motion.nodes.count(), motion.from.force.len());
+        self.index.clear();
+        self.index.extend((0..s).flat_map(|a| active.iter().map(move |i| a * all + i)));
+        let is_linear = solver.system().traits.has_linear_laws;
+        for round in 0..if is_linear { 1 } else { ITERATIONS } {
+            self.set_tangents(solver, motion, round == 0);
+            if !self.solve_tangents(solver, motion) {
+                return false;
+            }
+            let (mut change, mut largest) = (0.0_f64, 0.0_f64);
+            for (&at, &force) in self.index.iter().zip(&self.right) {
+                change = change.max((force - self.force[at]).abs());
+                largest = largest.max(force.abs());
+                self.force[at] = force;
+            }
+            if !change.is_finite() {
+                return false;
+            }
+            if is_linear || change <= CONVERGED * largest {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Sets the tangents of the laws at the present forces, or at the state at the start of the step if this `is_first`.
+    fn set_tangents(&mut self, solver: &Solver, motion: &NodeMotion, is_first: bool) {
+        let (system, from, m) = (solver.system(), motion.from, motion.from.force.len());
+        let (s, size) = (motion.nodes.count(), self.force.len());
+        let tangent = |&at: &usize| {
+            let (a, i) = (at / m, at % m);
+            let law = system.law(i);
+            if law.is_linear() {
+                return Tangent { by_penetration: law.stiffness, by_rate: law.damping, rest: 0.0 };
+            }
+            let penetration = |l: usize| {
+                let line = &self.effect[(l * m + i) * size..(l * m + i + 1) * size];
+                self.approach[l * m + i] - dot(line, &self.force)
+            };
+            let [p, rate] = if is_first {
+                [from.p[i], from.p_rate[i]]
+            } else if solver.remembers(i) {
+                let by = |l: usize| motion.nodes.rate[a * s + l] / motion.h;
+                [penetration(a), (0..s).map(|l| by(l) * (penetration(l) - from.p[i])).sum()]
+            } else if system.fixed[i].feels_rates {
+                [
+                    penetration(a),
+                    self.rate[at] - dot(&self.rate_effect[at * size..(at + 1) * size], &self.force),
+                ]
+            } else {
+                [penetration(a), self.rate[at]]
+            };
+            let LawValue { force, by_penetration, by_rate } = law.at(p, rate);
+            Tangent { by_penetration, by_rate, rest: force - by_penetration * p - by_rate * rate }
+        };
+        self.tangents = self.index.iter().map(tangent).collect();
+    }
+
+    /// Solves for the forces at all nodes by the tangents of their laws; the solution replaces the right side.
+    fn solve_tangents(&mut self, solver: &Solver, motion: &NodeMotion) -> bool {
         let (system, NodeMotion { nodes, h, from, .. }) = (solver.system(), motion);
         let (s, m, size) = (nodes.count(), system.elements.len(), self.force.len());
-        self.index.clear();
-        self.index.extend((0..s).flat_map(|a| active.iter().map(move |i| a * m + i)));
         let count = self.index.len();
         self.matrix.resize(count * count, 0.0);
         self.right.resize(count, 0.0);
-        for (line, &at) in self.index.iter().enumerate() {
+        for (line, (&at, tangent)) in self.index.iter().zip(&self.tangents).enumerate() {
             let (a, i) = (at / m, at % m);
-            let law = system.law(i);
-            let ratio = law.damping / law.stiffness;
+            let Tangent { by_penetration, by_rate, rest } = *tangent;
             let memory = solver.remembers(i);
-            let by = |l: usize| nodes.rate[a * s + l] * ratio / h;
-            let mut right = self.approach[at];
+            let by = |l: usize| nodes.rate[a * s + l] * by_rate / h;
+            let mut right = rest + by_penetration * self.approach[at];
             if memory {
                 right += (0..s).map(|l| by(l) * (self.approach[l * m + i] - from.p[i])).sum::<f64>();
             } else {
-                right += ratio * self.rate[at];
+                right += by_rate * self.rate[at];
             }
             for (column, &other) in self.index.iter().enumerate() {
-                let mut entry = self.effect[at * size + other];
+                let mut entry = by_penetration * self.effect[at * size + other];
                 if memory {
                     entry += (0..s).map(|l| by(l) * self.effect[(l * m + i) * size + other]).sum::<f64>();
                 } else if system.fixed[i].feels_rates {
-                    entry += ratio * self.rate_effect[at * size + other];
+                    entry += by_rate * self.rate_effect[at * size + other];
                 }
                 self.matrix[line * count + column] = entry;
             }
-            self.matrix[line * count + line] += 1.0 / (law.stiffness * system.mechanics.groups[i].count());
+            self.matrix[line * count + line] += 1.0 / system.mechanics.groups[i].count();
             self.right[line] = right;
         }
-        if !solve_general(&mut self.matrix[..count * count], &mut self.right[..count]) {
-            return false;
-        }
-        for (&at, force) in self.index.iter().zip(&self.right) {
-            self.force[at] = *force;
-        }
-        true
+        solve_general(&mut self.matrix[..count * count], &mut self.right[..count])
     }
 
     /// Sets the forces and penetrations of `at` at node `a`, p = e - (G + R Q S) F, where the influence of the forces is known,

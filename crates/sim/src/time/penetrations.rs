@@ -15,11 +15,16 @@ use crate::contact::solver::follow::Followed;
 use crate::mechanics::state::State;
 use crate::numerics::lu::LuFactors;
 
-/// Number of Newton iterations at most; laws that are linear need one.
+/// Number of Newton iterations at most; linear laws need one or two.
 const ITERATIONS: usize = 12;
 
 /// Time in which a penetration follows its force, per step, below which its value at the start may be free.
 const QUICK: f64 = 0.25;
+
+/// Change of the penetrations, relative to the largest of them, at which no iteration improves them, and at which they are
+/// used.
+const ROUNDING: f64 = 1e-14;
+const CONVERGED: f64 = 1e-9;
 
 /// The start and the nodes.
 const PLACES: [f64; 4] = [0.0, Nodes::RADAU_3[0], Nodes::RADAU_3[1], Nodes::RADAU_3[2]];
@@ -86,22 +91,37 @@ impl Penetrations {
     /// Any error from evaluating the rails.
     pub fn add(&mut self, solver: &mut Solver, at: &State) -> Result<(), Error> {
         solver.update(at)?;
-        self.followed.extend(solver.followed(at, &self.contacts, &self.stiffness));
+        if let Some(node) = solver.followed(at, &self.contacts, &self.stiffness) {
+            let guess = self.contacts.iter().zip(&node.value).map(|(&i, value)| at.p[i] - value);
+            self.differences.push(DVector::from_iterator(self.contacts.len(), guess));
+            self.followed.push(node);
+        }
         Ok(())
     }
 
-    /// Solves the equation at all nodes.
+    /// Solves the equation at all nodes, from the interpolated penetrations. Without a solution the rates stay interpolated.
     pub fn solve(&mut self, solver: &Solver) {
-        let count = self.contacts.len();
-        if self.followed.len() < PLACES.len() {
+        if self.followed.len() < PLACES.len() || !self.converges(solver) {
             self.contacts.clear();
-            return;
         }
-        self.differences.resize_with(PLACES.len(), || DVector::zeros(count));
+    }
+
+    /// Newton's method; returns whether it has converged. Under linear laws the matrix stays, and further iterations refine
+    /// what the first has rounded: short steps divide small differences by their length.
+    fn converges(&mut self, solver: &Solver) -> bool {
+        let count = self.contacts.len();
+        let is_linear = solver.system().traits.has_linear_laws;
+        let mut factors: Option<LuFactors> = None;
+        let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
-            let Some(change) = self.correction(solver) else {
-                self.contacts.clear();
-                return;
+            let laws = self.laws(solver);
+            let residual = self.residual(&laws);
+            if factors.is_none() || !is_linear {
+                factors = Some(LuFactors::new(self.matrix(&laws)));
+            }
+            let change = factors.as_ref().and_then(|factors| factors.solve(&residual));
+            let Some(change) = change.filter(|change| change.iter().all(|x| x.is_finite())) else {
+                return false;
             };
             let mut size = 0.0_f64;
             for (a, own) in self.differences.iter_mut().enumerate() {
@@ -110,34 +130,61 @@ impl Penetrations {
                     size = size.max(own[r].abs() + self.followed[a].value[r].abs());
                 }
             }
-            if change.amax() <= 1e-14 * size {
+            last = change.amax() / size;
+            if last <= ROUNDING {
                 break;
             }
         }
+        last <= CONVERGED
     }
 
-    /// Newton's change of the differences at the start and at the nodes.
-    fn correction(&self, solver: &Solver) -> Option<DVector<f64>> {
+    /// Force, stiffness and damping of every contact at the start and at the nodes, for the present differences.
+    fn laws(&self, solver: &Solver) -> Vec<[f64; 3]> {
+        let count = self.contacts.len();
+        let mut laws = Vec::with_capacity(PLACES.len() * count);
+        for (a, node) in self.followed.iter().enumerate() {
+            let weights = slopes(PLACES[a]);
+            for (c, &i) in self.contacts.iter().enumerate() {
+                let slope: f64 =
+                    self.differences.iter().zip(weights).map(|(own, weight)| weight * own[c]).sum();
+                let rate = node.rate[c] + slope / self.h;
+                laws.push(solver.law_of(i, node.value[c] + self.differences[a][c], rate));
+            }
+        }
+        laws
+    }
+
+    /// Whether the equation holds for contact `r` at place `a`, instead of a difference that is known.
+    fn is_solved(&self, a: usize, r: usize) -> bool {
+        a > 0 || self.is_free[r]
+    }
+
+    /// p + G F - e by the forces of the `laws`; 0 for differences that are known.
+    fn residual(&self, laws: &[[f64; 3]]) -> DVector<f64> {
+        let count = self.contacts.len();
+        DVector::from_fn(PLACES.len() * count, |row, _| {
+            let (a, r) = (row / count, row % count);
+            if !self.is_solved(a, r) {
+                return 0.0;
+            }
+            let node = &self.followed[a];
+            let forces = laws[a * count..(a + 1) * count].iter().enumerate();
+            let deflection: f64 = forces.map(|(c, [force, ..])| node.compliance[(r, c)] * force).sum();
+            node.value[r] + self.differences[a][r] - node.approach[r] + deflection
+        })
+    }
+
+    /// Derivatives of the residual by the differences.
+    fn matrix(&self, laws: &[[f64; 3]]) -> DMatrix<f64> {
         let count = self.contacts.len();
         let size = PLACES.len() * count;
-        let mut residual = DVector::zeros(size);
         let mut matrix = DMatrix::identity(size, size);
         for (a, node) in self.followed.iter().enumerate() {
-            let (own, weights) = (&self.differences[a], slopes(PLACES[a]));
-            let slope = |c: usize| -> f64 {
-                self.differences.iter().zip(weights).map(|(own, weight)| weight * own[c]).sum()
-            };
-            let law = |c: usize| {
-                let rate = node.rate[c] + slope(c) / self.h;
-                solver.law_of(self.contacts[c], node.value[c] + own[c], rate)
-            };
-            let laws: Vec<[f64; 3]> = (0..count).map(law).collect();
-            for r in (0..count).filter(|&r| a > 0 || self.is_free[r]) {
+            let weights = slopes(PLACES[a]);
+            for r in (0..count).filter(|&r| self.is_solved(a, r)) {
                 let row = a * count + r;
-                residual[row] = node.value[r] + own[r] - node.approach[r];
-                for (c, [force, by_place, by_rate]) in laws.iter().enumerate() {
+                for (c, [_, by_place, by_rate]) in laws[a * count..(a + 1) * count].iter().enumerate() {
                     let compliance = node.compliance[(r, c)];
-                    residual[row] += compliance * force;
                     matrix[(row, a * count + c)] += compliance * by_place;
                     for (b, weight) in weights.iter().enumerate() {
                         matrix[(row, b * count + c)] += compliance * by_rate * weight / self.h;
@@ -145,7 +192,7 @@ impl Penetrations {
                 }
             }
         }
-        LuFactors::new(matrix).solve(&residual).filter(|change| change.iter().all(|x| x.is_finite()))
+        matrix
     }
 
     /// Sets the penetration rates of the interpolated state `at`, at the fraction `share` of the step.

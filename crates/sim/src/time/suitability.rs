@@ -4,14 +4,16 @@ use crate::contact::system::System;
 use crate::time::passage::crossing::missing;
 use crate::{Dynamics, Error, Foundation, Method, Scene};
 
-/// Number of contacts with dampers between wheel and rail from which stages one by one cost less than the system of all
-/// forces at all nodes of a collocation step.
+/// Number of contacts with dampers between wheel and rail, or with laws that are not linear, from which stages one by one cost
+/// less than the system of all forces at all nodes of a collocation step.
 const MANY: usize = 12;
 
-/// Whether collocation would have to solve a large system; see [`MANY`]. Without these dampers its forces are eliminated
-/// node by node. On structures with mass stages would have the order two under these dampers.
+/// Whether collocation would have to solve a large system; see [`MANY`]. Forces of other contacts are eliminated node by node.
+/// On structures with mass stages would have the order two under these dampers.
 fn is_large(system: &System) -> bool {
-    system.traits.has_memory && system.verticals() >= MANY && !system.mechanics.has_structures()
+    let traits = &system.traits;
+    let is_coupled = traits.has_memory || !traits.has_linear_laws;
+    is_coupled && system.verticals() >= MANY && !system.mechanics.has_structures()
 }
 
 impl Method {
@@ -35,7 +37,7 @@ impl Method {
     }
 
     /// Checks whether the method can integrate the scene. Collocation needs prescribed positions along the rail,
-    /// linear vertical contacts with one force per wheel, and structures in natural modes with damping ratios below
+    /// vertical contacts with one force per wheel, and structures in natural modes with damping ratios below
     /// 1. Gauss collocation also needs contacts without a damper between wheel and rail.
     pub(crate) fn check(self, system: &System) -> Result<(), Error> {
         if matches!(self, Method::Auto | Method::Sdirk4) {
@@ -51,9 +53,7 @@ impl Method {
         let trouble = [
             (system.mechanics.moves_freely, "places along the rail that are prescribed"),
             (!system.traits.is_vertical, "vertical contacts alone"),
-            (!system.traits.has_linear_laws, "linear contacts"),
             (system.foundations.iter().any(|f| f.parts.is_some()), "one force a wheel"),
-            (system.traits.is_uneven, "even rails"),
             (!system.mechanics.carried.is_empty(), "bodies that ride on the ground's rails"),
             (!system.mechanics.couplings.is_empty(), "structures on the ground"),
             (!modal, "structures in natural modes, damped below critical"),

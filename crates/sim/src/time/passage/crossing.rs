@@ -78,6 +78,8 @@ pub(crate) fn missing(system: &System) -> Option<&'static str> {
     let troubles = [
         (!together, "wheels that travel together"),
         (!uniform, "a uniform speed"),
+        (!system.traits.has_linear_laws, "linear contacts"),
+        (system.traits.is_uneven, "even rails"),
         (!system.traits.has_constant_rows || mounted, "structures without mass, on the ground"),
         (!symmetric, "a symmetric compliance"),
         (!scene.actuators.loads.is_empty() || !scene.actuators.rules.is_empty(), "no loads or events"),

@@ -294,7 +294,7 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
             let best = if law == "rail" { Method::Radau } else { Method::Gauss3 };
             let radau = if law == "rail" { 5.0 } else { 9.0 };
             let wheel = || NormalLaw::linear(100.0, damping, damper);
-            let wanted = end(best, wheel(), foundation(), if law == "rail" { 2560 } else { 640 })?;
+            let wanted = end(best, wheel(), foundation(), if law == "rail" { 1280 } else { 640 })?;
             for (method, order) in
                 [(Method::Sdirk4, 4.0), (Method::Radau, radau), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
             {
@@ -305,7 +305,7 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
                 // steps resolve.
                 let counts = match (method, law) {
                     (Method::Sdirk4, "rail") if structure => [160, 320, 640],
-                    (Method::Sdirk4, "rail") => [640, 1280, 2560],
+                    (Method::Sdirk4, "rail") => [320, 640, 1280],
                     (Method::Sdirk4, _) => [80, 160, 320],
                     (_, "rail") => [80, 160, 320],
                     (Method::Radau, _) if name == "full" => [10, 20, 40],
@@ -334,26 +334,47 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
     Ok(())
 }
 
-/// A law that is not linear takes more than one iteration in a stage, also where the wheel's place is known. The reference
-/// has at least eight times as many steps.
+/// A law that is not linear takes more than one iteration in a stage or a step, also where the wheel's place is known. The
+/// reference has at least eight times as many steps.
 #[test]
-fn stages_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error> {
+fn methods_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error> {
     let influence = || Foundation::massless(Box::new(Give), 1);
     let foundations: [(&str, &dyn Fn() -> Foundation); 4] =
         [("rigid", &Foundation::rigid), ("influence", &influence), ("modal", &modal), ("full", &full)];
+    let mut missed = Vec::new();
     for (name, foundation) in foundations {
-        let law = || NormalLaw { exponent: 1.5, ..NormalLaw::linear(300.0, 2.0, Damper::Ground) };
-        let wanted = end(Method::Sdirk4, law(), foundation(), 2560)?;
-        let mut errors = Vec::new();
+        let is_massless = matches!(name, "rigid" | "influence");
         // The fastest mode of the mesh has a period of 0.06.
-        for steps in if name == "full" { [80, 160, 320] } else { [40, 80, 160] } {
-            let found = end(Method::Sdirk4, law(), foundation(), steps)?;
-            errors.push((found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1])));
+        let stages = if name == "full" { [80, 160, 320] } else { [40, 80, 160] };
+        let under_dampers = if name == "influence" { [320, 640, 1280] } else { [80, 160, 320] };
+        let by_ground = vec![
+            (Method::Sdirk4, 4.0, stages),
+            (Method::Gauss3, 6.0, [40, 80, 160]),
+            (Method::Radau, 9.0, if is_massless { [6, 12, 24] } else { [10, 20, 40] }),
+        ];
+        for (damper, finest, cases) in [
+            (Damper::Ground, 320, by_ground),
+            (Damper::Rail, 5120, vec![(Method::Radau, 5.0, under_dampers)]),
+        ] {
+            let law = || NormalLaw { exponent: 1.5, ..NormalLaw::linear(300.0, 2.0, damper) };
+            let wanted = end(Method::Radau, law(), foundation(), finest)?;
+            for (method, order, counts) in cases {
+                let mut errors = Vec::new();
+                for steps in counts {
+                    let found = end(method, law(), foundation(), steps)?;
+                    errors.push((found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1])));
+                }
+                let seen = slope(&errors[1..]);
+                println!("{name}, {damper:?}, {method:?}: order {seen:.3} for {order}, {errors:?}");
+                // With few steps the fastest modes are not resolved yet, and the order is approached from above.
+                let is_coarse = !is_massless && order > 8.0;
+                if (seen - order).abs() > 0.1 && !(is_coarse && seen > order) {
+                    missed.push((name, damper, method, seen));
+                }
+            }
         }
-        let seen = slope(&errors[1..]);
-        println!("{name}: order {seen:.3}, {errors:?}");
-        assert!((seen - 4.0).abs() < 0.1, "{name}: order {seen}, {errors:?}");
     }
+    assert!(missed.is_empty(), "{missed:?}");
     Ok(())
 }
 
