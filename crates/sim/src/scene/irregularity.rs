@@ -192,6 +192,15 @@ impl Irregularity {
         &self.starts
     }
 
+    /// Coordinates of the steps, where the height changes.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = f64> {
+        let is_step = |&(k, &x): &(usize, &f64)| {
+            let [before, after] = [k, k + 1].map(|piece| self.vertical(piece, x)[0]);
+            (after - before).abs() > 1e-9 * (before.abs() + after.abs())
+        };
+        self.starts.iter().enumerate().filter(is_step).map(|(_, x)| *x)
+    }
+
     /// Index of the piece at `x` for a wheel that moves in `direction` (the sign counts). At a corner it is the piece
     /// that the wheel moves into, or `current` where the wheel is at rest.
     pub(crate) fn piece(&self, x: f64, direction: f64, current: usize) -> usize {

@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with L a the inertia force of the body that carries the structure. The solution is exact for forces that are linear
-//! between the samples. What the run lacks is the difference of the modes from their static deflection, which the
+//! between the samples, but where a wheel passes a step of its rail: there they jump. What the run lacks is the difference of the modes from their static deflection, which the
 //! residual flexibility contains:
 //!
 //! ```text
@@ -29,7 +29,7 @@ use splines::{Axis, Influence, Probe};
 
 use super::measure::{Record, RecordedQuantity};
 use crate::mechanics::wheels::Wheels;
-use crate::{BodyDof, Channel, Damper, Dynamics, Error, Foundation, History, Scene, Structure};
+use crate::{BodyDof, Channel, Damper, Dynamics, Error, Foundation, History, Irregularity, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
 pub(super) const COUNTS: [usize; 20] =
@@ -92,7 +92,9 @@ impl Loaded<'_> {
             let (k, c) = (at.by_penetration, if law.damper == Damper::Rail { at.by_rate } else { 0.0 });
             let at_modes = frequencies.iter().map(|omega| k.hypot(omega * c)).collect();
             let (body, rail) = (contact.body, contact.rail);
-            wheels.push(Wheel { index, body, rail, first, contact: [k, c], at_modes });
+            let shape = self.foundations[self.structure].irregularities.get(rail);
+            let steps = shape.into_iter().flat_map(Irregularity::steps).collect();
+            wheels.push(Wheel { steps, index, body, rail, first, contact: [k, c], at_modes });
         }
         Ok(wheels)
     }
@@ -100,6 +102,8 @@ impl Loaded<'_> {
 
 /// A wheel on the structure, with the positions of its values in a sample.
 struct Wheel {
+    /// Places at which the height of its rail steps: there its force jumps.
+    steps: Vec<f64>,
     /// Its number in the scene.
     index: usize,
     body: usize,
@@ -120,6 +124,8 @@ struct Oscillator {
     /// Displacement, velocity and acceleration.
     state: [f64; 3],
     load: f64,
+    /// Rate of the load in the last step.
+    rate: f64,
     /// Values of the free oscillation after a step: by displacement and velocity at its start.
     step: [[f64; 2]; 2],
 }
@@ -144,9 +150,21 @@ impl Oscillator {
         ];
     }
 
+    /// Takes a step of length `h`, in which the load jumps to `load` at the fraction `share`; before and after that it changes
+    /// with the rate of the step before.
+    fn jump(&mut self, h: f64, share: f64, load: f64) {
+        let steady = self.rate * h;
+        self.set_step(share * h);
+        self.advance(share * h, self.load + share * steady);
+        self.load = load - (1.0 - share) * steady;
+        self.set_step((1.0 - share) * h);
+        self.advance((1.0 - share) * h, load);
+    }
+
     /// Takes a step of length `h`, in which the load changes linearly to `load`.
     fn advance(&mut self, h: f64, load: f64) {
         let (stiffness, rate) = (self.omega * self.omega, (load - self.load) / h);
+        self.rate = rate;
         let lag = 2.0 * self.ratio / self.omega * rate;
         let steady = |load: f64| (load - lag) / stiffness;
         let (x, v) = (self.state[0] - steady(self.load), self.state[1] - rate / stiffness);
@@ -281,8 +299,12 @@ impl<'a> Replay<'a> {
             }
         }
         let h = if i == 0 { 0.0 } else { sample[0] - history.sample(i - 1)[0] };
+        let passed = self.passed_step(history.sample(beside), sample);
         if i == 0 {
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.begin(*load));
+        } else if let Some(share) = passed.filter(|_| h > 0.0) {
+            self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.jump(h, share, *load));
+            self.length = f64::NAN;
         } else if h > 0.0 {
             if (h - self.length).abs() > 1e-9 * h {
                 self.oscillators.iter_mut().for_each(|mode| mode.set_step(h));
@@ -294,9 +316,11 @@ impl<'a> Replay<'a> {
         let flexibility = |mode: &Oscillator| (mode.omega * mode.omega).recip();
         let lag: Vec<f64> =
             modes().map(|((mode, load), _)| mode.state[0] - load * flexibility(mode)).collect();
-        let rates = modes()
-            .map(|((mode, load), other)| mode.state[1] - (load - other) * per_time * flexibility(mode));
-        let rates: Vec<f64> = rates.collect();
+        let rate = |mode: &Oscillator, load: f64, other: f64| {
+            let of_load = if passed.is_some() { mode.rate } else { (load - other) * per_time };
+            mode.state[1] - of_load * flexibility(mode)
+        };
+        let rates: Vec<f64> = modes().map(|((mode, load), other)| rate(mode, *load, *other)).collect();
         for w in 0..self.wheels.len() {
             let x = self.wheels[w].first;
             let speed = (sample[x] - history.sample(beside)[x]) * per_time;
@@ -317,6 +341,20 @@ impl<'a> Replay<'a> {
             note(&self.counts, &mut slot.largest, |r| by_mode[r] * self.oscillators[r].state[2], n);
         }
         Ok(())
+    }
+
+    /// The fraction of the interval between two samples at which the first wheel passes a step of its rail.
+    fn passed_step(&self, before: &[f64], after: &[f64]) -> Option<f64> {
+        let of_wheel = |wheel: &Wheel| {
+            let [from, to] = [before, after].map(|sample| sample[wheel.first]);
+            let passed = wheel.steps.iter().filter(move |x| (**x - from) * (**x - to) < 0.0);
+            passed.map(|x| (x - from) / (to - from)).min_by(f64::total_cmp)
+        };
+        self.wheels
+            .iter()
+            .filter_map(of_wheel)
+            .min_by(f64::total_cmp)
+            .map(|share| share.clamp(1e-6, 1.0 - 1e-6))
     }
 
     /// Loads on the modes by the wheels in sample `i`. Keeps the vertical shapes under them.

@@ -50,6 +50,24 @@ fn steps_of_a_mode_follow_its_equation_exactly_under_a_load_of_straight_pieces()
     }
 }
 
+/// Analytic: a load that jumps by J in the middle of a step leaves an undamped mode with the free vibration J/omega^2 about its
+/// new deflection, however long the step is.
+#[test]
+fn a_jump_of_the_load_within_a_step_excites_modes_of_short_periods() {
+    let (omega, h) = (50.0_f64, 1.0);
+    for share in [0.2, 0.5, 0.93] {
+        let mut mode = Oscillator { omega, ..Oscillator::default() };
+        mode.begin(4.0);
+        mode.jump(h, share, 6.5);
+        let since = omega * (1.0 - share) * h;
+        let expected =
+            [(6.5 - 2.5 * since.cos()) / (omega * omega), 2.5 * since.sin() / omega, 2.5 * since.cos()];
+        for (found, expected) in mode.state.into_iter().zip(expected) {
+            assert!((found - expected).abs() < 1e-11, "{share}: {found}, not {expected}");
+        }
+    }
+}
+
 /// Identity: under a constant load a mode stays where it began.
 #[test]
 fn a_mode_begins_at_rest_in_its_static_deflection() {
