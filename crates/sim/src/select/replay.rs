@@ -8,7 +8,7 @@
 //! ```
 //!
 //! with L a the inertia force of the body that carries the structure. The solution is exact for forces that are linear
-//! between the samples, but where a wheel passes a step of its rail: there they jump. What the run lacks is the difference of the modes from their static deflection, which the
+//! between the samples, but where a wheel passes a step of its rail or meets it with a damper: there they jump. What the run lacks is the difference of the modes from their static deflection, which the
 //! residual flexibility contains:
 //!
 //! ```text
@@ -94,7 +94,8 @@ impl Loaded<'_> {
             let (body, rail) = (contact.body, contact.rail);
             let shape = self.foundations[self.structure].irregularities.get(rail);
             let steps = shape.into_iter().flat_map(Irregularity::steps).collect();
-            wheels.push(Wheel { steps, index, body, rail, first, contact: [k, c], at_modes });
+            let is_damped = law.damping > 0.0;
+            wheels.push(Wheel { steps, is_damped, index, body, rail, first, contact: [k, c], at_modes });
         }
         Ok(wheels)
     }
@@ -104,6 +105,8 @@ impl Loaded<'_> {
 struct Wheel {
     /// Places at which the height of its rail steps: there its force jumps.
     steps: Vec<f64>,
+    /// Whether its force jumps where it meets the rail.
+    is_damped: bool,
     /// Its number in the scene.
     index: usize,
     body: usize,
@@ -299,10 +302,10 @@ impl<'a> Replay<'a> {
             }
         }
         let h = if i == 0 { 0.0 } else { sample[0] - history.sample(i - 1)[0] };
-        let passed = self.passed_step(history.sample(beside), sample);
+        let jump = self.jump_between(history.sample(beside), sample);
         if i == 0 {
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.begin(*load));
-        } else if let Some(share) = passed.filter(|_| h > 0.0) {
+        } else if let Some(share) = jump.filter(|_| h > 0.0) {
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.jump(h, share, *load));
             self.length = f64::NAN;
         } else if h > 0.0 {
@@ -317,7 +320,7 @@ impl<'a> Replay<'a> {
         let lag: Vec<f64> =
             modes().map(|((mode, load), _)| mode.state[0] - load * flexibility(mode)).collect();
         let rate = |mode: &Oscillator, load: f64, other: f64| {
-            let of_load = if passed.is_some() { mode.rate } else { (load - other) * per_time };
+            let of_load = if jump.is_some() { mode.rate } else { (load - other) * per_time };
             mode.state[1] - of_load * flexibility(mode)
         };
         let rates: Vec<f64> = modes().map(|((mode, load), other)| rate(mode, *load, *other)).collect();
@@ -343,12 +346,15 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// The fraction of the interval between two samples at which the first wheel passes a step of its rail.
-    fn passed_step(&self, before: &[f64], after: &[f64]) -> Option<f64> {
+    /// The fraction of the interval between two samples at which the first force jumps: that of a wheel that passes a step of
+    /// its rail, or of one that meets its rail with a damper, of which the instant is not known.
+    fn jump_between(&self, before: &[f64], after: &[f64]) -> Option<f64> {
         let of_wheel = |wheel: &Wheel| {
             let [from, to] = [before, after].map(|sample| sample[wheel.first]);
             let passed = wheel.steps.iter().filter(move |x| (**x - from) * (**x - to) < 0.0);
-            passed.map(|x| (x - from) / (to - from)).min_by(f64::total_cmp)
+            let [force, later] = [before, after].map(|sample| sample[wheel.first + 1]);
+            let landing = (wheel.is_damped && force == 0.0 && later > 0.0).then_some(0.5);
+            passed.map(|x| (x - from) / (to - from)).chain(landing).min_by(f64::total_cmp)
         };
         self.wheels
             .iter()
