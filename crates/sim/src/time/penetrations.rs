@@ -26,6 +26,10 @@ const QUICK: f64 = 0.25;
 const ROUNDING: f64 = 1e-14;
 const CONVERGED: f64 = 1e-9;
 
+/// Number of contacts from which the compliance of one place serves for all, in more iterations, and that place.
+const MANY: usize = 8;
+const MIDDLE: usize = 2;
+
 /// The start and the nodes.
 const PLACES: [f64; 4] = [0.0, Nodes::RADAU_3[0], Nodes::RADAU_3[1], Nodes::RADAU_3[2]];
 
@@ -111,13 +115,13 @@ impl Penetrations {
     fn converges(&mut self, solver: &Solver) -> bool {
         let count = self.contacts.len();
         let is_linear = solver.system().traits.has_linear_laws;
-        let mut factors: Option<LuFactors> = None;
+        let mut factors: Option<Factors> = None;
         let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
             let laws = self.laws(solver);
             let residual = self.residual(&laws);
             if factors.is_none() || !is_linear {
-                factors = Some(LuFactors::new(self.matrix(&laws)));
+                factors = Some(self.factors(&laws));
             }
             let change = factors.as_ref().and_then(|factors| factors.solve(&residual));
             let Some(change) = change.filter(|change| change.iter().all(|x| x.is_finite())) else {
@@ -174,6 +178,19 @@ impl Penetrations {
         })
     }
 
+    /// Factors of the derivatives of the residual; approximate ones for many contacts that are all free at the start.
+    fn factors(&self, laws: &[[f64; 3]]) -> Factors {
+        let count = self.contacts.len();
+        if count < MANY || self.is_free.contains(&false) {
+            return Factors::Whole(LuFactors::new(self.matrix(laws)));
+        }
+        let compliance = &self.followed[MIDDLE].compliance;
+        let laws = &laws[MIDDLE * count..(MIDDLE + 1) * count];
+        let scaled = |part: usize| DMatrix::from_fn(count, count, |r, c| compliance[(r, c)] * laws[c][part]);
+        let in_place = DMatrix::identity(count, count) + scaled(1);
+        Factors::OfOnePlace { in_place: LuFactors::new(in_place), by_slope: scaled(2) / self.h }
+    }
+
     /// Derivatives of the residual by the differences.
     fn matrix(&self, laws: &[[f64; 3]]) -> DMatrix<f64> {
         let count = self.contacts.len();
@@ -214,6 +231,51 @@ impl Penetrations {
     }
 }
 
+/// Factors of the derivatives of the residual by the differences at all places.
+///
+/// With the compliance G of one place for all, stiffnesses K and dampings C, these are I + G K at each place and (d/h) G C
+/// between places, where d are the weights of the slopes at the places. The derivative of a cubic polynomial taken four times is zero,
+/// d^4 = 0, so that the series of the inverse ends: with B = (I + G K)^-1 G C/h
+///
+/// x = sum over j from 0 to 3 of (-1)^j d^j B^j (I + G K)^-1 r,
+///
+/// which takes factors of the order of the contacts in place of four times that.
+enum Factors {
+    Whole(LuFactors),
+    OfOnePlace {
+        /// I + G K.
+        in_place: LuFactors,
+        /// G C/h.
+        by_slope: DMatrix<f64>,
+    },
+}
+
+impl Factors {
+    /// The change of the differences that brings `residual` to zero; `None` where the factors are singular.
+    fn solve(&self, residual: &DVector<f64>) -> Option<DVector<f64>> {
+        let (in_place, by_slope) = match self {
+            Factors::Whole(factors) => return factors.solve(residual),
+            Factors::OfOnePlace { in_place, by_slope } => (in_place, by_slope),
+        };
+        let count = by_slope.nrows();
+        let mut term = (0..PLACES.len())
+            .map(|a| in_place.solve(&residual.rows(a * count, count).into_owned()))
+            .collect::<Option<Vec<_>>>()?;
+        let mut sum = term.clone();
+        for _ in 1..PLACES.len() {
+            let loads: Vec<DVector<f64>> = term.iter().map(|own| by_slope * own).collect();
+            let slope_at = |a: usize| {
+                let mut slope = DVector::zeros(count);
+                loads.iter().zip(slopes(PLACES[a])).for_each(|(load, weight)| slope.axpy(-weight, load, 1.0));
+                in_place.solve(&slope)
+            };
+            term = (0..PLACES.len()).map(slope_at).collect::<Option<Vec<_>>>()?;
+            sum.iter_mut().zip(&term).for_each(|(sum, term)| *sum += term);
+        }
+        Some(DVector::from_iterator(PLACES.len() * count, sum.iter().flat_map(|own| own.iter().copied())))
+    }
+}
+
 /// Whether the rates of the springs' penetrations are known: rails on the ground with a symmetric compliance, and one
 /// force for each wheel.
 fn is_suited(solver: &Solver) -> bool {
@@ -237,4 +299,35 @@ fn slopes(share: f64) -> [f64; 4] {
         };
         others.clone().map(term).sum::<f64>() / scale
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Factors, LuFactors, PLACES, slopes};
+    use nalgebra::{DMatrix, DVector};
+
+    /// Identity: where the compliance is the same at all places, the ended series is the inverse of the whole matrix.
+    #[test]
+    fn factors_of_one_place_solve_the_equation_of_all_places() {
+        let count = 5;
+        let compliance = DMatrix::from_fn(count, count, |i, j| 1e-3 / (1.0 + i.abs_diff(j) as f64));
+        let diagonal =
+            |from: f64| DMatrix::from_diagonal(&DVector::from_fn(count, |i, _| from * (1.0 + i as f64)));
+        let in_place = DMatrix::identity(count, count) + &compliance * diagonal(400.0);
+        let by_slope = &compliance * diagonal(30.0);
+        let size = PLACES.len() * count;
+        let mut whole = DMatrix::zeros(size, size);
+        for (a, place) in PLACES.into_iter().enumerate() {
+            whole.view_mut((a * count, a * count), (count, count)).copy_from(&in_place);
+            for (b, weight) in slopes(place).into_iter().enumerate() {
+                let mut block = whole.view_mut((a * count, b * count), (count, count));
+                block += weight * &by_slope;
+            }
+        }
+        let residual = DVector::from_fn(size, |i, _| (1.0 + i as f64).sin());
+        let expected = LuFactors::new(whole).solve(&residual).expect("the matrix is regular");
+        let factors = Factors::OfOnePlace { in_place: LuFactors::new(in_place), by_slope };
+        let found = factors.solve(&residual).expect("I + G K is regular");
+        assert!((&found - &expected).amax() < 1e-12 * expected.amax(), "{found} for {expected}");
+    }
 }
