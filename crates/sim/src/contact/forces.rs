@@ -70,7 +70,6 @@ struct Residuals {
 /// LU factors of a Jacobian over the elements that acted when it was built.
 struct Factors {
     elements: Vec<usize>,
-    /// Column-major.
     jacobian: Vec<f64>,
     pivots: Vec<usize>,
 }
@@ -355,25 +354,24 @@ impl Problem {
         let Factors { elements, jacobian, pivots } = factors;
         let (m, count) = (residuals.value.len(), residuals.acting.len());
         for (row, &i) in residuals.acting.iter().enumerate() {
+            let line = &mut jacobian[row * count..(row + 1) * count];
             let (own_w, own_y) = (&w[i * m..(i + 1) * m], &y[i * m..(i + 1) * m]);
             let Law { by_penetration, by_rate, by_other, .. } = residuals.slopes[row];
-            for (column, &j) in residuals.acting.iter().enumerate() {
-                jacobian[column * count + row] = by_penetration * own_w[j] + by_rate * own_y[j];
+            for (entry, &j) in line.iter_mut().zip(&residuals.acting) {
+                *entry = by_penetration * own_w[j] + by_rate * own_y[j];
             }
             if let Some((other, slope)) = by_other {
                 let w = &w[other * m..(other + 1) * m];
-                for (column, &j) in residuals.acting.iter().enumerate() {
-                    jacobian[column * count + row] += slope * w[j];
-                }
+                line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry += slope * w[j]);
             }
-            jacobian[row * count + row] += 1.0;
+            line[row] += 1.0;
         }
         elements.clear();
         elements.extend_from_slice(&residuals.acting);
         for &Coupling { element, by, slope } in &residuals.couplings {
             let place = |of| residuals.acting.iter().position(|own| *own == of);
             if let (Some(row), Some(column)) = (place(element), place(by)) {
-                jacobian[column * count + row] -= slope;
+                jacobian[row * count + column] -= slope;
             }
         }
         factor_general(&mut jacobian[..count * count], &mut pivots[..count])

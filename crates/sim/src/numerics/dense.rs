@@ -154,41 +154,17 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
-/// Replaces A (n x n, column-major) by its factors P A = L U with partial pivoting. L is stored below the diagonal
-/// without its unit diagonal, U with the reciprocals of its diagonal, and `pivots` receives the row exchanges. Columns are
-/// contiguous, so that the search of a pivot, the elimination and the substitution are loops without scalar products.
+/// Replaces A (n x n, row-major) by its factors P A = L U with partial pivoting. L is stored below the diagonal
+/// without its unit diagonal, U with the reciprocals of its diagonal, and `pivots` receives the row exchanges.
 ///
 /// Returns false where A is singular.
 #[must_use]
 pub(crate) fn factor_general(a: &mut [f64], pivots: &mut [usize]) -> bool {
     let n = pivots.len();
-    for (j, row) in pivots.iter_mut().enumerate() {
-        let own = &a[j * n..(j + 1) * n];
-        let (mut pivot, mut largest) = (j, own[j].abs());
-        for (i, entry) in own.iter().enumerate().skip(j + 1) {
-            if entry.abs().total_cmp(&largest).is_gt() {
-                (pivot, largest) = (i, entry.abs());
-            }
-        }
-        if !(largest > 0.0 && largest.is_finite()) {
-            return false;
-        }
-        *row = pivot;
-        if pivot != j {
-            a.chunks_exact_mut(n).for_each(|column| column.swap(j, pivot));
-        }
-        let (before, after) = a.split_at_mut((j + 1) * n);
-        let (head, multipliers) = before[j * n..].split_at_mut(j + 1);
-        let scale = 1.0 / head[j];
-        head[j] = scale;
-        multipliers.iter_mut().for_each(|entry| *entry *= scale);
-        for column in after.chunks_exact_mut(n) {
-            let (above, below) = column.split_at_mut(j + 1);
-            let share = above[j];
-            if share != 0.0 {
-                below.iter_mut().zip(&*multipliers).for_each(|(x, l)| *x -= share * l);
-            }
-        }
+    for (j, pivot) in pivots.iter_mut().enumerate() {
+        let Some(row) = exchange(a, j, n) else { return false };
+        *pivot = row;
+        eliminate(a, j, n);
     }
     true
 }
@@ -199,18 +175,10 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     for (j, &pivot) in pivots.iter().enumerate() {
         b.swap(j, pivot);
     }
-    let columns = || a.chunks_exact(n.max(1)).enumerate();
-    for (j, column) in columns() {
-        let (known, left) = b.split_at_mut(j + 1);
-        let share = known[j];
-        left.iter_mut().zip(&column[j + 1..]).for_each(|(x, l)| *x -= share * l);
+    for i in 1..n {
+        b[i] -= dot(&a[i * n..i * n + i], &b[..i]);
     }
-    for (j, column) in columns().rev() {
-        let (left, known) = b.split_at_mut(j);
-        known[0] *= column[j];
-        let share = known[0];
-        left.iter_mut().zip(column).for_each(|(x, u)| *x -= share * u);
-    }
+    substitute(a, b);
 }
 
 /// Exchanges row `j` with the row that has the largest entry of column `j` on or below the diagonal, and returns the
@@ -226,6 +194,32 @@ fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
         above[j * n..(j + 1) * n].swap_with_slice(&mut below[..n]);
     }
     Some(pivot)
+}
+
+/// Eliminates column `j` from the rows below row `j` and stores the multipliers in column `j`, and the reciprocal of the
+/// pivot in its place.
+fn eliminate(a: &mut [f64], j: usize, n: usize) {
+    let (above, below) = a.split_at_mut((j + 1) * n);
+    let row = &mut above[j * n..];
+    let scale = 1.0 / row[j];
+    row[j] = scale;
+    for line in below.chunks_exact_mut(n) {
+        let factor = line[j] * scale;
+        line[j] = factor;
+        if factor != 0.0 {
+            line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
+        }
+    }
+}
+
+/// Solves U x = b by back substitution, where U is stored on and above the diagonal of `a`, with the reciprocals of its
+/// diagonal.
+fn substitute(a: &[f64], b: &mut [f64]) {
+    let n = b.len();
+    for i in (0..n).rev() {
+        let line = &a[i * n..(i + 1) * n];
+        b[i] = (b[i] - dot(&line[i + 1..], &b[i + 1..])) * line[i];
+    }
 }
 
 /// Replaces a symmetric positive definite matrix (n x n, lower triangle used) by its inverse L^-T L^-1. `scratch`
@@ -308,7 +302,7 @@ mod tests {
         assert!(factor_general(&mut factors, &mut pivots));
         for k in 0..3 {
             let x: Vec<f64> = (0..n).map(|i| (i as f64 + f64::from(k)).cos()).collect();
-            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| a[j * n + i] * x[j]).sum()).collect();
+            let mut b: Vec<f64> = (0..n).map(|i| (0..n).map(|j| a[i * n + j] * x[j]).sum()).collect();
             solve_factored(&factors, &pivots, &mut b);
             assert!(b.iter().zip(&x).all(|(b, x)| (b - x).abs() < 1e-13));
         }
