@@ -199,6 +199,28 @@ impl Geometry {
         Ok(())
     }
 
+    /// Updates what depends on the heights of the wheels and on the forces, where (t, q) are those of the last update: rows
+    /// of elements that use heights, and rows of the forces. Positions, compliance and all other rows are the same.
+    ///
+    /// # Errors
+    /// Errors of the rail models.
+    pub fn update_in_place(
+        &mut self,
+        system: &System,
+        (t, q): (f64, &DVector<f64>),
+        force: &[f64],
+    ) -> Result<(), Error> {
+        if system.traits.has_constant_rows {
+            return Ok(());
+        }
+        // Shapes of structures are added to the rows of all elements together.
+        let has_structures = system.mechanics.has_structures();
+        let elements = if has_structures { &system.all } else { &system.by_height };
+        self.update_rows(system, (t, q), elements)?;
+        self.update_force_rows(system, q, force, &system.all);
+        Ok(())
+    }
+
     fn update_rows(
         &mut self,
         system: &System,

@@ -22,6 +22,8 @@ pub(crate) struct System<'a> {
     pub elements: Vec<ForceElement<'a>>,
     /// All elements.
     pub all: Candidates,
+    /// Elements that depend on the heights of wheels.
+    pub by_height: Candidates,
     /// Properties of each element that are the same at every state.
     pub fixed: Vec<Fixed>,
     /// Whether the rail below each vertical contact moves with degrees of freedom alone, without a compliance of its own,
@@ -83,11 +85,14 @@ impl<'a> System<'a> {
         let traits = find_traits(&mechanics, &elements);
         let fixed = elements.iter().map(|element| Fixed::of(&**element)).collect();
         let follows_motion = find_moved_rails(&mechanics);
+        let mut by_height = Candidates::all(elements.len());
+        by_height.choose(|i| elements[i].uses_height());
         Ok(System {
             scene,
             foundations,
             mechanics,
             all: Candidates::all(elements.len()),
+            by_height,
             elements,
             fixed,
             follows_motion,

@@ -279,12 +279,12 @@ impl<'a> Solver<'a> {
 
     /// Solves for the forces, penetrations and accelerations at (t, q, v) with the present active set.
     ///
-    /// Each iteration updates the geometry, solves for the forces, and updates the heights of the wheels. It ends
-    /// when the heights change by less than 1e-13. For active elements whose penetration is a state, the penetration
-    /// p is prescribed at the ends of steps. On the interpolant within a step, the rate p' is prescribed instead, and
-    /// p follows from p + G F = e: with F = k p + c p', an error of the rate then enters the force with the factor
-    /// c/(1 + k G), whereas an error of a prescribed penetration would enter it with the factor k. Returns whether
-    /// the forces converged.
+    /// The geometry is updated to (t, q) once. Each iteration solves for the forces and updates the heights of the wheels,
+    /// with the rows that depend on them. It ends when the heights change by less than 1e-13. For active elements whose
+    /// penetration is a state, the penetration p is prescribed at the ends of steps. On the interpolant within a step, the
+    /// rate p' is prescribed instead, and p follows from p + G F = e: with F = k p + c p', an error of the rate then enters
+    /// the force with the factor c/(1 + k G), whereas an error of a prescribed penetration would enter it with the factor k.
+    /// Returns whether the forces converged.
     ///
     /// # Errors
     /// Errors of the rail models.
@@ -294,8 +294,8 @@ impl<'a> Solver<'a> {
         self.problem.candidates.choose(|_| true);
         self.factored_for = None;
         self.problem.slack = 0.0;
+        self.update(at)?;
         for _ in 0..PASSES {
-            self.update(at)?;
             self.fill_instant(at);
             let (local, active) = (self.geometry.local(), self.active.flags());
             if !self.problem.solve(system, local, active, &mut at.force) {
@@ -306,11 +306,12 @@ impl<'a> Solver<'a> {
                     at.p[i] = self.problem.effects.penetration(i, &at.force);
                 }
             }
-            if self.geometry.update_heights(system, at) < 1e-13 {
+            let change = self.geometry.update_heights(system, at);
+            self.geometry.update_in_place(system, (at.t, &at.q), &at.force)?;
+            if change < 1e-13 {
                 break;
             }
         }
-        self.update(at)?;
         self.update_rail_slope(at);
         self.free.accelerate(system, at, &self.geometry.rows().force)?;
         Ok(true)
