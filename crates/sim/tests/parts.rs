@@ -68,6 +68,34 @@ fn central_load_on_two_halves_meets_the_closed_form() {
     }
 }
 
+/// The coefficients of all places and loads, multiplied by the loads, are the displacements under them, also where some
+/// places are prepared and others are not.
+#[test]
+fn displacements_under_loads_are_sums_of_coefficients() {
+    let probe = |x: f64| Probe { rail: 0, x, axis: Axis::Vertical };
+    let places = [0.0, 7.0, 22.0, 30.0, 41.5, 60.0].map(probe);
+    let loads = [(probe(12.0), -3.0), (probe(29.0), -2.0), (probe(55.0), 1.5)];
+    for window in [None, Some(60.0), Some(10.0)] {
+        let parts = blended(window);
+        let all: Vec<Probe> = places.iter().copied().chain(loads.iter().map(|load| load.0)).collect();
+        let mut give = Influence::zeros(all.len());
+        parts.fill(&all, &mut give).expect("on the rail");
+        let of =
+            |i: usize| loads.iter().enumerate().map(|(j, load)| give.value[(i, places.len() + j)] * load.1);
+        let wanted: Vec<f64> = (0..places.len()).map(|i| of(i).sum()).collect();
+        let size = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
+        let (mut direct, mut prepared) = (vec![1.0; places.len()], vec![1.0; places.len()]);
+        parts.displacements(&places, &loads, &mut direct).expect("on the rail");
+        let fixed = parts.at_places(&places[..4]).expect("on the rail");
+        fixed.under(&loads, &places[4..], &mut prepared).expect("on the rail");
+        for (k, wanted) in wanted.iter().enumerate() {
+            for found in [direct[k], prepared[k]] {
+                assert!((found - wanted).abs() < 1e-13 * size, "{found} for {wanted} at {}", places[k].x);
+            }
+        }
+    }
+}
+
 #[test]
 fn bogie_at_midspan_depends_on_the_hand_over_as_an_independent_script_says() {
     // External: scipy script with its own chain of parts; the five digits it printed.

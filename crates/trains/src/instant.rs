@@ -172,6 +172,28 @@ impl MemberForces {
         self.carriers[member].quantities(components)
     }
 
+    /// Whether each quantity, in the order of [`crate::GirderResponse::ALL`] without the deflections, may differ from zero
+    /// in any member under loads in the `directions` along +x, up and along +z of the rails.
+    #[must_use]
+    pub fn acting(&self, directions: [bool; 3]) -> [bool; QUANTITIES] {
+        let mut out = [false; QUANTITIES];
+        for k in (0..3).filter(|k| directions[*k]) {
+            for cell in self.lines.iter().flatten().flatten() {
+                out.iter_mut().zip(&cell.cubics[k]).for_each(|(out, cubic)| *out |= *cubic != [0.0; 4]);
+            }
+            for element in self.elements.iter().flatten() {
+                out.iter_mut().zip(&element.jumps[k]).for_each(|(out, jump)| *out |= *jump != 0.0);
+            }
+        }
+        let own = out;
+        let is_bent = self.carriers.iter().any(|carrier| carrier.bent.is_some());
+        for (k, out) in out.iter_mut().enumerate() {
+            *out |= slope_index(k).is_some_and(|shear| own[shear]);
+            *out |= is_bent && k >= FIRST && own[FIRST..].contains(&true);
+        }
+        out
+    }
+
     /// Writes the state of a member under loads into `out`. A load within 1e-9 of an end of the member, relative to its
     /// length, counts as just inside. Components in which the structure is unrestrained are neglected.
     pub fn load(&self, member: usize, loads: &[RailLoad], out: &mut PassedLoads) {

@@ -14,6 +14,12 @@ pub(super) const FORCES: usize = 6;
 /// Number of sections above which only the ends and the middle of members are nodes.
 const MANY: usize = 2000;
 
+/// Moments, and the shear forces that are their slopes.
+const SLOPES: [(GirderResponse, GirderResponse); 2] = [
+    (GirderResponse::VerticalMoment, GirderResponse::VerticalShear),
+    (GirderResponse::LateralMoment, GirderResponse::LateralShear),
+];
+
 /// The quantities of a section, in the order of [`GirderResponse::ALL`].
 pub(super) type Quantities = [f64; FORCES];
 
@@ -83,6 +89,20 @@ impl DistributedForces {
         self.members.iter().all(|member| member.places.is_empty())
     }
 
+    /// Whether each quantity is not zero throughout.
+    pub fn acting(&self) -> [bool; FORCES] {
+        let nodes =
+            self.members.iter().flat_map(|member| member.dead.iter().chain(member.inertia.iter().flatten()));
+        let mut out = [false; FORCES];
+        for values in nodes {
+            out.iter_mut().zip(values).for_each(|(out, value)| *out |= *value != 0.0);
+        }
+        for (moment, shear) in SLOPES {
+            out[moment as usize] |= out[shear as usize];
+        }
+        out
+    }
+
     /// The quantities of a section of a member under the accelerations of the degrees of freedom, dead load included.
     pub fn at(&self, member: usize, place: f64, accelerations: &[f64]) -> Quantities {
         let nodes = &self.members[member];
@@ -116,10 +136,7 @@ impl MemberNodes {
         }
         let (low, high) = (value(b - 1), value(b));
         let mut out: Quantities = std::array::from_fn(|k| low[k] + t * (high[k] - low[k]));
-        for (moment, shear) in [
-            (GirderResponse::VerticalMoment, GirderResponse::VerticalShear),
-            (GirderResponse::LateralMoment, GirderResponse::LateralShear),
-        ] {
+        for (moment, shear) in SLOPES {
             let (m, v) = (moment as usize, shear as usize);
             // cubic with the values and slopes at both nodes, as the chord plus a part that vanishes at the nodes
             let chord = high[m] - low[m];

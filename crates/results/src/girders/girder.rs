@@ -16,7 +16,7 @@ pub(super) struct LoadedGirders<'a> {
     pub members: &'a MemberForces,
     pub distributed: &'a DistributedForces,
     pub sections: &'a Sections,
-    pub states: LoadStates,
+    pub states: &'a LoadStates,
     /// The deflections of all points.
     pub points: &'a PointDeflections<'a>,
     /// Whether nobody wants the results any more: loops over rows and points end early.
@@ -46,6 +46,13 @@ impl LoadedGirders<'_> {
     /// The rows, or the first of them where the results are not wanted any more.
     pub fn rows(&self) -> impl Iterator<Item = usize> {
         (0..self.states.len()).take_while(|row| !row.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
+    }
+
+    /// The quantities that are not zero throughout, as indices in [`trains::GirderResponse::ALL`].
+    pub fn acting(&self) -> Vec<usize> {
+        let of_loads = self.members.acting(self.states.directions());
+        let distributed = self.distributed.acting();
+        (0..FORCES).filter(|k| of_loads[*k] || distributed[*k]).collect()
     }
 
     /// The quantities of a section at a distance from the first end of a member.

@@ -1,6 +1,7 @@
 //! Loads on a structure and motions of its degrees of freedom between the rows of a history.
 
 use std::borrow::Cow;
+use std::cell::OnceCell;
 use std::ops::Range;
 
 use sim::{Channel, History};
@@ -21,7 +22,7 @@ const OVERSHOOT: f64 = 0.5;
 pub(super) struct LoadState<'a> {
     pub time: f64,
     /// Loads on its rails, always in the same order.
-    pub loads: Vec<RailLoad>,
+    pub loads: Cow<'a, [RailLoad]>,
     values: StateValues<'a>,
     /// Range of the displacements of its degrees of freedom among the values; their accelerations follow.
     dofs: Range<usize>,
@@ -70,6 +71,8 @@ pub(super) struct LoadStates {
     width: usize,
     /// Row by row.
     values: Vec<f64>,
+    /// The loads, row by row.
+    loads: Vec<RailLoad>,
     /// Times at which loads pass ends of members, counted in rows, increasing.
     corners: Vec<f64>,
 }
@@ -99,24 +102,26 @@ impl LoadStates {
             let sample = history.sample(*row);
             values.extend(channels.iter().map(|c| sample[*c]));
         }
-        let mut out = LoadStates { sources, motions, width: channels.len(), values, corners: Vec::new() };
+        let width = channels.len();
+        let read = |row: &[f64]| sources.iter().map(|source| load(source, &|c| row[c])).collect::<Vec<_>>();
+        let loads = values.chunks(width).flat_map(read).collect();
+        let mut out = LoadStates { sources, motions, width, values, loads, corners: Vec::new() };
         out.corners = out.all_corners(ends);
         out
     }
 
     fn all_corners(&self, ends: &[(usize, f64)]) -> Vec<f64> {
         let mut corners = Vec::new();
-        let mut before: Option<LoadState<'_>> = None;
-        for row in 0..self.len() {
-            let state = self.at_row(row);
-            for (load, (a, b)) in before.iter().flat_map(|s| &s.loads).zip(&state.loads).enumerate() {
+        for row in 1..self.len() {
+            for (load, (a, b)) in self.loads(row - 1).iter().zip(self.loads(row)).enumerate() {
                 let (low, high) = (a.x.min(b.x), a.x.max(b.x));
-                let passed = ends.iter().filter(|(rail, x)| *rail == a.rail && low <= *x && *x <= high);
-                for (_, x) in passed.filter(|_| low < high) {
-                    corners.push((row - 1) as f64 + self.passage(row - 1, load, *x, [a.x, b.x]));
+                if low < high {
+                    let passed = ends.iter().filter(|(rail, x)| *rail == a.rail && low <= *x && *x <= high);
+                    for (_, x) in passed {
+                        corners.push((row - 1) as f64 + self.passage(row - 1, load, *x, [a.x, b.x]));
+                    }
                 }
             }
-            before = Some(state);
         }
         for corner in &mut corners {
             if (*corner - corner.round()).abs() < 1e-5 {
@@ -137,34 +142,45 @@ impl LoadStates {
         &self.values[row * self.width..(row + 1) * self.width]
     }
 
+    /// The loads at a row.
+    pub fn loads(&self, row: usize) -> &[RailLoad] {
+        let count = self.sources.len();
+        &self.loads[row * count..(row + 1) * count]
+    }
+
+    /// Whether any load has a force along +x, upwards and along +z of its rail at any row.
+    pub fn directions(&self) -> [bool; 3] {
+        std::array::from_fn(|k| self.loads.iter().any(|load| load.force[k] != 0.0))
+    }
+
     /// The state at a row.
     pub fn at_row(&self, row: usize) -> LoadState<'_> {
-        self.state(StateValues::Row(self.row(row)))
+        let loads = Cow::Borrowed(self.loads(row));
+        self.state(loads, StateValues::Row(self.row(row)))
     }
 
     /// The state at a time that is counted in rows, between the first and the last.
     pub fn at(&self, position: f64) -> LoadState<'_> {
         match self.between(position) {
             Ok(row) => self.at_row(row),
-            Err(between) => self.state(StateValues::Between(between)),
+            Err(between) => {
+                let loads = self.loads_by(&|c| between.value(c));
+                self.state(loads, StateValues::Between(between))
+            }
         }
     }
 
     /// The coordinate of a load at a time that is counted in rows.
-    fn coordinate(&self, load: usize, position: f64) -> f64 {
+    fn coordinate(&self, index: usize, position: f64) -> f64 {
         match self.between(position) {
-            Ok(row) => self.load(load, &|c| self.row(row)[c]).x,
-            Err(between) => self.load(load, &|c| between.value(c)).x,
+            Ok(row) => self.loads(row)[index].x,
+            Err(between) => load(&self.sources[index], &|c| between.value(c)).x,
         }
     }
 
-    /// A load by the values of a row.
-    fn load(&self, load: usize, value: &dyn Fn(usize) -> f64) -> RailLoad {
-        let (source, first) = &self.sources[load];
-        let count: usize = source.channels().into_iter().map(|range| range.len()).sum();
-        let mut own = [0.0; 4];
-        own[..count].iter_mut().enumerate().for_each(|(k, own)| *own = value(first + k));
-        source.load(&own)
+    /// All loads by the values of a row.
+    fn loads_by(&self, value: &dyn Fn(usize) -> f64) -> Cow<'_, [RailLoad]> {
+        self.sources.iter().map(|source| load(source, value)).collect()
     }
 
     /// What interpolates at a time that is counted in rows; at a row its number instead.
@@ -180,23 +196,23 @@ impl LoadStates {
         }
         let ends = [self.row(row), self.row(row + 1)];
         let time = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
-        let cubics = self.starts(row, position).map(|start| Some(Cubic::new(self.four(start?), time)));
-        Err(Box::new(Between { ends, fraction, cubics }))
+        let starts = self.starts(row, position);
+        Err(Box::new(Between { states: self, ends, fraction, time, starts, cubics: Default::default() }))
     }
 
     fn four(&self, start: usize) -> [&[f64]; 4] {
         std::array::from_fn(|k| self.row(start + k))
     }
 
-    /// First rows of the polynomials for a position behind `row`, best first: four rows without a corner between them.
+    /// First rows of the polynomials for a position behind `row`, best first, as far as there are four rows without a corner
+    /// between them.
     fn starts(&self, row: usize, position: f64) -> [Option<usize>; 3] {
         let own = self.corner_from(row as f64).filter(|corner| *corner <= (row + 1) as f64);
-        let wanted = match own {
+        match own {
             Some(corner) if position <= corner => [row.checked_sub(3), None, None],
             Some(_) => [Some(row + 1), None, None],
             None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
-        };
-        wanted.map(|start| start.filter(|start| self.is_clear(*start)))
+        }
     }
 
     /// Whether there are four rows without a corner from `start`.
@@ -232,14 +248,14 @@ impl LoadStates {
         for (c, out) in out.iter_mut().enumerate().skip(1) {
             *out = cubic.value(c).unwrap_or(*out);
         }
-        self.state(StateValues::Limit(out))
+        self.state(self.loads_by(&|c| out[c]), StateValues::Limit(out))
     }
 
     /// The forces and motions of a row with the places of all loads at another time.
     fn moved(&self, row: usize, at: LoadState<'_>) -> LoadState<'_> {
         let mut out = self.at_row(row);
         out.time = at.time;
-        out.loads.iter_mut().zip(at.loads).for_each(|(load, own)| load.x = own.x);
+        out.loads.to_mut().iter_mut().zip(at.loads.iter()).for_each(|(load, own)| load.x = own.x);
         out
     }
 
@@ -272,35 +288,55 @@ impl LoadStates {
         0.5 * (a + b)
     }
 
-    fn state<'s>(&self, values: StateValues<'s>) -> LoadState<'s> {
-        let value = |c: usize| match &values {
-            StateValues::Row(values) => values[c],
-            StateValues::Limit(values) => values[c],
-            StateValues::Between(between) => between.value(c),
+    fn state<'s>(&self, loads: Cow<'s, [RailLoad]>, values: StateValues<'s>) -> LoadState<'s> {
+        let time = match &values {
+            StateValues::Row(values) => values[0],
+            StateValues::Limit(values) => values[0],
+            StateValues::Between(between) => between.time,
         };
-        let loads = (0..self.sources.len()).map(|load| self.load(load, &value)).collect();
         let dofs = self.motions..self.motions + (self.width - self.motions) / 2;
-        LoadState { time: value(0), loads, values, dofs }
+        LoadState { time, loads, values, dofs }
     }
+}
+
+/// A load by the values of a row; `first` is the place of its first value.
+fn load((source, first): &(LoadSource, usize), value: &dyn Fn(usize) -> f64) -> RailLoad {
+    let count: usize = source.channels().into_iter().map(|range| range.len()).sum();
+    let mut own = [0.0; 4];
+    own[..count].iter_mut().enumerate().for_each(|(k, own)| *own = value(first + k));
+    source.load(&own)
 }
 
 /// A time between two rows.
 #[derive(Clone)]
 struct Between<'a> {
+    states: &'a LoadStates,
     ends: [&'a [f64]; 2],
     fraction: f64,
-    /// Best first.
-    cubics: [Option<Cubic<'a>>; 3],
+    time: f64,
+    /// First rows of the polynomials, best first.
+    starts: [Option<usize>; 3],
+    /// The polynomials, made when the better ones have no value; `None` where a corner lies between their rows.
+    cubics: [OnceCell<Option<Cubic<'a>>>; 3],
 }
 
 impl Between<'_> {
     /// Value `c` of a row.
     fn value(&self, c: usize) -> f64 {
-        let linear = || self.ends[0][c] + self.fraction * (self.ends[1][c] - self.ends[0][c]);
         if c == 0 {
-            return linear();
+            return self.time;
         }
-        self.cubics.iter().flatten().find_map(|cubic| cubic.value(c)).unwrap_or_else(linear)
+        let [from, to] = self.ends.map(|row| row[c]);
+        // all polynomials have one of both ends, and no value beside a zero
+        let is_open = from == 0.0 && to == 0.0;
+        for (start, cubic) in self.starts.iter().zip(&self.cubics).filter(|_| !is_open) {
+            let start = || start.filter(|start| self.states.is_clear(*start));
+            let make = || start().map(|start| Cubic::new(self.states.four(start), self.time));
+            if let Some(value) = cubic.get_or_init(make).as_ref().and_then(|cubic| cubic.value(c)) {
+                return value;
+            }
+        }
+        from + self.fraction * (to - from)
     }
 }
 

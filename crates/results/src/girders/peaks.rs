@@ -45,7 +45,11 @@ impl Peaks {
     /// Adds the value of a row; rows that are left out separate sequences.
     pub fn add(&mut self, row: usize, value: f64) {
         if self.count > 0 && row == self.last + 1 {
-            self.offer(Some(value));
+            let [before, own] = self.values;
+            // a value between its neighbours is no peak
+            if self.count < 2 || (own - before) * (value - own) <= 0.0 {
+                self.offer(Some(value));
+            }
         } else {
             self.finish();
         }

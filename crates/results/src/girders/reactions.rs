@@ -161,8 +161,9 @@ impl Reactions {
     /// Writes all reactions in a state into `out`. Loads that the structure does not resist are neglected.
     fn fill(&self, state: &LoadState, ordinates: &mut Vec<f64>, out: &mut [f64]) {
         ordinates.resize(self.lines.len(), 0.0);
+        let accelerations = state.accelerations();
         for (out, reaction) in out.iter_mut().zip(&self.all) {
-            *out = reaction.apart_from_loads(&state.accelerations());
+            *out = reaction.apart_from_loads(&accelerations);
         }
         for (probe, force) in forces(&state.loads) {
             if self.lines.fill(probe, ordinates).is_ok() {
@@ -290,14 +291,13 @@ fn keep_larger(known: &mut [[Found; 2]], values: &[f64], position: f64) {
 impl Refinement<'_> {
     /// The extremes of all reactions.
     pub fn reactions(&self, reactions: &Reactions) -> Vec<GirderReaction> {
-        let states = &self.girders.states;
+        let states = self.girders.states;
         let count = reactions.all.len();
         let mut peaks = vec![Peaks::default(); count];
         let mut rows = vec![[NONE; 2]; count];
         let mut passages = vec![[NONE; 2]; count];
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
         let mut sizes = [0.0_f64; 2];
-        let mut before: Option<LoadState> = None;
         for row in self.girders.rows() {
             let state = states.at_row(row);
             reactions.fill(&state, &mut ordinates, &mut values);
@@ -307,13 +307,12 @@ impl Refinement<'_> {
                 *size = size.max(value.abs());
             }
             keep_larger(&mut rows, &values, row as f64);
-            if let Some(before) = &before {
-                for (position, state) in self.passed_corners(reactions, row - 1, [before, &state]) {
+            if row > 0 {
+                for (position, state) in self.passed_corners(reactions, row - 1) {
                     reactions.fill(&state, &mut ordinates, &mut values);
                     keep_larger(&mut passages, &values, position);
                 }
             }
-            before = Some(state);
         }
         let mut out = Vec::new();
         if (self.girders.is_stopped)() {
@@ -360,17 +359,13 @@ impl Refinement<'_> {
         out
     }
 
-    /// The states just before and just after each passage of a load over a corner between two rows, with their times. Loads
-    /// that are at other corners at the same time stand on the same side of them.
-    fn passed_corners(
-        &self,
-        reactions: &Reactions,
-        row: usize,
-        [a, b]: [&LoadState; 2],
-    ) -> Vec<(f64, LoadState<'_>)> {
-        let states = &self.girders.states;
+    /// The states just before and just after each passage of a load over a corner between a row and the next, with their
+    /// times. Loads that are at other corners at the same time stand on the same side of them.
+    fn passed_corners(&self, reactions: &Reactions, row: usize) -> Vec<(f64, LoadState<'_>)> {
+        let states = self.girders.states;
+        let [a, b] = [row, row + 1].map(|row| states.loads(row));
         let mut out = Vec::new();
-        for (load, (from, to)) in a.loads.iter().zip(&b.loads).enumerate() {
+        for (load, (from, to)) in a.iter().zip(b).enumerate() {
             let (low, high) = (from.x.min(to.x), from.x.max(to.x));
             let passed =
                 reactions.corners.iter().filter(|(rail, x)| *rail == from.rail && low <= *x && *x <= high);
@@ -378,8 +373,9 @@ impl Refinement<'_> {
                 let position = row as f64 + states.passage(row, load, x, [from.x, to.x]);
                 for is_after in [false, true] {
                     let mut state = states.limit(position, is_after);
-                    state.loads[load].x = x;
-                    for (own, (from, to)) in state.loads.iter_mut().zip(a.loads.iter().zip(&b.loads)) {
+                    let loads = state.loads.to_mut();
+                    loads[load].x = x;
+                    for (own, (from, to)) in loads.iter_mut().zip(a.iter().zip(b)) {
                         let slack = CORNER * (to.x - from.x).abs();
                         if slack == 0.0 {
                             continue;

@@ -124,11 +124,11 @@ impl Refinement<'_> {
 
     /// The state in which a value was found.
     pub fn state_of(&self, found: &GirderValue) -> LoadState<'_> {
-        let states = &self.girders.states;
+        let states = self.girders.states;
         let Some(is_after) = found.is_after else { return states.at(found.position) };
         let mut state = states.limit(found.position, is_after);
         if let Some((load, _)) = found.own {
-            state.loads[load].x = found.x;
+            state.loads.to_mut()[load].x = found.x;
         }
         state
     }

@@ -42,6 +42,8 @@ pub(super) struct Scan {
     pub stresses: StressRows,
     /// Largest magnitude of each quantity, and of both deflections.
     pub sizes: [f64; FORCES + 2],
+    /// Quantities that are not zero throughout.
+    acting: Vec<usize>,
 }
 
 /// A row of girders as a row of a scan.
@@ -65,12 +67,14 @@ impl Scan {
         let [mut all, mut few] = [Scan::empty(fine, true), Scan::empty(coarse, true)];
         let mut next = 0;
         for row in fine.rows() {
-            let mut targets = vec![Target::new(&mut all, fine, row)];
+            let state = fine.states.at_row(row);
+            let own = Target::new(&mut all, fine, row);
             if chosen.get(next) == Some(&row) {
-                targets.push(Target::new(&mut few, coarse, next));
+                add_row(&mut [own, Target::new(&mut few, coarse, next)], fine, &state);
                 next += 1;
+            } else {
+                add_row(&mut [own], fine, &state);
             }
-            add_row(&mut targets, fine, &fine.states.at_row(row));
         }
         [all.finished(fine), few.finished(coarse)]
     }
@@ -91,7 +95,7 @@ impl Scan {
             first_span.push(first_span[first_span.len() - 1] + rail.ends.len() + 1);
         }
         let is_counted = has_loads && girders.states.len() > 0;
-        let loads = if is_counted { girders.states.at_row(0).loads.len() } else { 0 };
+        let loads = if is_counted { girders.states.loads(0).len() } else { 0 };
         let spans = first_span[first_span.len() - 1];
         Scan {
             sections: vec![ForcePeaks::default(); sections.sections.len()],
@@ -102,14 +106,14 @@ impl Scan {
             passages: Vec::new(),
             stresses: StressRows::new(&sections.stressed, sections.sections.len(), loads),
             sizes: [0.0; FORCES + 2],
+            acting: girders.acting(),
         }
     }
 
     /// Ends all sequences, and adds the sections that loads pass between the rows.
     fn finished(mut self, girders: &LoadedGirders<'_>) -> Scan {
         for row in girders.rows().skip(1) {
-            let [before, after] = [row - 1, row].map(|row| girders.states.at_row(row));
-            self.add_passages(girders, row - 1, &before, &after);
+            self.add_passages(girders, row - 1);
         }
         let forces = self.sections.iter_mut().chain(&mut self.wheels).flatten();
         let deflections = self.points.iter_mut().chain(&mut self.under).flatten();
@@ -133,34 +137,23 @@ impl Scan {
         *size = values.iter().fold(*size, |most, value| most.max(value.abs()));
     }
 
-    /// Adds the sections that loads pass between two rows.
-    fn add_passages(
-        &mut self,
-        girders: &LoadedGirders<'_>,
-        row: usize,
-        a: &LoadState<'_>,
-        b: &LoadState<'_>,
-    ) {
+    /// Adds the sections that loads pass between a row and the next.
+    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize) {
         let sections = girders.sections;
-        for (load, (from, to)) in a.loads.iter().zip(&b.loads).enumerate() {
-            if from.force == [0.0; 3] && to.force == [0.0; 3] {
+        let [before, after] = [row, row + 1].map(|row| girders.states.loads(row));
+        for (load, (from, to)) in before.iter().zip(after).enumerate() {
+            // a load that rests is at the same place at all rows
+            if (from.force == [0.0; 3] && to.force == [0.0; 3]) || (from.x == to.x && row > 0) {
                 continue;
             }
-            let (low, high) = (from.x.min(to.x), from.x.max(to.x));
-            for (index, section) in sections.sections.iter().enumerate() {
+            for index in sections.between(from.rail, [from.x.min(to.x), from.x.max(to.x)]) {
+                let section = &sections.sections[index];
                 let point = sections.points[section.point];
-                if sections.rails[point.rail].rail != from.rail || point.x < low || point.x > high {
-                    continue;
-                }
-                // a load that rests is at the same place at all rows
-                if from.x == to.x && row > 0 {
-                    continue;
-                }
                 let fraction = girders.states.passage(row, load, point.x, [from.x, to.x]);
                 let position = row as f64 + fraction;
                 for (is_after, is_behind) in passing(section.side, from.x <= to.x) {
                     let mut state = girders.states.limit(position, is_after);
-                    state.loads[load].x = point.x;
+                    state.loads.to_mut()[load].x = point.x;
                     let own = Some((load, is_behind));
                     let values = girders.forces_in(section.member, section.place, &state, own);
                     let sizes = self.sizes.iter_mut().zip(values);
@@ -199,7 +192,7 @@ fn add_forces(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &L
             let place = sections.sections[section].place;
             let values = girders.sum(index, place, state, &passed, None);
             for Target { scan, row, .. } in targets.iter_mut() {
-                add(&mut scan.sections[section], &mut scan.sizes, *row, &values);
+                add(&mut scan.sections[section], (&scan.acting, &mut scan.sizes), *row, &values);
                 scan.stresses.add_section(section, fibres, *row, &values);
             }
         }
@@ -216,7 +209,7 @@ fn add_forces(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &L
                 let values = girders.sum(index, place, state, &passed, Some((load, is_behind)));
                 for Target { scan, row, .. } in targets.iter_mut() {
                     let at = scan.wheel(load, is_behind, rail, span);
-                    add(&mut scan.wheels[at], &mut scan.sizes, *row, &values);
+                    add(&mut scan.wheels[at], (&scan.acting, &mut scan.sizes), *row, &values);
                     scan.stresses.add_wheel((load, is_behind), fibres, *row, &values);
                 }
             }
@@ -260,9 +253,10 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
     }
 }
 
-fn add(peaks: &mut ForcePeaks, sizes: &mut [f64], row: usize, values: &[f64; FORCES]) {
-    for ((own, size), value) in peaks.iter_mut().zip(sizes).zip(values) {
-        *size = size.max(value.abs());
-        own.add(row, *value);
+/// Adds the quantities that are not zero throughout.
+fn add(peaks: &mut ForcePeaks, (acting, sizes): (&[usize], &mut [f64]), row: usize, values: &[f64; FORCES]) {
+    for &k in acting {
+        sizes[k] = sizes[k].max(values[k].abs());
+        peaks[k].add(row, values[k]);
     }
 }

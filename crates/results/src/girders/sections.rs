@@ -154,6 +154,24 @@ impl Sections {
         Sections { rails, points, sections, of_member, stressed: StressedSections::default() }
     }
 
+    /// The sections of a rail of the structure between two coordinates, both included.
+    pub fn between(&self, rail: usize, [low, high]: [f64; 2]) -> impl Iterator<Item = usize> + '_ {
+        let of_rail = (0..self.rails.len()).filter(move |index| self.rails[*index].rail == rail);
+        of_rail.flat_map(move |index| {
+            // in the order of the points: rail by rail with increasing coordinates
+            let place = |section: &MemberSection| {
+                let point = self.points[section.point];
+                (point.rail, point.x)
+            };
+            let first = self.sections.partition_point(|section| place(section) < (index, low));
+            let own = move |at: &usize| {
+                let (rail, x) = place(&self.sections[*at]);
+                rail == index && x <= high
+            };
+            (first..self.sections.len()).take_while(own)
+        })
+    }
+
     /// Sections of the same rails at those of `places` (index in the list of rails, coordinate) that have none.
     pub fn at(&self, places: &[(usize, f64)], members: &MemberForces) -> Sections {
         let mut rails = self.rails.clone();

@@ -80,7 +80,8 @@ pub(super) struct SpanExtremes {
     pub values: Vec<SpanValue>,
     /// Those of the coarser choice of rows.
     pub coarse: Vec<SpanValue>,
-    /// The scan from which they follow.
+    /// The states at these rows, and the scan from which the extremes follow.
+    states: LoadStates,
     scan: Scan,
     pub sizes: [f64; FORCES + 2],
     /// The rows that were evaluated.
@@ -166,7 +167,7 @@ impl<'a> PreparedGirders<'a> {
         &'b self,
         Rows { foundations, .. }: Rows<'b>,
         (sections, points): (&'b Sections, &'b PointDeflections<'b>),
-        states: LoadStates,
+        states: &'b LoadStates,
         most_deflections: usize,
     ) -> LoadedGirders<'b> {
         LoadedGirders {
@@ -195,14 +196,15 @@ impl<'a> PreparedGirders<'a> {
         let states = self.states(rows, &chosen.rows);
         let points = PointDeflections::new(&rows.foundations[self.s], &self.sections, &states);
         let places = (&self.sections, &points);
-        let fine = self.loaded(rows, places, states, chosen.most_deflections);
-        let coarse = self.loaded(rows, places, self.states(rows, &few), chosen.most_deflections);
+        let fine = self.loaded(rows, places, &states, chosen.most_deflections);
+        let few = self.states(rows, &few);
+        let coarse = self.loaded(rows, places, &few, chosen.most_deflections);
         let [scan, few] = Scan::both(&fine, &coarse, &chosen.coarse);
         let values = |girders: &LoadedGirders<'_>, scan: &Scan| {
             Refinement { girders, scan, sizes: scan.sizes, accuracy }.spans()
         };
         let (values, coarse) = (values(&fine, &scan), values(&coarse, &few));
-        SpanExtremes { values, coarse, sizes: scan.sizes, scan, chosen }
+        SpanExtremes { values, coarse, sizes: scan.sizes, states, scan, chosen }
     }
 
     /// The extremes of spans and reactions as results, and the envelopes at all places and at those of the extremes.
@@ -213,8 +215,8 @@ impl<'a> PreparedGirders<'a> {
         accuracy: f64,
     ) -> (Vec<GirderExtreme>, Vec<GirderEnvelope>, GirderStresses, Vec<GirderReaction>) {
         let (sizes, most) = (found.sizes, found.chosen.most_deflections);
-        let (foundation, states) = (&rows.foundations[self.s], self.states(rows, &found.chosen.rows));
-        let points = PointDeflections::new(foundation, &self.sections, &states);
+        let (foundation, states) = (&rows.foundations[self.s], &found.states);
+        let points = PointDeflections::new(foundation, &self.sections, states);
         let girders = self.loaded(rows, (&self.sections, &points), states, most);
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
@@ -223,8 +225,7 @@ impl<'a> PreparedGirders<'a> {
         let mut all = envelopes(&refinement);
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
-        let states = girders.states;
-        let points = PointDeflections::new(foundation, &sections, &states);
+        let points = PointDeflections::new(foundation, &sections, states);
         let girders = self.loaded(rows, (&sections, &points), states, most);
         let scan = Scan::of_sections(&girders);
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::DMatrix;
-use splines::{Compliance, Error, ExactSurface, Influence, Probe, Rails};
+use splines::{Compliance, Error, ExactSurface, Influence, PlaceDisplacements, Probe, Rails};
 
 use super::structure::Shapes;
 use crate::numerics::step::step;
@@ -126,6 +126,21 @@ fn spread(chains: &[PartChain], at: &[Probe]) -> Result<(Vec<Probe>, Vec<Owner>)
     Ok((probes, owners))
 }
 
+/// The shares of the parts in loads.
+fn carried(chains: &[PartChain], loads: &[(Probe, f64)]) -> Result<Vec<(Probe, f64)>, Error> {
+    let at: Vec<Probe> = loads.iter().map(|(probe, _)| *probe).collect();
+    let (probes, owners) = spread(chains, &at)?;
+    Ok(probes.into_iter().zip(owners).map(|(probe, (i, share))| (probe, share[0] * loads[i].1)).collect())
+}
+
+/// Writes the displacements of places by those of the parts that carry them.
+fn blend(owners: &[Owner], moved: &[f64], out: &mut [f64]) {
+    out.fill(0.0);
+    for ((i, share), moved) in owners.iter().zip(moved) {
+        out[*i] += share[0] * moved;
+    }
+}
+
 impl Compliance for BlendedParts {
     fn fill(&self, at: &[Probe], out: &mut Influence) -> Result<(), Error> {
         let (probes, owners) = spread(&self.chains, at)?;
@@ -143,6 +158,20 @@ impl Compliance for BlendedParts {
         Ok(())
     }
 
+    fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
+        let (probes, owners) = spread(&self.chains, at)?;
+        let mut moved = vec![0.0; probes.len()];
+        self.surface.displacements(&probes, &carried(&self.chains, loads)?, &mut moved)?;
+        blend(&owners, &moved, out);
+        Ok(())
+    }
+
+    fn at_places<'a>(&'a self, at: &[Probe]) -> Result<Box<dyn PlaceDisplacements + 'a>, Error> {
+        let (probes, owners) = spread(&self.chains, at)?;
+        let places = self.surface.at_places(&probes)?;
+        Ok(Box::new(BlendedPlaces { places, owners, count: at.len(), chains: &self.chains }))
+    }
+
     fn breaks(&self, rail: usize) -> Vec<f64> {
         self.chains.get(rail).map_or_else(Vec::new, PartChain::breaks)
     }
@@ -153,6 +182,28 @@ impl Compliance for BlendedParts {
 
     fn is_symmetric(&self) -> bool {
         true
+    }
+}
+
+/// Displacements of fixed places of blended parts: those of the places on the parts, with the weights of the parts, under
+/// the shares of the parts in the loads.
+struct BlendedPlaces<'a> {
+    places: Box<dyn PlaceDisplacements + 'a>,
+    owners: Vec<Owner>,
+    count: usize,
+    chains: &'a [PartChain],
+}
+
+impl PlaceDisplacements for BlendedPlaces<'_> {
+    fn under(&self, loads: &[(Probe, f64)], also: &[Probe], out: &mut [f64]) -> Result<(), Error> {
+        let (others, owners) = spread(self.chains, also)?;
+        let mut moved = vec![0.0; self.owners.len() + others.len()];
+        self.places.under(&carried(self.chains, loads)?, &others, &mut moved)?;
+        let (own, others) = moved.split_at(self.owners.len());
+        let (out, also) = out.split_at_mut(self.count);
+        blend(&self.owners, own, out);
+        blend(&owners, others, also);
+        Ok(())
     }
 }
 
