@@ -80,9 +80,10 @@ fn displacements_under_loads_are_sums_of_coefficients() {
         let all: Vec<Probe> = places.iter().copied().chain(loads.iter().map(|load| load.0)).collect();
         let mut give = Influence::zeros(all.len());
         parts.fill(&all, &mut give).expect("on the rail");
-        let of =
-            |i: usize| loads.iter().enumerate().map(|(j, load)| give.value[(i, places.len() + j)] * load.1);
-        let wanted: Vec<f64> = (0..places.len()).map(|i| of(i).sum()).collect();
+        let of = |i: usize| -> f64 {
+            loads.iter().enumerate().map(|(j, load)| give.value[(i, places.len() + j)] * load.1).sum()
+        };
+        let wanted: Vec<f64> = (0..places.len()).map(of).collect();
         let size = wanted.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let (mut direct, mut prepared) = (vec![1.0; places.len()], vec![1.0; places.len()]);
         parts.displacements(&places, &loads, &mut direct).expect("on the rail");
