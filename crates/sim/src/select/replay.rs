@@ -8,8 +8,8 @@
 //! ```
 //!
 //! with L a the inertia force of the body that carries the structure. The solution is exact for forces that are linear
-//! between the samples, but where a wheel passes a step of its rail or meets it with a damper: there they jump. What the run lacks is the difference of the modes from their static deflection, which the
-//! residual flexibility contains:
+//! between the samples, but where a wheel passes a step of its rail or meets it with a damper: there they jump. What the
+//! run lacks is the difference of the modes from their static deflection, which the residual flexibility contains:
 //!
 //! ```text
 //! delta = sum over r > m of phi_r (q_r - sum of phi_r F / omega_r^2)       at wheels and gauges,
@@ -129,8 +129,9 @@ struct Oscillator {
     load: f64,
     /// Rate of the load in the last step.
     rate: f64,
-    /// Values of the free oscillation after a step: by displacement and velocity at its start.
+    /// Values of the free oscillation after a step of this length: by displacement and velocity at its start.
     step: [[f64; 2]; 2],
+    length: f64,
 }
 
 impl Oscillator {
@@ -142,6 +143,7 @@ impl Oscillator {
 
     /// Coefficients of a step of length `h`.
     fn set_step(&mut self, h: f64) {
+        self.length = h;
         let (omega, ratio) = (self.omega, self.ratio);
         let free = omega * (1.0 - ratio * ratio).sqrt();
         let (sin, cos) = (free * h).sin_cos();
@@ -157,15 +159,16 @@ impl Oscillator {
     /// with the rate of the step before.
     fn jump(&mut self, h: f64, share: f64, load: f64) {
         let steady = self.rate * h;
-        self.set_step(share * h);
         self.advance(share * h, self.load + share * steady);
         self.load = load - (1.0 - share) * steady;
-        self.set_step((1.0 - share) * h);
         self.advance((1.0 - share) * h, load);
     }
 
     /// Takes a step of length `h`, in which the load changes linearly to `load`.
     fn advance(&mut self, h: f64, load: f64) {
+        if (h - self.length).abs() > 1e-9 * h {
+            self.set_step(h);
+        }
         let (stiffness, rate) = (self.omega * self.omega, (load - self.load) / h);
         self.rate = rate;
         let lag = 2.0 * self.ratio / self.omega * rate;
@@ -216,7 +219,6 @@ struct Replay<'a> {
     effects: Vec<(&'a [f64], Slot)>,
     /// First channels of the speeds of the carrying body.
     carrier: Option<usize>,
-    length: f64,
     /// Loads on the modes by the wheels at the last sample.
     by_wheels: Vec<f64>,
     /// Vertical shapes of the modes under the wheels and their slopes, wheel by wheel.
@@ -275,7 +277,6 @@ impl<'a> Replay<'a> {
             drives,
             effects,
             carrier,
-            length: 0.0,
             by_wheels: Vec::new(),
             shapes: Vec::new(),
             slopes: Vec::new(),
@@ -307,12 +308,7 @@ impl<'a> Replay<'a> {
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.begin(*load));
         } else if let Some(share) = jump.filter(|_| h > 0.0) {
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.jump(h, share, *load));
-            self.length = f64::NAN;
         } else if h > 0.0 {
-            if (h - self.length).abs() > 1e-9 * h {
-                self.oscillators.iter_mut().for_each(|mode| mode.set_step(h));
-                self.length = h;
-            }
             self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.advance(h, *load));
         }
         let modes = || self.oscillators.iter().zip(&by_wheels).zip(&other);

@@ -274,33 +274,31 @@ impl NodeForces {
     fn set_tangents(&mut self, solver: &Solver, motion: &NodeMotion, is_first: bool) {
         let (system, from, m) = (solver.system(), motion.from, motion.from.force.len());
         let (s, size) = (motion.nodes.count(), self.force.len());
+        let mut tangents = std::mem::take(&mut self.tangents);
+        tangents.clear();
         let tangent = |&at: &usize| {
             let (a, i) = (at / m, at % m);
             let law = system.law(i);
             if law.is_linear() {
                 return Tangent { by_penetration: law.stiffness, by_rate: law.damping, rest: 0.0 };
             }
-            let penetration = |l: usize| {
-                let line = &self.effect[(l * m + i) * size..(l * m + i + 1) * size];
-                self.approach[l * m + i] - dot(line, &self.force)
-            };
+            let penetration = |l: usize| self.penetration(l * m + i);
             let [p, rate] = if is_first {
                 [from.p[i], from.p_rate[i]]
             } else if solver.remembers(i) {
                 let by = |l: usize| motion.nodes.rate[a * s + l] / motion.h;
                 [penetration(a), (0..s).map(|l| by(l) * (penetration(l) - from.p[i])).sum()]
-            } else if system.fixed[i].feels_rates {
-                [
-                    penetration(a),
-                    self.rate[at] - dot(&self.rate_effect[at * size..(at + 1) * size], &self.force),
-                ]
             } else {
-                [penetration(a), self.rate[at]]
+                let feels_rates = system.fixed[i].feels_rates;
+                let effects =
+                    feels_rates.then(|| dot(&self.rate_effect[at * size..(at + 1) * size], &self.force));
+                [penetration(a), self.rate[at] - effects.unwrap_or(0.0)]
             };
             let LawValue { force, by_penetration, by_rate } = law.at(p, rate);
             Tangent { by_penetration, by_rate, rest: force - by_penetration * p - by_rate * rate }
         };
-        self.tangents = self.index.iter().map(tangent).collect();
+        tangents.extend(self.index.iter().map(tangent));
+        self.tangents = tangents;
     }
 
     /// Solves for the forces at all nodes by the tangents of their laws; the solution replaces the right side.
@@ -336,15 +334,20 @@ impl NodeForces {
         solve_general(&mut self.matrix[..count * count], &mut self.right[..count])
     }
 
+    /// Penetration at a (node, element) by the influence of all forces.
+    fn penetration(&self, place: usize) -> f64 {
+        let size = self.force.len();
+        self.approach[place] - dot(&self.effect[place * size..(place + 1) * size], &self.force)
+    }
+
     /// Sets the forces and penetrations of `at` at node `a`, p = e - (G + R Q S) F, where the influence of the forces is known,
     /// because it rounds least, and p = R q + offset - G F at its displacements q otherwise.
     pub fn penetrate(&self, a: usize, geometry: &Geometry, at: &mut State) {
-        let (m, size) = (at.force.len(), self.force.len());
+        let m = at.force.len();
         at.force.copy_from_slice(&self.force[a * m..(a + 1) * m]);
         for i in 0..m {
-            let place = a * m + i;
             at.p[i] = if self.has_effects {
-                self.approach[place] - dot(&self.effect[place * size..(place + 1) * size], &self.force)
+                self.penetration(a * m + i)
             } else {
                 geometry.approach(i, &at.q) - geometry.deflection(i, &at.force)
             };

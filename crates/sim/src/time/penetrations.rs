@@ -149,13 +149,16 @@ impl Penetrations {
         for (a, node) in self.followed.iter().enumerate() {
             let weights = slopes(PLACES[a]);
             for (c, &i) in self.contacts.iter().enumerate() {
-                let slope: f64 =
-                    self.differences.iter().zip(weights).map(|(own, weight)| weight * own[c]).sum();
-                let rate = node.rate[c] + slope / self.h;
+                let rate = node.rate[c] + self.slope(weights, c);
                 laws.push(solver.law_of(i, node.value[c] + self.differences[a][c], rate));
             }
         }
         laws
+    }
+
+    /// Rate of the difference of contact `r` where the slopes have these weights.
+    fn slope(&self, weights: [f64; 4], r: usize) -> f64 {
+        self.differences.iter().zip(weights).map(|(own, weight)| weight * own[r]).sum::<f64>() / self.h
     }
 
     /// Whether the equation holds for contact `r` at place `a`, instead of a difference that is known.
@@ -224,8 +227,7 @@ impl Penetrations {
         let Some(followed) = solver.followed(at, &self.contacts, &self.stiffness) else { return Ok(()) };
         let weights = slopes(share);
         for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
-            let slope: f64 = self.differences.iter().zip(weights).map(|(own, weight)| weight * own[r]).sum();
-            at.p_rate[i] = followed.rate[r] + slope / self.h;
+            at.p_rate[i] = followed.rate[r] + self.slope(weights, r);
         }
         Ok(())
     }

@@ -37,7 +37,6 @@ fn steps_of_a_mode_follow_its_equation_exactly_under_a_load_of_straight_pieces()
         mode.begin(samples[0].1);
         for pair in samples.windows(2) {
             let h = pair[1].0 - pair[0].0;
-            mode.set_step(h);
             mode.advance(h, pair[1].1);
             // The ends of the pieces are ends of steps of the integration: its step is 1/10000.
             let steps = (pair[1].0 * 1e4).round() as u32;
@@ -73,7 +72,6 @@ fn a_jump_of_the_load_within_a_step_excites_modes_of_short_periods() {
 fn a_mode_begins_at_rest_in_its_static_deflection() {
     let mut mode = Oscillator { omega: 3.0, ratio: 0.1, ..Oscillator::default() };
     mode.begin(18.0);
-    mode.set_step(0.37);
     for _ in 0..5 {
         mode.advance(0.37, 18.0);
         let [q, v, a] = mode.state;
