@@ -273,6 +273,16 @@ fn end(method: Method, law: NormalLaw, foundation: Foundation, steps: u32) -> Re
     Ok([step.to.q[0], step.to.v[0]])
 }
 
+/// Errors of height and speed at the end with each number of steps.
+fn errors(
+    counts: [u32; 3],
+    wanted: [f64; 2],
+    found: impl Fn(u32) -> Result<[f64; 2], Error>,
+) -> Result<Vec<f64>, Error> {
+    let error = |found: [f64; 2]| (found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1]));
+    counts.into_iter().map(|steps| found(steps).map(error)).collect()
+}
+
 /// The order is measured between the two finest of three steps. The reference is Gauss of order 6, or Radau if the
 /// damper rules out Gauss.
 #[test]
@@ -315,11 +325,7 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
                     _ if name == "full" => [40, 80, 160],
                     _ => [20, 40, 80],
                 };
-                let mut errors = Vec::new();
-                for steps in counts {
-                    let found = end(method, wheel(), foundation(), steps)?;
-                    errors.push((found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1])));
-                }
+                let errors = errors(counts, wanted, |steps| end(method, wheel(), foundation(), steps))?;
                 let seen = slope(&errors[1..]);
                 println!("{name}, damper {law}, {method:?}: order {seen:.3} for {order}, {errors:?}");
                 // With few steps the fastest modes of the mesh are not resolved yet, and the order is approached from above.
@@ -359,11 +365,7 @@ fn methods_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error>
             let law = || NormalLaw { exponent: 1.5, ..NormalLaw::linear(300.0, 2.0, damper) };
             let wanted = end(Method::Radau, law(), foundation(), finest)?;
             for (method, order, counts) in cases {
-                let mut errors = Vec::new();
-                for steps in counts {
-                    let found = end(method, law(), foundation(), steps)?;
-                    errors.push((found[0] - wanted[0]).hypot(0.1 * (found[1] - wanted[1])));
-                }
+                let errors = errors(counts, wanted, |steps| end(method, law(), foundation(), steps))?;
                 let seen = slope(&errors[1..]);
                 println!("{name}, {damper:?}, {method:?}: order {seen:.3} for {order}, {errors:?}");
                 // With few steps the fastest modes are not resolved yet, and the order is approached from above.
