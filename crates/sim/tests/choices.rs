@@ -131,15 +131,18 @@ fn runs_that_only_check_are_coarse_and_the_run_of_the_result_is_not() {
 }
 
 impl Beam {
-    /// Numbers of modes of the runs with modes, each once.
+    /// Numbers of modes of the runs with modes, each once, in the order of their first runs.
     fn counts(&self) -> Vec<usize> {
         let modal = self.runs.iter().filter_map(|(fidelity, _)| match fidelity {
             Fidelity::Modal(count) => Some(*count),
             _ => None,
         });
-        let mut counts: Vec<usize> = modal.collect();
-        counts.dedup();
-        counts
+        modal.fold(Vec::new(), |mut counts, own| {
+            if !counts.contains(&own) {
+                counts.push(own);
+            }
+            counts
+        })
     }
 }
 

@@ -12,14 +12,16 @@
 //!    the new run is chosen. There the wheels meet a structure at rest, modes that are left out would begin to move at
 //!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
 //!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
-//!    the new run changes the quantities by its error there, whatever the wheels amplify. Where this exceeds the tolerance
-//!    and the steps cause more than half of it, the new run is repeated with that finer accuracy.
+//!    the new run changes the quantities by its error there, whatever the wheels amplify. By values at equal times, errors
+//!    of motions and wheel forces that grow during the start are taken to grow on as long as the wheels remember their
+//!    bounces ([`drift`]). Where the error exceeds the tolerance and the steps cause more than half of it, the new run is
+//!    repeated with that finer accuracy.
 //! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
 //!    of it in reactions and internal forces, where the errors of the steps of both runs are larger), and otherwise the new
 //!    run if its error is within 0.8 of the tolerance (within the tolerance where no further run would help), and so is that
-//!    of its start. If neither is, the number of modes is raised by
-//!    the new estimates, and steps 3 and 4 are repeated, up to three times. After that the error is reported as exceeding the
-//!    tolerance.
+//!    of its start. If neither is, the number of modes is raised to one whose new estimate is within the tolerance, or else to
+//!    the largest known one, and steps 3 and 4 are repeated, up to three times. After that the error is reported as exceeding
+//!    the tolerance. Where even the largest number leaves an error far beyond the tolerance, more modes are not tried.
 //!
 //! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
 //! where the estimate of step 2 leaves it open whether they suffice, have only the accuracy of a tenth of the tolerance;
@@ -29,8 +31,8 @@
 
 use std::ops::ControlFlow;
 
-use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, slowest_bounce};
-use super::measure::{Bounces, MANY, Measure, Record, difference};
+use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, remembered_time, slowest_bounce};
+use super::measure::{Bounces, MANY, Measure, Record, difference, drift};
 use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
 use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
@@ -51,10 +53,12 @@ const CHECKED: f64 = 0.015;
 const ABOVE_CONTACT: f64 = 3.0;
 /// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
 const NEGLIGIBLE: f64 = 0.1;
-/// Ratio of the estimates for two numbers of modes up to which the larger number is no better, where neither suffices.
+/// Estimate for the largest number of modes, relative to the tolerance, above which no number is expected to suffice.
+const UNREACHABLE: f64 = 30.0;
+/// Ratio of the estimates for two numbers of modes up to which the larger number is no better in this case.
 const NO_BETTER: f64 = 1.5;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
-const AMPLIFICATION: [f64; 2] = [0.25, 10.0];
+const AMPLIFICATION: [f64; 2] = [1.0, 30.0];
 /// Part of the run that is repeated with more modes, and the least number of its output steps.
 const START: (f64, usize) = (0.125, 2);
 /// Estimate for the number of modes of this repetition, relative to that of the run itself, and the largest ratio with
@@ -64,9 +68,6 @@ const START_RATIO: [f64; 2] = [0.3, 0.5];
 const START_ACCURACY: (f64, f64) = (0.1, 0.2);
 /// Share of the error at the start by the steps from which the run is repeated with finer ones.
 const BY_STEPS: f64 = 0.5;
-/// Error by the modes above all known ones, relative to that by the upper third of the known ones. Reactions and shear
-/// forces converge like 1/n, for which the ratio is 2; in scenes with such errors it was up to 3.
-const UNKNOWN_MODES: f64 = 3.0;
 /// The factor where there are no two runs to compare.
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
@@ -154,26 +155,41 @@ struct Open {
 }
 
 impl Open {
+    /// Number of modes that are known.
+    fn known(&self) -> usize {
+        self.basis.structure.dynamics.dofs()
+    }
+
     /// Smallest number of modes, at least `least`, whose estimate is at most `limit`; all modes if there is none and they
     /// are the whole structure.
     fn sufficient_count(&self, limit: f64, least: usize) -> Option<usize> {
         let found = self.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
-        let whole = Some(self.basis.structure.dynamics.dofs()).filter(|_| self.basis.is_whole);
+        let whole = Some(self.known()).filter(|_| self.basis.is_whole);
         found.map(|tail| tail.kept).or(whole)
     }
 
-    /// The same, and all modes where no number suffices. Where the estimate for the most modes exceeds even the
-    /// tolerance, it is the smallest number whose estimate is that one by no more than the factor [`NO_BETTER`].
-    fn count_for(&self, limit: f64, least: usize) -> usize {
-        let best = self.tails.last().map(|tail| tail.error).filter(|error| *error > self.tolerance);
-        let enough = || self.sufficient_count(NO_BETTER * best?, least);
-        self.sufficient_count(limit, least).or_else(enough).unwrap_or(self.basis.structure.dynamics.dofs())
+    /// The same; where there is none, the smallest number whose estimate, times `factor`, is within the tolerance with
+    /// the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far beyond the
+    /// tolerance ([`UNREACHABLE`]), it is the smallest number that is as good but for the factor [`NO_BETTER`].
+    fn count_for(&self, limit: f64, factor: f64, least: usize) -> Option<usize> {
+        let within = || self.sufficient_count(SAFE / factor * self.tolerance, least);
+        let last = || self.tails.last().filter(|last| last.kept >= least);
+        let most = || {
+            let last = last()?;
+            let is_unreachable = last.error > UNREACHABLE * self.tolerance;
+            if is_unreachable {
+                self.sufficient_count(NO_BETTER * last.error, least)
+            } else {
+                Some(last.kept)
+            }
+        };
+        self.sufficient_count(limit, least).or_else(within).or_else(most)
     }
 
     /// Number of modes with which the start of a run with `count` modes is repeated, and the ratio of the estimates for the
     /// two numbers; `None` where no more modes are known.
     fn beyond(&self, count: usize) -> Option<(usize, f64)> {
-        let known = self.basis.structure.dynamics.dofs();
+        let known = self.known();
         let own = self.tail(count).error;
         if count == 0 || known <= count || own == 0.0 {
             return None;
@@ -188,11 +204,10 @@ impl Open {
         self.basis.structure.dynamics.frequencies().iter().filter(|own| **own < omega).count()
     }
 
-    /// The estimate for `kept` modes; for all known ones it is extrapolated from the last known estimate.
+    /// The estimate for `kept` modes; for all known ones it is that of the largest number that has one.
     fn tail(&self, kept: usize) -> TailError {
         let found = self.tails.iter().find(|tail| tail.kept == kept).cloned();
-        let last = self.tails.last().filter(|_| !self.basis.is_whole);
-        let beyond = || last.map(|last| TailError { error: UNKNOWN_MODES * last.error, ..last.clone() });
+        let beyond = || self.tails.last().filter(|_| !self.basis.is_whole).cloned();
         found.or_else(beyond).unwrap_or(TailError { kept, error: 0.0, quantity: String::new() })
     }
 }
@@ -328,7 +343,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             if own.tail(0).error > aim {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
                 self.estimate(own, first, compliances, 1, limit);
-                *count = own.count_for(limit, 1).max(least.min(own.count_for(NEGLIGIBLE * aim, 1)));
+                let enough = |limit: f64| own.count_for(limit, UNKNOWN, 1).unwrap_or(own.known());
+                *count = enough(limit).max(least.min(enough(NEGLIGIBLE * aim)));
             }
         }
         (counts, is_hopeless)
@@ -360,27 +376,15 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 let error = TailError { kept: 0, error, quantity: apart.quantity };
                 return self.choose_lower(&open, lower, higher, &error);
             }
-            let is_within = |own: &Open, count: usize, factor: f64| {
-                factor * own.tail(count).error <= SAFE * own.tolerance
-            };
             let mut start = None;
-            let is_last = |own: &Open, count: usize| count >= own.basis.structure.dynamics.dofs();
-            let may_be_chosen =
-                |own: &Open, count: usize| is_within(own, count, factor) || is_last(own, count);
-            if open.iter().zip(&counts).all(|(own, count)| may_be_chosen(own, *count)) {
+            let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
+            let is_unreachable = factor * lacking > UNREACHABLE * strictest.value;
+            if raised == counts && !is_unreachable {
                 (higher, start) = self.check_start(&open, &counts, higher, strictest, bounces)?;
                 let found = start.as_ref().map_or(0.0, |start| start.error);
                 if found > strictest.value {
                     factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
-                }
-            }
-            let mut raised = counts.clone();
-            for (own, count) in open.iter_mut().zip(&mut raised) {
-                if !is_within(own, *count, factor) {
-                    let limit = AIM * own.tolerance / factor;
-                    self.estimate(own, &higher, &compliances, *count + 1, limit);
-                    let Some(sufficient) = own.sufficient_count(limit, *count + 1) else { continue };
-                    *count = sufficient.max(*count);
+                    raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
                 }
             }
             if raised == counts || round == MODAL_RUNS {
@@ -390,6 +394,27 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
         Ok(lower)
+    }
+
+    /// Numbers of modes after a run with `counts` modes whose errors are `factor` times their estimates: those of structures
+    /// whose error is too large are raised as far as that helps.
+    fn raised(
+        &mut self,
+        open: &mut [Open],
+        counts: &[usize],
+        factor: f64,
+        higher: &Trial,
+        compliances: &[Foundation],
+    ) -> Vec<usize> {
+        let mut raised = counts.to_vec();
+        for (own, count) in open.iter_mut().zip(&mut raised) {
+            if factor * own.tail(*count).error > SAFE * own.tolerance {
+                let limit = AIM * own.tolerance / factor;
+                self.estimate(own, higher, compliances, *count + 1, limit);
+                *count = own.count_for(limit, factor, *count).unwrap_or(*count);
+            }
+        }
+        raised
     }
 
     /// Step 4 of the head of this module: the run `higher` with `counts` modes, repeated where its steps are too coarse, and
@@ -460,7 +485,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             own.values[..count].copy_from_slice(&finer.values[..count]);
         }
         let apart = difference(&replaced, &higher.record, measure, bounces);
-        let error = TailError { kept: 0, error: apart.largest / (1.0 - ratio), quantity: apart.quantity };
+        let drift = drift(&replaced, &higher.record, [start, remembered_time(&self.scene)]);
+        let (apart, quantity) = if measure == Measure::History && drift.0 > apart.largest {
+            drift
+        } else {
+            (apart.largest, apart.quantity)
+        };
+        let error = TailError { kept: 0, error: apart / (1.0 - ratio), quantity };
         for own in open {
             let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
             if fidelity != Fidelity::Influence {
@@ -524,7 +555,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.choices[own.choice].failed.push(Fidelity::Influence);
         }
         let compliances = std::mem::take(&mut first.foundations);
-        let mut counts: Vec<usize> = open.iter().map(|own| own.basis.structure.dynamics.dofs()).collect();
+        let mut counts: Vec<usize> = open.iter().map(Open::known).collect();
         let (mut last, mut is_last) = (first, false);
         for round in 1..=MODAL_RUNS {
             let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
@@ -603,7 +634,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         limit: f64,
     ) {
         loop {
-            let known = own.basis.structure.dynamics.dofs();
+            let known = own.known();
             if own.tails_of != Some((trial.number, known)) {
                 let loaded = Loaded {
                     scene: &self.scene,
@@ -635,7 +666,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 fidelity: trial.fidelities[own.structure],
                 estimate: factor * tail.error,
                 quantity: tail.quantity,
-                against: TrialCheck::Replay(own.basis.structure.dynamics.dofs()),
+                against: TrialCheck::Replay(own.known()),
                 stages: trial.run.counts.stages as u64,
             });
         }

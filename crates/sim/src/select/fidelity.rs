@@ -57,6 +57,12 @@ pub(super) fn remembered_bounces(scene: &Scene) -> f64 {
     bounces(scene).map(of).fold(0.0, f64::max)
 }
 
+/// Longest time, up to that of the run, within which the dampers of the contacts of a body reduce a bounce to a hundredth,
+/// ln(100) / (ratio omega).
+pub(super) fn remembered_time(scene: &Scene) -> f64 {
+    bounces(scene).map(|own| (100.0_f64.ln() / (own.ratio * own.omega)).min(scene.end)).fold(0.0, f64::max)
+}
+
 /// Period of the slowest bounce of a wheel in a run on flexible rails: 2 pi sqrt(d/g), with d the largest sum of
 /// penetration and deflection under a wheel; the duration of the run where there is no gravity or no wheel.
 pub(super) fn slowest_bounce(scene: &Scene, history: &History) -> f64 {
@@ -100,6 +106,23 @@ mod tests {
         assert!((fastest_bounce(&scene) / first - 1.0).abs() < 1e-14);
         scene.contacts.clear();
         assert_eq!(fastest_bounce(&scene), f64::INFINITY);
+    }
+
+    /// Analytic: exp(-ratio omega t) is 1/100 after ln(100) / (ratio omega) with 2 ratio omega = c/m; without a damper the
+    /// whole run is remembered.
+    #[test]
+    fn a_bounce_is_remembered_until_dampers_reduce_it_to_a_hundredth() {
+        let scene = |damping: f64| Scene {
+            bodies: vec![Body::new(500.0, [1.0; 3])],
+            wheels: vec![Wheel::new(0.5, NormalLaw::linear(2e5, damping, Damper::Rail))],
+            contacts: vec![Contact::new(0, [0.0; 3])],
+            end: 30.0,
+            ..Scene::default()
+        };
+        let expected = 100.0_f64.ln() * 2.0 * 500.0 / 400.0;
+        assert!((remembered_time(&scene(400.0)) / expected - 1.0).abs() < 1e-12);
+        assert_eq!(remembered_time(&scene(0.0)), 30.0);
+        assert_eq!(remembered_time(&scene(1.0)), 30.0);
     }
 
     /// Analytic: 2 pi sqrt(d/g) for the largest sum d of penetration and deflection at one time under one wheel; the

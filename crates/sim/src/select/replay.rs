@@ -7,9 +7,9 @@
 //! q'' + 2 zeta omega q' + omega^2 q = Q,    Q = sum of phi(x) F over the wheels - L a
 //! ```
 //!
-//! with L a the inertia force of the body that carries the structure. The solution is exact for forces that are linear
-//! between the samples, but where a wheel passes a step of its rail or meets it with a damper: there they jump. What the
-//! run lacks is the difference of the modes from their static deflection, which the residual flexibility contains:
+//! with L a the inertia force of the body that carries the structure. Q is taken as a cubic polynomial between the samples,
+//! for which the solution is exact ([`wheels`]): straight pieces would shake the high modes at every sample. What the run
+//! lacks is the difference of the modes from their static deflection, which the residual flexibility contains:
 //!
 //! ```text
 //! delta = sum over r > m of phi_r (q_r - sum of phi_r F / omega_r^2)       at wheels and gauges,
@@ -23,19 +23,21 @@
 //! the body. It is the first iterate of a staggered solution: sharp where delta hardly changes the forces, and too large
 //! where it would. The rate counts at the start of a motion, where the mode is at rest, but not its static deflection.
 
+mod oscillator;
+mod wheels;
+
 use std::collections::BTreeMap;
 
 use splines::{Axis, Influence, Probe};
 
+use self::oscillator::{LoadAtEnds, Oscillator};
+use self::wheels::{CORNER, Interval, LoadedWheel, WheelInstant, loaded_wheels};
 use super::measure::{Record, RecordedQuantity};
-use crate::mechanics::wheels::Wheels;
-use crate::{BodyDof, Channel, Damper, Dynamics, Error, Foundation, History, Irregularity, Scene, Structure};
+use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
 pub(super) const COUNTS: [usize; 20] =
     [0, 1, 2, 3, 4, 5, 6, 8, 10, 12, 14, 16, 20, 24, 28, 32, 40, 48, 64, 96];
-/// Largest damping ratio that is distinguished from others; the formulas are those of an oscillation.
-const MOST_DAMPED: f64 = 0.999;
 
 /// Natural modes of a structure and their effects.
 pub struct ModalBasis {
@@ -75,112 +77,6 @@ pub(super) struct Loaded<'a> {
     pub record: &'a Record,
 }
 
-impl Loaded<'_> {
-    /// The wheels on the structure that the samples contain.
-    fn wheels(&self, basis: &ModalBasis) -> Result<Vec<Wheel>, Error> {
-        let frequencies = basis.structure.dynamics.frequencies();
-        let mut wheels = Vec::new();
-        for (index, point) in Wheels::new(self.scene, self.foundations, || 0)?.points.iter().enumerate() {
-            let contact = &self.scene.contacts[point.contact];
-            let Some(first) = self.history.position(Channel::Position(index)) else { continue };
-            if contact.structure != self.structure {
-                continue;
-            }
-            let law = &self.scene.wheels[contact.wheel].normal;
-            let rest = self.history.sample(0)[first + 1].max(0.0);
-            let at = law.at(law.penetration(rest), 0.0);
-            let (k, c) = (at.by_penetration, if law.damper == Damper::Rail { at.by_rate } else { 0.0 });
-            let at_modes = frequencies.iter().map(|omega| k.hypot(omega * c)).collect();
-            let (body, rail) = (contact.body, contact.rail);
-            let shape = self.foundations[self.structure].irregularities.get(rail);
-            let steps = shape.into_iter().flat_map(Irregularity::steps).collect();
-            let is_damped = law.damping > 0.0;
-            wheels.push(Wheel { steps, is_damped, index, body, rail, first, contact: [k, c], at_modes });
-        }
-        Ok(wheels)
-    }
-}
-
-/// A wheel on the structure, with the positions of its values in a sample.
-struct Wheel {
-    /// Places at which the height of its rail steps: there its force jumps.
-    steps: Vec<f64>,
-    /// Whether its force jumps where it meets the rail.
-    is_damped: bool,
-    /// Its number in the scene.
-    index: usize,
-    body: usize,
-    rail: usize,
-    /// First of four consecutive channels: position, vertical, lateral, traction.
-    first: usize,
-    /// Stiffness and damping of its contact at rest, the damping only of a damper between wheel and rail.
-    contact: [f64; 2],
-    /// |k + i omega c| for the frequency omega of each mode.
-    at_modes: Vec<f64>,
-}
-
-/// One oscillator and the coefficients of its step.
-#[derive(Clone, Default)]
-struct Oscillator {
-    omega: f64,
-    ratio: f64,
-    /// Displacement, velocity and acceleration.
-    state: [f64; 3],
-    load: f64,
-    /// Rate of the load in the last step.
-    rate: f64,
-    /// Values of the free oscillation after a step of this length: by displacement and velocity at its start.
-    step: [[f64; 2]; 2],
-    length: f64,
-}
-
-impl Oscillator {
-    /// Starts at rest in the static deflection under `load`.
-    fn begin(&mut self, load: f64) {
-        self.load = load;
-        self.state = [load / (self.omega * self.omega), 0.0, 0.0];
-    }
-
-    /// Coefficients of a step of length `h`.
-    fn set_step(&mut self, h: f64) {
-        self.length = h;
-        let (omega, ratio) = (self.omega, self.ratio);
-        let free = omega * (1.0 - ratio * ratio).sqrt();
-        let (sin, cos) = (free * h).sin_cos();
-        let decay = (-ratio * omega * h).exp();
-        let slow = ratio * omega / free;
-        self.step = [
-            [decay * (cos + slow * sin), decay * sin / free],
-            [-decay * omega * omega / free * sin, decay * (cos - slow * sin)],
-        ];
-    }
-
-    /// Takes a step of length `h`, in which the load jumps to `load` at the fraction `share`; before and after that it changes
-    /// with the rate of the step before.
-    fn jump(&mut self, h: f64, share: f64, load: f64) {
-        let steady = self.rate * h;
-        self.advance(share * h, self.load + share * steady);
-        self.load = load - (1.0 - share) * steady;
-        self.advance((1.0 - share) * h, load);
-    }
-
-    /// Takes a step of length `h`, in which the load changes linearly to `load`.
-    fn advance(&mut self, h: f64, load: f64) {
-        if (h - self.length).abs() > 1e-9 * h {
-            self.set_step(h);
-        }
-        let (stiffness, rate) = (self.omega * self.omega, (load - self.load) / h);
-        self.rate = rate;
-        let lag = 2.0 * self.ratio / self.omega * rate;
-        let steady = |load: f64| (load - lag) / stiffness;
-        let (x, v) = (self.state[0] - steady(self.load), self.state[1] - rate / stiffness);
-        let [a, b] = self.step;
-        let (x, v) = (a[0] * x + a[1] * v + steady(load), b[0] * x + b[1] * v + rate / stiffness);
-        self.state = [x, v, load - 2.0 * self.ratio * self.omega * v - stiffness * x];
-        self.load = load;
-    }
-}
-
 /// Largest absolute values of one quantity without the lowest modes, one for each of the numbers of modes kept.
 struct Slot {
     quantity: usize,
@@ -196,7 +92,7 @@ pub(super) fn tail_errors(loaded: &Loaded<'_>, basis: &ModalBasis) -> Result<Vec
     let counts: Vec<usize> = COUNTS.into_iter().filter(|count| *count < omega.len()).collect();
     let mut replay = Replay::new(loaded, basis, counts)?;
     for (oscillator, (omega, ratio)) in replay.oscillators.iter_mut().zip(omega.iter().zip(ratio)) {
-        (oscillator.omega, oscillator.ratio) = (*omega, ratio.min(MOST_DAMPED));
+        *oscillator = Oscillator::new(*omega, *ratio);
     }
     for i in 0..loaded.history.len() {
         replay.sample(i)?;
@@ -204,12 +100,19 @@ pub(super) fn tail_errors(loaded: &Loaded<'_>, basis: &ModalBasis) -> Result<Vec
     Ok(replay.errors())
 }
 
+/// Loads on all modes at an instant, and their rates.
+#[derive(Clone, Default)]
+struct Loads {
+    value: Vec<f64>,
+    rate: Vec<f64>,
+}
+
 struct Replay<'a> {
     loaded: &'a Loaded<'a>,
     basis: &'a ModalBasis,
     /// Numbers of modes kept, ascending.
     counts: Vec<usize>,
-    wheels: Vec<Wheel>,
+    wheels: Vec<LoadedWheel>,
     oscillators: Vec<Oscillator>,
     /// Slots of the deflection and the force of each wheel, then those of gauges and effects.
     by_wheel: Vec<[Slot; 2]>,
@@ -219,8 +122,10 @@ struct Replay<'a> {
     effects: Vec<(&'a [f64], Slot)>,
     /// First channels of the speeds of the carrying body.
     carrier: Option<usize>,
-    /// Loads on the modes by the wheels at the last sample.
-    by_wheels: Vec<f64>,
+    /// Motions of the wheels from the last sample to the next one.
+    intervals: Vec<Interval>,
+    /// All loads on the modes at the last sample, with their rates after it.
+    last: Loads,
     /// Vertical shapes of the modes under the wheels and their slopes, wheel by wheel.
     shapes: Vec<f64>,
     slopes: Vec<f64>,
@@ -237,7 +142,7 @@ impl<'a> Replay<'a> {
             let has = |quantity: &RecordedQuantity| quantity.channel == Some(channel);
             record.quantities.iter().position(has).map(slot)
         };
-        let mut wheels = loaded.wheels(basis)?;
+        let mut wheels = loaded_wheels(loaded, basis)?;
         let mut by_wheel = Vec::new();
         wheels.retain(|wheel| {
             let slots = (Channel::Deflection(wheel.index), Channel::Vertical(wheel.index));
@@ -277,7 +182,8 @@ impl<'a> Replay<'a> {
             drives,
             effects,
             carrier,
-            by_wheels: Vec::new(),
+            intervals: Vec::new(),
+            last: Loads::default(),
             shapes: Vec::new(),
             slopes: Vec::new(),
             gains: Vec::new(),
@@ -289,43 +195,39 @@ impl<'a> Replay<'a> {
     fn sample(&mut self, i: usize) -> Result<(), Error> {
         let (history, n) = (self.loaded.history, self.oscillators.len());
         let sample = history.sample(i);
-        // the rate of the loads at the first sample is that of the first interval
-        let beside = if i == 0 { 1.min(history.len() - 1) } else { i - 1 };
-        let other = if i == 0 { self.loads(beside)? } else { std::mem::take(&mut self.by_wheels) };
-        let span = sample[0] - history.sample(beside)[0];
-        let by_wheels = self.loads(i)?;
-        let per_time = if span == 0.0 { 0.0 } else { span.recip() };
-        let mut total = by_wheels.clone();
-        if let Some(first) = self.carrier {
-            let acceleration = acceleration(history, i, first);
-            for (load, coupling) in total.iter_mut().zip(&self.basis.coupling) {
-                *load -= coupling.iter().zip(acceleration).map(|(l, a)| l * a).sum::<f64>();
-            }
-        }
-        let h = if i == 0 { 0.0 } else { sample[0] - history.sample(i - 1)[0] };
-        let jump = self.jump_between(history.sample(beside), sample);
-        if i == 0 {
-            self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.begin(*load));
-        } else if let Some(share) = jump.filter(|_| h > 0.0) {
-            self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.jump(h, share, *load));
-        } else if h > 0.0 {
-            self.oscillators.iter_mut().zip(&total).for_each(|(mode, load)| mode.advance(h, *load));
-        }
-        let modes = || self.oscillators.iter().zip(&by_wheels).zip(&other);
-        let flexibility = |mode: &Oscillator| (mode.omega * mode.omega).recip();
-        let lag: Vec<f64> =
-            modes().map(|((mode, load), _)| mode.state[0] - load * flexibility(mode)).collect();
-        let rate = |mode: &Oscillator, load: f64, other: f64| {
-            let of_load = if jump.is_some() { mode.rate } else { (load - other) * per_time };
-            mode.state[1] - of_load * flexibility(mode)
+        let before = self.intervals.clone();
+        self.intervals = self.wheels.iter().map(|wheel| wheel.interval(history, i)).collect();
+        // before the first sample the forces change as they do after it
+        let sides = [if i == 0 { &self.intervals } else { &before }, &self.intervals].map(Vec::as_slice);
+        let share = if i == 0 { 0.0 } else { 1.0 };
+        let at = |side: usize, share: f64, sign: f64| -> Vec<WheelInstant> {
+            sides[side].iter().map(|own| own.at(share, sign)).collect()
         };
-        let rates: Vec<f64> = modes().map(|((mode, load), other)| rate(mode, *load, *other)).collect();
-        for w in 0..self.wheels.len() {
-            let x = self.wheels[w].first;
-            let speed = (sample[x] - history.sample(beside)[x]) * per_time;
-            self.note_wheel(w, sample, speed, [&lag, &rates])?;
+        let (ends, begins) = (at(0, share, -1.0), at(1, 0.0, 1.0));
+        let (mut ending, mut beginning) = (Loads::default(), Loads::default());
+        ending.value = vec![0.0; n];
+        (ending.rate, beginning.rate) = (vec![0.0; n], vec![0.0; n]);
+        self.add_loads(&ends, Some(&begins), &mut ending, &mut beginning.rate)?;
+        beginning.value.clone_from(&ending.value);
+        let flexibility: Vec<f64> = self.oscillators.iter().map(Oscillator::flexibility).collect();
+        let of_wheels = ending.clone();
+        if i == 0 {
+            self.add_carrier(i, 0.0, &mut beginning);
+            self.oscillators.iter_mut().zip(&beginning.value).for_each(|(mode, load)| mode.begin(*load));
+        } else {
+            self.add_carrier(i - 1, 1.0, &mut ending);
+            self.add_carrier(i, 0.0, &mut beginning);
+            self.advance(i, &before, &ending)?;
         }
-        self.by_wheels = by_wheels;
+        self.last = beginning;
+        let modes = || self.oscillators.iter().zip(&flexibility);
+        let lag: Vec<f64> =
+            modes().zip(&of_wheels.value).map(|((mode, by), load)| mode.state[0] - load * by).collect();
+        let rates: Vec<f64> =
+            modes().zip(&of_wheels.rate).map(|((mode, by), rate)| mode.state[1] - rate * by).collect();
+        for (w, end) in ends.iter().enumerate() {
+            self.note_wheel(w, sample, end.speed, [&lag, &rates])?;
+        }
         for (wheels, slot) in &mut self.drives {
             let resistance = |r: usize| {
                 let of = |w: &usize| self.slopes[n * w + r] * sample[self.wheels[*w].first + 1];
@@ -342,54 +244,107 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// The fraction of the interval between two samples at which the first force jumps: that of a wheel that passes a step of
-    /// its rail, or of one that meets its rail with a damper, of which the instant is not known.
-    fn jump_between(&self, before: &[f64], after: &[f64]) -> Option<f64> {
-        let of_wheel = |wheel: &Wheel| {
-            let [from, to] = [before, after].map(|sample| sample[wheel.first]);
-            let passed = wheel.steps.iter().filter(move |x| (**x - from) * (**x - to) < 0.0);
-            let [force, later] = [before, after].map(|sample| sample[wheel.first + 1]);
-            let landing = (wheel.is_damped && force == 0.0 && later > 0.0).then_some(0.5);
-            passed.map(|x| (x - from) / (to - from)).chain(landing).min_by(f64::total_cmp)
-        };
-        self.wheels
-            .iter()
-            .filter_map(of_wheel)
-            .min_by(f64::total_cmp)
-            .map(|share| share.clamp(1e-6, 1.0 - 1e-6))
-    }
-
-    /// Loads on the modes by the wheels in sample `i`. Keeps the vertical shapes under them.
-    fn loads(&mut self, i: usize) -> Result<Vec<f64>, Error> {
-        let (n, sample) = (self.oscillators.len(), self.loaded.history.sample(i));
-        self.shapes.resize(n * self.wheels.len(), 0.0);
-        self.slopes.resize(n * self.wheels.len(), 0.0);
-        let mut loads = vec![0.0; n];
-        for w in 0..self.wheels.len() {
-            self.add_loads(w, sample, &mut loads)?;
+    /// Moves the modes from sample `i` - 1, of the loads [`Replay::last`], to sample `i`, where the loads are `end`. The
+    /// interval is divided where the load of a wheel is not smooth.
+    fn advance(&mut self, i: usize, intervals: &[Interval], end: &Loads) -> Result<(), Error> {
+        let history = self.loaded.history;
+        let h = history.sample(i)[0] - history.sample(i - 1)[0];
+        if h <= 0.0 {
+            return Ok(());
         }
-        Ok(loads)
-    }
-
-    /// Adds the forces of wheel `w` to the loads on the modes, and keeps the vertical shapes under it.
-    fn add_loads(&mut self, w: usize, sample: &[f64], loads: &mut [f64]) -> Result<(), Error> {
-        let (n, s) = (loads.len(), self.loaded.structure);
-        let Wheel { rail, first, .. } = self.wheels[w];
-        let [x, vertical, lateral, traction] = std::array::from_fn(|k| sample[first + k]);
-        let along = if self.loaded.foundations[s].is_loaded_along { traction } else { 0.0 };
-        for (axis, force) in
-            [(Axis::Longitudinal, along), (Axis::Lateral, lateral), (Axis::Vertical, -vertical)]
-        {
-            if force == 0.0 && axis != Axis::Vertical {
-                continue;
+        let mut shares: Vec<f64> = intervals.iter().flat_map(Interval::corners).collect();
+        shares.sort_by(f64::total_cmp);
+        shares.dedup_by(|b, a| *b - *a < CORNER);
+        let (mut begin, mut from) = (std::mem::take(&mut self.last), 0.0);
+        // the shapes under the wheels at the sample are needed once more
+        let kept = if shares.is_empty() { None } else { Some((self.shapes.clone(), self.slopes.clone())) };
+        for share in shares {
+            let mut beside = [-1.0, 1.0].map(|_| Loads::default());
+            for (side, loads) in [-1.0, 1.0].into_iter().zip(&mut beside) {
+                let at: Vec<WheelInstant> = intervals.iter().map(|own| own.at(share, side)).collect();
+                (loads.value, loads.rate) = (vec![0.0; end.value.len()], vec![0.0; end.value.len()]);
+                self.add_loads(&at, None, loads, &mut [])?;
+                self.add_carrier(i - 1, share, loads);
             }
-            let own = &mut self.shapes[n * w..n * (w + 1)];
-            let slopes = &mut self.slopes[n * w..n * (w + 1)];
-            let row = self.basis.structure.shapes.row(Probe { rail, x, axis }, own, slopes);
-            row.map_err(|source| Error::Compliance { structure: s, source })?;
-            loads.iter_mut().zip(own).for_each(|(load, shape)| *load += *shape * force);
+            let [left, right] = beside;
+            self.step((share - from) * h, &begin, &left);
+            (begin, from) = (right, share);
+        }
+        self.step((1.0 - from) * h, &begin, end);
+        if let Some(kept) = kept {
+            (self.shapes, self.slopes) = kept;
         }
         Ok(())
+    }
+
+    /// Moves the modes by `h` between these loads.
+    fn step(&mut self, h: f64, begin: &Loads, end: &Loads) {
+        for (r, mode) in self.oscillators.iter_mut().enumerate() {
+            mode.advance(
+                h,
+                LoadAtEnds { value: [begin.value[r], end.value[r]], rate: [begin.rate[r], end.rate[r]] },
+            );
+        }
+    }
+
+    /// Adds the loads by the wheels to `loads`, and the rates for the motion of the wheels after the instant, if `after`
+    /// gives it, to `rates_after`. Keeps the vertical shapes under the wheels.
+    fn add_loads(
+        &mut self,
+        at: &[WheelInstant],
+        after: Option<&[WheelInstant]>,
+        loads: &mut Loads,
+        rates_after: &mut [f64],
+    ) -> Result<(), Error> {
+        let (n, s) = (loads.value.len(), self.loaded.structure);
+        self.shapes.resize(n * self.wheels.len(), 0.0);
+        self.slopes.resize(n * self.wheels.len(), 0.0);
+        let is_loaded_along = self.loaded.foundations[s].is_loaded_along;
+        for (w, wheel) in self.wheels.iter().enumerate() {
+            let own = &at[w];
+            let other = after.map_or(own, |after| &after[w]);
+            for (k, axis) in [Axis::Longitudinal, Axis::Lateral, Axis::Vertical].into_iter().enumerate() {
+                let is_idle = own.forces[k] == 0.0 && own.rates[k] == 0.0 && other.rates[k] == 0.0;
+                if (axis == Axis::Longitudinal && !is_loaded_along) || (axis != Axis::Vertical && is_idle) {
+                    continue;
+                }
+                let shapes = &mut self.shapes[n * w..n * (w + 1)];
+                let slopes = &mut self.slopes[n * w..n * (w + 1)];
+                let row = self.basis.structure.shapes.row(
+                    Probe { rail: wheel.rail, x: own.x, axis },
+                    shapes,
+                    slopes,
+                );
+                row.map_err(|source| Error::Compliance { structure: s, source })?;
+                let (force, moving) = (own.forces[k], own.speed * own.forces[k]);
+                for (r, (shape, slope)) in shapes.iter().zip(slopes.iter()).enumerate() {
+                    loads.value[r] += shape * force;
+                    loads.rate[r] += slope * moving + shape * own.rates[k];
+                }
+                let moving = other.speed * other.forces[k];
+                for (rate, (shape, slope)) in rates_after.iter_mut().zip(shapes.iter().zip(slopes.iter())) {
+                    *rate += slope * moving + shape * other.rates[k];
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the inertia force of the carrying body to the loads, at a share of the interval after sample `i`, in which its
+    /// acceleration is linear.
+    fn add_carrier(&self, i: usize, share: f64, loads: &mut Loads) {
+        let Some(first) = self.carrier else { return };
+        let history = self.loaded.history;
+        let next = (i + 1).min(history.len() - 1);
+        let h = history.sample(next)[0] - history.sample(i)[0];
+        let [a, b] = [i, next].map(|at| acceleration(history, at, first));
+        let coupling = self.basis.coupling.iter();
+        for ((value, rate), coupling) in loads.value.iter_mut().zip(&mut loads.rate).zip(coupling) {
+            for ((l, a), b) in coupling.iter().zip(a).zip(b) {
+                *value -= l * (a + share * (b - a));
+                *rate -= if h > 0.0 { l * (b - a) / h } else { 0.0 };
+            }
+        }
     }
 
     /// Notes the deflection and the force that wheel `w` lacks, which moves with `speed`. `lag` is the difference of each
@@ -402,7 +357,7 @@ impl<'a> Replay<'a> {
         [lag, rates]: [&[f64]; 2],
     ) -> Result<(), Error> {
         let (n, s) = (lag.len(), self.loaded.structure);
-        let Wheel { rail, first, contact: [k, c], ref at_modes, .. } = self.wheels[w];
+        let LoadedWheel { rail, first, contact: [k, c], ref at_modes, .. } = self.wheels[w];
         let [shape, slope] = [&self.shapes, &self.slopes].map(|all| &all[n * w..n * (w + 1)]);
         let [deflection, force] = &mut self.by_wheel[w];
         note(&self.counts, &mut deflection.largest, |r| shape[r] * lag[r], n);
@@ -432,6 +387,7 @@ impl<'a> Replay<'a> {
     fn errors(self) -> Vec<TailError> {
         let record = self.loaded.record;
         let scales = record.scales();
+        let known = self.oscillators.len() as f64;
         let slots: Vec<Slot> = (self.by_wheel.into_iter().flatten())
             .chain(self.drives.into_iter().map(|(_, slot)| slot))
             .chain(self.gauges.into_iter().map(|(_, slot)| slot))
@@ -441,7 +397,10 @@ impl<'a> Replay<'a> {
             let mut found = TailError { kept, error: 0.0, quantity: String::new() };
             for slot in &slots {
                 let (largest, scale) = (slot.largest[index], scales[slot.quantity]);
-                let error = if largest == 0.0 { 0.0 } else { largest / scale };
+                let is_effect = record.quantities[slot.quantity].channel.is_none();
+                let beyond =
+                    if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 };
+                let error = if largest == 0.0 { 0.0 } else { beyond * largest / scale };
                 if error > found.error || error.is_nan() {
                     found.error = if error.is_nan() { f64::INFINITY } else { error };
                     found.quantity.clone_from(&record.quantities[slot.quantity].name);

@@ -1,0 +1,35 @@
+//! Differences that grow with time against the time at which they would arrive.
+
+use super::*;
+
+fn record(scale: f64, values: impl Fn(f64) -> f64, effect: impl Fn(f64) -> f64) -> Record {
+    let time: Vec<f64> = (0..=10).map(|k| 0.1 * f64::from(k)).collect();
+    let quantity = |channel: Option<Channel>, values: Vec<f64>| RecordedQuantity {
+        name: format!("{channel:?}"),
+        kind: if channel.is_some() { "force" } else { "moment" },
+        channel,
+        is_position: false,
+        group: String::new(),
+        least_scale: scale,
+        values,
+    };
+    let quantities = vec![
+        quantity(Some(Channel::Vertical(0)), time.iter().map(|t| values(*t)).collect()),
+        quantity(None, time.iter().map(|t| effect(*t)).collect()),
+    ];
+    Record { time, quantities }
+}
+
+/// Analytic: a force that is ahead by 0.02 t of its scale is 0.02 * 10 off after 10 s; one whose difference stays as it was in
+/// the first half of the start keeps it. Internal forces and what follows the start do not count.
+#[test]
+fn a_difference_that_grows_with_time_is_extrapolated() {
+    let exact = record(50.0, |_| 40.0, |_| 1.0);
+    let growing = record(50.0, |t| 40.0 + t.min(0.8), |t| 1.0 + 30.0 * t);
+    let (found, quantity) = drift(&growing, &exact, [0.8, 10.0]);
+    assert!((found - 0.2).abs() < 1e-12 && quantity == "Some(Vertical(0))", "{found} {quantity}");
+    let steady = record(50.0, |t| 40.0 + t.min(0.1), |_| 1.0);
+    assert!((drift(&steady, &exact, [0.8, 10.0]).0 - 0.1 / 50.0).abs() < 1e-12);
+    // what is forgotten within the start does not grow
+    assert!((drift(&growing, &exact, [0.8, 0.5]).0 - 0.8 / 50.0).abs() < 1e-12);
+}
