@@ -12,9 +12,8 @@
 //!    the new run is chosen. There the wheels meet a structure at rest, modes that are left out would begin to move at
 //!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
 //!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
-//!    the new run changes the quantities by its error there, whatever the wheels amplify. By values at equal times, errors
-//!    of motions and wheel forces that grow during the start are taken to grow on as long as the wheels remember their
-//!    bounces ([`drift`]). Where the error exceeds the tolerance and the steps cause more than half of it, the new run is
+//!    the new run changes the quantities by its error there, whatever the wheels amplify. Errors of motions and wheel
+//!    forces that grow during the start are taken to grow on as long as the wheels remember their bounces ([`drift`]). Where the error exceeds the tolerance and the steps cause more than half of it, the new run is
 //!    repeated with that finer accuracy.
 //! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
 //!    of it in reactions and internal forces, where the errors of the steps of both runs are larger), and otherwise the new
@@ -485,12 +484,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             own.values[..count].copy_from_slice(&finer.values[..count]);
         }
         let apart = difference(&replaced, &higher.record, measure, bounces);
-        let drift = drift(&replaced, &higher.record, [start, remembered_time(&self.scene)]);
-        let (apart, quantity) = if measure == Measure::History && drift.0 > apart.largest {
-            drift
-        } else {
-            (apart.largest, apart.quantity)
-        };
+        let times = [start, remembered_time(&self.scene)];
+        let drift = drift(&replaced, &higher.record, measure, bounces, times);
+        // in a long run neither phases nor what they do to single bounces counts
+        let is_counted = measure == Measure::History || bounces.remembered <= MANY;
+        let (apart, quantity) =
+            if is_counted && drift.0 > apart.largest { drift } else { (apart.largest, apart.quantity) };
         let error = TailError { kept: 0, error: apart / (1.0 - ratio), quantity };
         for own in open {
             let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
@@ -636,12 +635,18 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         loop {
             let known = own.known();
             if own.tails_of != Some((trial.number, known)) {
+                let bounces = Bounces {
+                    slowest: slowest_bounce(&self.scene, &trial.run.history),
+                    remembered: remembered_bounces(&self.scene),
+                };
                 let loaded = Loaded {
                     scene: &self.scene,
                     structure: own.structure,
                     foundations: compliances,
                     history: &trial.run.history,
                     record: &trial.record,
+                    measure: self.tolerances[own.structure].map_or(Measure::History, |own| own.measure),
+                    bounces,
                 };
                 own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
                 own.tails_of = Some((trial.number, known));

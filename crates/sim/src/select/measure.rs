@@ -184,28 +184,38 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
     if found.largest.is_nan() { unknown } else { found }
 }
 
-/// Difference at equal times that two records with a difference D before the time `start` are expected to reach until the
-/// time `end`, and the quantity with the largest one before `start`. A wheel that bounces a little too fast is ahead by
-/// more with every bounce, so that differences of its motion and its forces grow linearly with time:
+/// Difference that two records with a difference D before the time `start` are expected to reach until the time `end`, and the
+/// quantity with the largest one before `start`. A wheel that bounces a little too fast is ahead by more with every bounce,
+/// so that differences of its motion and its forces grow linearly with time:
 ///
 /// ```text
-/// D(end) = D(start) + (D(start) - D(start/2)) / (start/2) * (end - start)
+/// D(end) = D(start) + (D(start) - D(start/2)) / (start/2) * (end - start),    no less than D(start)
 /// ```
 ///
 /// Reactions and internal forces do not count: theirs are largest where a motion begins.
-pub(super) fn drift(a: &Record, b: &Record, [start, end]: [f64; 2]) -> (f64, String) {
+pub(super) fn drift(
+    a: &Record,
+    b: &Record,
+    measure: Measure,
+    bounces: Bounces,
+    [start, end]: [f64; 2],
+) -> (f64, String) {
+    let motion = |record: &Record| {
+        let own = record.quantities.iter().filter(|quantity| quantity.channel.is_some());
+        Record { time: record.time.clone(), quantities: own.cloned().collect() }
+    };
+    let (a, b) = (motion(a), motion(b));
     let until = |time: f64| {
         let count = b.time.partition_point(|t| *t <= time).min(a.time.len());
-        let all = a.quantities.iter().zip(&b.quantities).zip(b.scales());
-        let relative = all.filter(|((_, own), scale)| own.channel.is_some() && *scale > 0.0).map(
-            |((other, own), scale)| (pointwise([&other.values[..count], &own.values[..count]]) / scale, own),
-        );
-        relative
-            .max_by(|(a, _), (b, _)| a.total_cmp(b))
-            .map_or((0.0, String::new()), |(d, own)| (d, own.name.clone()))
+        let mut mixed = b.clone();
+        for (own, other) in mixed.quantities.iter_mut().zip(&a.quantities) {
+            own.values[..count].copy_from_slice(&other.values[..count]);
+        }
+        difference(&mixed, &b, measure, bounces)
     };
-    let ((half, _), (whole, quantity)) = (until(0.5 * start), until(start));
-    (whole + (whole - half) / (0.5 * start) * (end - start).max(0.0), quantity)
+    let [half, whole] = [0.5 * start, start].map(until);
+    let growth = (whole.largest - half.largest).max(0.0) / (0.5 * start) * (end - start).max(0.0);
+    (whole.largest + growth, whole.quantity)
 }
 
 /// Smallest and largest value of the quantities of a group in the first `count` samples.

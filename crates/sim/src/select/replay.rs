@@ -32,7 +32,7 @@ use splines::{Axis, Influence, Probe};
 
 use self::oscillator::{LoadAtEnds, Oscillator};
 use self::wheels::{CORNER, Interval, LoadedWheel, WheelInstant, loaded_wheels};
-use super::measure::{Record, RecordedQuantity};
+use super::measure::{Bounces, Measure, Record, RecordedQuantity, difference};
 use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
@@ -75,12 +75,37 @@ pub(super) struct Loaded<'a> {
     pub history: &'a History,
     /// The quantities of the run.
     pub record: &'a Record,
+    /// The measure of the errors, and what it takes from the bounces of the wheels.
+    pub measure: Measure,
+    pub bounces: Bounces,
 }
 
-/// Largest absolute values of one quantity without the lowest modes, one for each of the numbers of modes kept.
+/// What one quantity lacks without the lowest modes, for each of the numbers of modes kept.
 struct Slot {
     quantity: usize,
+    /// Largest absolute values at all samples.
     largest: Vec<f64>,
+    /// Values at the times of the record, number by number.
+    series: Vec<f32>,
+}
+
+impl Slot {
+    /// Notes, at a sample with this row of the record, the sum of `term` over the modes that are not kept, for each number of
+    /// modes kept.
+    fn note(&mut self, counts: &[usize], row: Option<usize>, term: impl Fn(usize) -> f64, modes: usize) {
+        let (mut sum, mut above) = (0.0_f64, modes);
+        let rows = self.series.len() / counts.len().max(1);
+        for (k, count) in counts.iter().enumerate().rev() {
+            while above > *count {
+                above -= 1;
+                sum += term(above);
+            }
+            self.largest[k] = self.largest[k].max(sum.abs());
+            if let Some(row) = row.filter(|row| *row < rows) {
+                self.series[k * rows + row] = sum as f32;
+            }
+        }
+    }
 }
 
 /// Estimates the errors of leaving out all modes but the lowest 0, 1, 2, 3, 4, 6, ... of `basis`.
@@ -131,13 +156,20 @@ struct Replay<'a> {
     slopes: Vec<f64>,
     /// Forces that a wheel lacks by each mode.
     gains: Vec<f64>,
+    /// Number of rows of the record before the next sample.
+    row: usize,
 }
 
 impl<'a> Replay<'a> {
     fn new(loaded: &'a Loaded<'a>, basis: &'a ModalBasis, counts: Vec<usize>) -> Result<Self, Error> {
-        let Loaded { scene, structure, foundations, history, record } = *loaded;
+        let Loaded { scene, structure, foundations, history, record, .. } = *loaded;
         let n = basis.structure.dynamics.dofs();
-        let slot = |quantity: usize| Slot { quantity, largest: vec![0.0; counts.len()] };
+        let rows = if loaded.measure == Measure::Extremes { record.time.len() } else { 0 };
+        let slot = |quantity: usize| Slot {
+            quantity,
+            largest: vec![0.0; counts.len()],
+            series: vec![0.0; rows * counts.len()],
+        };
         let of_channel = |channel: Channel| {
             let has = |quantity: &RecordedQuantity| quantity.channel == Some(channel);
             record.quantities.iter().position(has).map(slot)
@@ -187,6 +219,7 @@ impl<'a> Replay<'a> {
             shapes: Vec::new(),
             slopes: Vec::new(),
             gains: Vec::new(),
+            row: 0,
             counts,
         })
     }
@@ -225,21 +258,23 @@ impl<'a> Replay<'a> {
             modes().zip(&of_wheels.value).map(|((mode, by), load)| mode.state[0] - load * by).collect();
         let rates: Vec<f64> =
             modes().zip(&of_wheels.rate).map(|((mode, by), rate)| mode.state[1] - rate * by).collect();
+        let row = (self.loaded.record.time.get(self.row) == Some(&sample[0])).then_some(self.row);
+        self.row += usize::from(row.is_some());
         for (w, end) in ends.iter().enumerate() {
-            self.note_wheel(w, sample, end.speed, [&lag, &rates])?;
+            self.note_wheel(w, sample, row, end.speed, [&lag, &rates])?;
         }
         for (wheels, slot) in &mut self.drives {
             let resistance = |r: usize| {
                 let of = |w: &usize| self.slopes[n * w + r] * sample[self.wheels[*w].first + 1];
                 wheels.iter().map(of).sum::<f64>() * lag[r]
             };
-            note(&self.counts, &mut slot.largest, resistance, n);
+            slot.note(&self.counts, row, resistance, n);
         }
         for (shape, slot) in &mut self.gauges {
-            note(&self.counts, &mut slot.largest, |r| shape[r] * lag[r], n);
+            slot.note(&self.counts, row, |r| shape[r] * lag[r], n);
         }
         for (by_mode, slot) in &mut self.effects {
-            note(&self.counts, &mut slot.largest, |r| by_mode[r] * self.oscillators[r].state[2], n);
+            slot.note(&self.counts, row, |r| by_mode[r] * self.oscillators[r].state[2], n);
         }
         Ok(())
     }
@@ -353,6 +388,7 @@ impl<'a> Replay<'a> {
         &mut self,
         w: usize,
         sample: &[f64],
+        row: Option<usize>,
         speed: f64,
         [lag, rates]: [&[f64]; 2],
     ) -> Result<(), Error> {
@@ -360,7 +396,7 @@ impl<'a> Replay<'a> {
         let LoadedWheel { rail, first, contact: [k, c], ref at_modes, .. } = self.wheels[w];
         let [shape, slope] = [&self.shapes, &self.slopes].map(|all| &all[n * w..n * (w + 1)]);
         let [deflection, force] = &mut self.by_wheel[w];
-        note(&self.counts, &mut deflection.largest, |r| shape[r] * lag[r], n);
+        deflection.note(&self.counts, row, |r| shape[r] * lag[r], n);
         if sample[first + 1] == 0.0 {
             return Ok(());
         }
@@ -379,28 +415,30 @@ impl<'a> Replay<'a> {
             let (lacking, rate) = (shape[r] * lag[r], shape[r] * rates[r] + slope[r] * speed * lag[r]);
             *gain = (k * lacking + c * rate) / (1.0 + at_modes[r] * flexibility.max(0.0));
         }
-        note(&self.counts, &mut force.largest, |r| self.gains[r], n);
+        force.note(&self.counts, row, |r| self.gains[r], n);
         Ok(())
     }
 
-    /// The largest relative error for each number of modes kept.
+    /// The largest relative error for each number of modes kept: the difference of the record from itself with what it lacks
+    /// added. Reactions and internal forces, whose sums over the modes converge like 1/n, also lack those above all known
+    /// modes: the sum over all modes above k is N/(N - k) times that over the modes from k to N.
     fn errors(self) -> Vec<TailError> {
-        let record = self.loaded.record;
-        let scales = record.scales();
-        let known = self.oscillators.len() as f64;
+        let Loaded { record, measure, bounces, .. } = *self.loaded;
+        let (known, scales) = (self.oscillators.len() as f64, record.scales());
         let slots: Vec<Slot> = (self.by_wheel.into_iter().flatten())
             .chain(self.drives.into_iter().map(|(_, slot)| slot))
             .chain(self.gauges.into_iter().map(|(_, slot)| slot))
             .chain(self.effects.into_iter().map(|(_, slot)| slot))
             .collect();
-        let of_count = |(index, &kept): (usize, &usize)| {
+        let beyond = |slot: &Slot, kept: usize| {
+            let is_effect = record.quantities[slot.quantity].channel.is_none();
+            if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 }
+        };
+        let pointwise = |(index, kept): (usize, usize)| {
             let mut found = TailError { kept, error: 0.0, quantity: String::new() };
             for slot in &slots {
                 let (largest, scale) = (slot.largest[index], scales[slot.quantity]);
-                let is_effect = record.quantities[slot.quantity].channel.is_none();
-                let beyond =
-                    if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 };
-                let error = if largest == 0.0 { 0.0 } else { beyond * largest / scale };
+                let error = if largest == 0.0 { 0.0 } else { beyond(slot, kept) * largest / scale };
                 if error > found.error || error.is_nan() {
                     found.error = if error.is_nan() { f64::INFINITY } else { error };
                     found.quantity.clone_from(&record.quantities[slot.quantity].name);
@@ -408,19 +446,21 @@ impl<'a> Replay<'a> {
             }
             found
         };
-        self.counts.iter().enumerate().map(of_count).collect()
-    }
-}
-
-/// Raises `largest` to the absolute sums of `term` over the modes that are not kept, for each number of modes kept.
-fn note(counts: &[usize], largest: &mut [f64], term: impl Fn(usize) -> f64, modes: usize) {
-    let (mut sum, mut above) = (0.0_f64, modes);
-    for (count, largest) in counts.iter().zip(largest).rev() {
-        while above > *count {
-            above -= 1;
-            sum += term(above);
+        let by_extremes = |(index, kept): (usize, usize)| {
+            let (mut completed, rows) = (record.clone(), record.time.len());
+            for slot in &slots {
+                let lacking = &slot.series[index * rows..(index + 1) * rows];
+                let values = completed.quantities[slot.quantity].values.iter_mut();
+                values.zip(lacking).for_each(|(value, own)| *value += beyond(slot, kept) * f64::from(*own));
+            }
+            let apart = difference(&completed, record, Measure::Extremes, bounces);
+            TailError { kept, error: apart.largest, quantity: apart.quantity }
+        };
+        let counts = self.counts.iter().copied().enumerate();
+        match measure {
+            Measure::History => counts.map(pointwise).collect(),
+            Measure::Extremes => counts.map(by_extremes).collect(),
         }
-        *largest = largest.max(sum.abs());
     }
 }
 

@@ -26,10 +26,15 @@ fn record(scale: f64, values: impl Fn(f64) -> f64, effect: impl Fn(f64) -> f64) 
 fn a_difference_that_grows_with_time_is_extrapolated() {
     let exact = record(50.0, |_| 40.0, |_| 1.0);
     let growing = record(50.0, |t| 40.0 + t.min(0.8), |t| 1.0 + 30.0 * t);
-    let (found, quantity) = drift(&growing, &exact, [0.8, 10.0]);
+    let bounces = Bounces { slowest: 0.1, remembered: 20.0 };
+    let drift = |a: &Record, times: [f64; 2]| drift(a, &exact, Measure::History, bounces, times);
+    let (found, quantity) = drift(&growing, [0.8, 10.0]);
     assert!((found - 0.2).abs() < 1e-12 && quantity == "Some(Vertical(0))", "{found} {quantity}");
     let steady = record(50.0, |t| 40.0 + t.min(0.1), |_| 1.0);
-    assert!((drift(&steady, &exact, [0.8, 10.0]).0 - 0.1 / 50.0).abs() < 1e-12);
+    assert!((drift(&steady, [0.8, 10.0]).0 - 0.1 / 50.0).abs() < 1e-12);
     // what is forgotten within the start does not grow
-    assert!((drift(&growing, &exact, [0.8, 0.5]).0 - 0.8 / 50.0).abs() < 1e-12);
+    assert!((drift(&growing, [0.8, 0.5]).0 - 0.8 / 50.0).abs() < 1e-12);
+    // an amplitude that grows is seen by extremes as well
+    let by_extremes = super::drift(&growing, &exact, Measure::Extremes, bounces, [0.8, 10.0]).0;
+    assert!((by_extremes - 0.2).abs() < 1e-12, "{by_extremes}");
 }
