@@ -103,9 +103,8 @@ impl RailCompliance {
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
             let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
             if let Some(path) = &mut provider.path
-                && path.follow(x, *reach, elements)
+                && path.follow(x, *reach, elements, (m, matrices))
             {
-                path.put(m, matrices);
                 provider.is_on_path = true;
                 continue;
             }
@@ -157,7 +156,7 @@ impl RailCompliance {
             // An error of the rail is ignored here, because the step itself reports it.
             let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
             let is_set = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
-                let goes_on = is_free(path.end(), &ends[0]);
+                let goes_on = is_free(path.second(), &ends[0]);
                 path.set(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), reach, goes_on).is_ok()
             });
             if !is_set {

@@ -20,6 +20,8 @@ const TOLERANCE: f64 = 1e-13;
 /// Relative change of the forces, or residual, at which Newton's method ends where rounding prevents a smaller one.
 const STAGNANT: f64 = 1e-9;
 const ITERATIONS: usize = 60;
+/// Part of the residual up to which a step may leave it, for the factors to serve in the next one.
+const CHORD: f64 = 1e-3;
 /// Damping factor of the Newton step below which the step is not halved again. A brake on
 /// a compliant rail sticks only within 1e-6 of the forces on either side, and within less in short steps.
 const SHORTEST: f64 = 1e-12;
@@ -63,8 +65,8 @@ struct Residuals {
     acting: Vec<usize>,
     slopes: Vec<Law>,
     couplings: Vec<Coupling>,
-    /// Largest force among the elements that do not act.
-    idle: f64,
+    /// Elements that do not act, but have a force.
+    released: Vec<usize>,
 }
 
 /// LU factors of a Jacobian over the elements that acted when it was built.
@@ -118,12 +120,14 @@ impl Residuals {
         self.slopes.clear();
         self.couplings.clear();
         self.value.fill(0.0);
-        self.idle = 0.0;
+        self.released.clear();
     }
 
     fn set_idle(&mut self, i: usize, force: f64) {
         self.value[i] = force;
-        self.idle = self.idle.max(force.abs());
+        if force != 0.0 {
+            self.released.push(i);
+        }
     }
 
     fn set_acting(&mut self, i: usize, force: f64, law: Law) {
@@ -153,7 +157,7 @@ impl Problem {
                 acting: Vec::with_capacity(m),
                 slopes: Vec::with_capacity(m),
                 couplings: Vec::new(),
-                idle: 0.0,
+                released: Vec::new(),
             },
             factors: Factors {
                 elements: Vec::with_capacity(m),
@@ -251,14 +255,17 @@ impl Problem {
         is_solved
     }
 
-    /// Newton's method with step halving for F - law(F) = 0.
+    /// Newton's method with step halving for F - law(F) = 0. The factors of a Jacobian serve while the same laws act and
+    /// every step leaves at most [`CHORD`] of the residual.
     fn solve_newton(&mut self, system: &System, local: &[Local], active: &[bool], force: &mut [f64]) -> bool {
         for i in (0..system.verticals()).filter(|&i| !active[i]) {
             force[i] = 0.0;
         }
         let mut size = self.evaluate(system, local, active, force);
+        let mut is_current = false;
         for _ in 0..ITERATIONS {
-            if !self.factor() {
+            let before = size;
+            if !(is_current && self.residuals.acting == self.factors.elements || self.factor()) {
                 return false;
             }
             self.take_newton_step();
@@ -287,6 +294,7 @@ impl Problem {
             if change <= done || size <= (0.1 * done).max(self.slack * scale) {
                 return true;
             }
+            is_current = size <= CHORD * before;
         }
         // The residual may stagnate at rounding; it is accepted if it is small relative to the forces.
         size <= STAGNANT * largest(force)
@@ -296,8 +304,11 @@ impl Problem {
     fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
         for &i in self.candidates.list() {
             if !self.idle[i] || system.fixed[i].is_followed {
-                self.residuals.reached[i] =
-                    [self.effects.penetration(i, force), self.effects.rate_under(i, force)];
+                // The rates of other elements depend on no force.
+                let has_rate = system.fixed[i].feels_rates || system.fixed[i].has_memory;
+                let effects = &self.effects;
+                let rate = if has_rate { effects.rate_under(i, force) } else { effects.rate[i] };
+                self.residuals.reached[i] = [effects.penetration(i, force), rate];
             }
         }
         self.evaluate_laws(system, local, active, force);
@@ -382,15 +393,12 @@ impl Problem {
     fn take_newton_step(&mut self) {
         let Problem { effects: Effects { w, y, .. }, residuals, factors, change, .. } = self;
         let (m, count) = (residuals.value.len(), factors.elements.len());
-        let is_idle = residuals.idle > 0.0;
         for (row, &i) in factors.elements.iter().enumerate() {
             change[row] = residuals.value[i];
-            if is_idle {
+            for &j in &residuals.released {
                 let Law { by_penetration, by_rate, .. } = residuals.slopes[row];
-                for j in (0..m).filter(|j| !factors.elements.contains(j)) {
-                    let entry = by_penetration * w[i * m + j] + by_rate * y[i * m + j];
-                    change[row] -= entry * residuals.value[j];
-                }
+                let entry = by_penetration * w[i * m + j] + by_rate * y[i * m + j];
+                change[row] -= entry * residuals.value[j];
             }
         }
         let (jacobian, pivots) = (&factors.jacobian[..count * count], &factors.pivots[..count]);
@@ -414,7 +422,7 @@ impl Problem {
         if !self.factor() {
             return false;
         }
-        self.residuals.idle = 0.0;
+        self.residuals.released.clear();
         for (errors, weight) in errors {
             self.residuals.value.fill(0.0);
             for (&i, law) in self.residuals.acting.iter().zip(&self.residuals.slopes) {
@@ -434,20 +442,22 @@ impl Problem {
     }
 
     /// Newton's change of the forces at penetrations and rates that the caller has set, with the factors of an
-    /// earlier Jacobian. Returns `None` if the set of acting laws differs from the factored one.
+    /// earlier Jacobian; if the set of acting laws differs from the factored one, with that of these laws and the W and Y
+    /// of the earlier one. Returns whether it is that of an earlier one as well, or `None` if it is singular.
     pub fn corrections(
         &mut self,
         system: &System,
         local: &[Local],
         active: &[bool],
         force: &[f64],
-    ) -> Option<&[f64]> {
+    ) -> Option<(&[f64], bool)> {
         self.evaluate_laws(system, local, active, force);
-        if self.residuals.acting != self.factors.elements {
+        let is_earlier = self.residuals.acting == self.factors.elements;
+        if !(is_earlier || self.factor()) {
             return None;
         }
         self.take_newton_step();
-        Some(&self.residuals.value)
+        Some((&self.residuals.value, is_earlier))
     }
 
     /// Force of element `i` at a given penetration and rate.

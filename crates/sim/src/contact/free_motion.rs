@@ -14,7 +14,9 @@ pub(crate) struct FreeMotion<'a> {
     pub a: DVector<f64>,
     pub q: DVector<f64>,
     pub v: DVector<f64>,
-    /// Forces that are independent of the elements.
+    /// Forces that are independent of the elements and of the motion, with the inertia forces of carried bodies, and
+    /// scratch for these forces less those of the motion.
+    given: DVector<f64>,
     load: DVector<f64>,
     /// Z = (M + g C + g^2 K)^-1 of a stage, and M^-1.
     stage: Mobility<'a>,
@@ -33,6 +35,7 @@ impl<'a> FreeMotion<'a> {
             a: DVector::zeros(n),
             q: DVector::zeros(n),
             v: DVector::zeros(n),
+            given: DVector::zeros(n),
             load: DVector::zeros(n),
             stage: Mobility::new(&system.mechanics)?,
             inverse: Mobility::new(&system.mechanics)?,
@@ -65,8 +68,9 @@ impl<'a> FreeMotion<'a> {
     /// # Errors
     /// A mass that is not positive definite.
     pub fn move_in_stage(&mut self, system: &System, g: f64, known: &Known, at: &State) -> Result<(), Error> {
-        self.fill_load(system, at.t);
-        self.fill_mass(system, at, true)?;
+        self.fill_given(system, at);
+        self.set_mass(system, true)?;
+        self.load.copy_from(&self.given);
         if system.mechanics.has_structures() {
             self.q.copy_from(&known.q);
             self.q.axpy(g, &known.v, 1.0);
@@ -92,7 +96,7 @@ impl<'a> FreeMotion<'a> {
 
     /// Sets the accelerations to those of `at` plus the correction Z (f - M a - C v - K q - B^T F) for its forces F, where
     /// v = v* + g a, q = q* + g v, `acting` lists the elements with forces and `force_row` returns their rows; then
-    /// updates the motion of the stage.
+    /// updates the motion of the stage. M and f are those of the last [`FreeMotion::fill_given`].
     pub fn improve<'r>(
         &mut self,
         system: &System,
@@ -102,16 +106,11 @@ impl<'a> FreeMotion<'a> {
         acting: &[usize],
         force_row: impl Fn(usize) -> &'r [f64],
     ) {
-        self.fill_load(system, at.t);
+        self.load.copy_from(&self.given);
         if let Some(constant) = system.mechanics.blocks[0].body_mass() {
-            self.mass.copy_from(constant);
-            if !system.mechanics.carried.is_empty() {
-                let sums = (&mut self.mass, &mut self.load);
-                let state = (at.t, &at.q, &at.v);
-                system.mechanics.carried.add(&system.mechanics.kinematics, state, sums, &mut self.columns);
-            }
+            let mass = if system.mechanics.carried.is_empty() { constant } else { &self.mass };
             let load = self.load.as_mut_slice();
-            for (column, a) in columns_of(&self.mass).zip(at.a.as_slice()) {
+            for (column, a) in columns_of(mass).zip(at.a.as_slice()) {
                 load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
             }
         }
@@ -143,8 +142,9 @@ impl<'a> FreeMotion<'a> {
     /// # Errors
     /// A mass that is not positive definite.
     pub fn accelerate(&mut self, system: &System, at: &mut State, rows: &[f64]) -> Result<(), Error> {
-        self.fill_load(system, at.t);
-        self.fill_mass(system, at, false)?;
+        self.fill_given(system, at);
+        self.set_mass(system, false)?;
+        self.load.copy_from(&self.given);
         for block in &system.mechanics.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
@@ -162,17 +162,17 @@ impl<'a> FreeMotion<'a> {
 
     /// M^-1 times the forces at `t` that are independent of the elements.
     pub fn accelerations(&mut self, system: &System, t: f64) -> &DVector<f64> {
-        self.fill_load(system, t);
-        self.inverse.apply(self.load.as_slice(), self.a.as_mut_slice());
+        self.fill_loads(system, t);
+        self.inverse.apply(self.given.as_slice(), self.a.as_mut_slice());
         &self.a
     }
 
     /// Weights, loads, and the inertia forces of a prescribed x on the other degrees of freedom.
-    fn fill_load(&mut self, system: &System, t: f64) {
-        self.load.copy_from(&system.mechanics.gravity);
+    fn fill_loads(&mut self, system: &System, t: f64) {
+        self.given.copy_from(&system.mechanics.gravity);
         for load in &system.scene.actuators.loads {
             if let Some(number) = system.mechanics.loaded(load) {
-                self.load[number] += load.value.at(t);
+                self.given[number] += load.value.at(t);
             }
         }
         for (b, body) in system.scene.bodies.iter().enumerate() {
@@ -182,20 +182,28 @@ impl<'a> FreeMotion<'a> {
                 continue;
             }
             for &(number, inertia) in system.mechanics.kinematics.travel_inertia(b) {
-                self.load[number] -= inertia * acceleration;
+                self.given[number] -= inertia * acceleration;
             }
         }
     }
 
-    /// Adds the inertia of carried bodies at `at` to the mass matrix and their inertia forces to the load, then
-    /// updates the mobility.
-    fn fill_mass(&mut self, system: &System, at: &State, in_stage: bool) -> Result<(), Error> {
+    /// Fills the forces that are independent of the elements, and the mass matrix of the bodies with the inertia of carried
+    /// bodies, at the time, displacements and speeds of `at`.
+    pub fn fill_given(&mut self, system: &System, at: &State) {
+        self.fill_loads(system, at.t);
         let mechanics = &system.mechanics;
         let constant = mechanics.blocks[0].body_mass();
-        let Some(constant) = constant.filter(|_| !mechanics.carried.is_empty()) else { return Ok(()) };
+        let Some(constant) = constant.filter(|_| !mechanics.carried.is_empty()) else { return };
         self.mass.copy_from(constant);
-        let sums = (&mut self.mass, &mut self.load);
+        let sums = (&mut self.mass, &mut self.given);
         mechanics.carried.add(&mechanics.kinematics, (at.t, &at.q, &at.v), sums, &mut self.columns);
+    }
+
+    /// Updates the mobility of a stage, or M^-1, to the mass matrix, where carried bodies change it.
+    fn set_mass(&mut self, system: &System, in_stage: bool) -> Result<(), Error> {
+        if system.mechanics.carried.is_empty() || system.mechanics.blocks[0].body_mass().is_none() {
+            return Ok(());
+        }
         let mobility = if in_stage { &mut self.stage } else { &mut self.inverse };
         mobility.set_mass(&self.mass)
     }

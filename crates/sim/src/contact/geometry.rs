@@ -37,7 +37,25 @@ pub(crate) struct Geometry {
     rail_slope: Vec<f64>,
     shapes: ShapeSlopes,
     is_built: bool,
+    /// Largest change of a displacement of a body for which the data of another state serve.
+    near: f64,
+    /// Heights of the wheels in the rows.
+    height: Vec<f64>,
+    drift: Drift,
 }
+
+/// Effect of the motion of the wheels since the last update, to first order.
+#[derive(Clone)]
+struct Drift {
+    /// Motion of every wheel along its rail.
+    wheels: Vec<f64>,
+    /// Change of the approach of every element less the deflection of its rail.
+    change: Vec<f64>,
+}
+
+/// Largest change of a displacement of a body, in radii of the smallest wheel per unit of step tolerance, for which the
+/// data of the state before the change serve.
+const NEAR: f64 = 1e-5;
 
 /// Shapes of structures with mass at the elements.
 #[derive(Clone)]
@@ -66,6 +84,9 @@ impl Geometry {
             rail_slope: vec![0.0; m],
             shapes: ShapeSlopes { all: vec![0.0; m * n], value: vec![0.0; n], slope: vec![0.0; n] },
             is_built: false,
+            near: 0.0,
+            height: vec![0.0; system.mechanics.wheels.len()],
+            drift: Drift { wheels: vec![0.0; system.mechanics.wheels.len()], change: vec![0.0; m] },
         }
     }
 
@@ -182,6 +203,7 @@ impl Geometry {
         elements: &Candidates,
     ) -> Result<(), Error> {
         let mechanics = &system.mechanics;
+        self.drift.change.fill(0.0);
         self.places.move_to(mechanics, t, q);
         if system.traits.has_parts {
             for (element, local) in system.elements.iter().zip(&mut self.local) {
@@ -229,6 +251,7 @@ impl Geometry {
     ) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         let is_uneven = system.traits.is_uneven;
+        self.height.copy_from_slice(&self.places.height);
         let Geometry { places, rows, local, switches, .. } = self;
         let at = Where { mechanics, t, q, places, switches, is_uneven };
         for &i in elements.list() {
@@ -354,9 +377,76 @@ impl Geometry {
         self.switches.switch(system.scene, action, t)
     }
 
+    /// Finds the change of the approach of each element less the deflection of its rail, where this is a state, by the motion
+    /// dx of the wheels since the last update to the displacements `q` at the same time, under the forces `force`:
+    ///
+    /// (h_i' - w_i') dx_i - sum_j (dG_ij/dx_i dx_i + dG_ji/dx_j dx_j) F_j
+    ///
+    /// to first order, with the slopes h' of the unloaded rail and w' of the shapes of structures. It is zero where the
+    /// compliance of a structure is not symmetric.
+    pub fn drift_to(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
+        if !(system.traits.follows_motion && system.traits.has_symmetric_rails) {
+            return;
+        }
+        let (mechanics, m) = (&system.mechanics, force.len());
+        let mut drift = std::mem::replace(&mut self.drift, Drift { wheels: Vec::new(), change: Vec::new() });
+        let Drift { wheels, change } = &mut drift;
+        for (w, moved) in wheels.iter_mut().enumerate() {
+            *moved = self.places.of_wheel(mechanics, w, q) - self.places.x[w];
+        }
+        let slopes = &self.rails.matrices().slope;
+        for &i in &system.probes.states {
+            let moved = system.first_wheel[i].map_or(0.0, |wheel| wheels[wheel]);
+            change[i] = moved * (self.rows.rise[i] - along(slopes, i, force));
+            if mechanics.has_structures() {
+                change[i] -= moved * self.shape_slope(i, q);
+            }
+        }
+        for (j, force) in force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            let Some(wheel) = system.first_wheel[j] else { continue };
+            let share = wheels[wheel] * force;
+            let row = &slopes[j * m..(j + 1) * m];
+            for &i in &system.probes.states {
+                change[i] -= share * row[i];
+            }
+        }
+        self.drift = drift;
+    }
+
+    /// Change of the approach of element `i` less the deflection of its rail by the last [`Geometry::drift_to`]; zero
+    /// immediately after an update, and where it is no state.
+    #[inline]
+    pub fn drift(&self, i: usize) -> f64 {
+        self.drift.change[i]
+    }
+
+    /// Whether the data at the displacements `before` serve at `now`, at the same time. All data change by a part of the
+    /// order of dq/L, with the lengths L of rail elements, irregularities and ropes, times the displacements of the bodies
+    /// alone: rows are linear in those of structures. A change dh of the height of a wheel changes the approach of its
+    /// flange by dh times its roll, and the sliding velocity of a spinning wheel by dh times its spin.
+    pub fn is_near(&self, system: &System, before: &DVector<f64>, now: &DVector<f64>) -> bool {
+        if !system.traits.has_symmetric_rails {
+            return false;
+        }
+        let bodies = system.mechanics.body_dofs();
+        let mut moved = before.as_slice().iter().zip(now.as_slice()).take(bodies);
+        if !moved.all(|(before, now)| (now - before).abs() <= self.near) {
+            return false;
+        }
+        let by_height = system.by_height.list().iter();
+        by_height.filter_map(|&i| Some((i, system.first_wheel[i]?))).all(|(i, wheel)| {
+            let raised = (self.places.height[wheel] - self.height[wheel]).abs();
+            let arm =
+                if system.fixed[i].is_tangential { 1.0 } else { system.mechanics.roll(wheel, now).abs() };
+            raised * arm <= self.near
+        })
+    }
+
     /// Sets the tolerance distances for extrapolation of the compliance, for steps with the relative error
     /// `tolerance`; `radius` is the radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
+        // Without wheels the radius is infinite.
+        self.near = if radius.is_finite() { NEAR * tolerance * radius } else { 0.0 };
         self.rails.set_accuracy(tolerance, radius);
     }
 

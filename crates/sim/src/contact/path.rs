@@ -1,9 +1,10 @@
 //! Compliance of three or more wheels of one structure, interpolated along their path.
 //!
-//! For structures with a symmetric G, the compliance is evaluated at both ends of a path of up to four steps and
-//! interpolated between them. The wheels of one contact move together; a group consists of the wheels of one contact
-//! that act on one element. With s in [0, 1] the fraction of the path, G(s) is the cubic defined by the values and
-//! the slopes at both ends. The slopes of single groups are the quadratics of least curvature that satisfy dG/ds =
+//! For structures with a symmetric G, the compliance is evaluated at two nodes of a path of some steps, which lie a seventh
+//! of it inside its ends. The wheels of one contact move together; a group consists of the wheels of one contact that act
+//! on one element. With s = 0 and s = 1 at the nodes, G(s) is the cubic defined by the values and the slopes there; its
+//! error, in proportion to s^2 (1 - s)^2, is no larger at the ends than between the nodes. A path that goes on begins at the
+//! second node of the last one. The slopes of single groups are the quadratics of least curvature that satisfy dG/ds =
 //! G_x x' + G_y y', so that the work of forces along the rail equals the change of the elastic energy in the rail. At
 //! a distance from the path, G is extrapolated by its slopes.
 
@@ -17,6 +18,9 @@ use crate::mechanics::assembly::Mechanics;
 
 /// Number of probes from which interpolation along a path is faster than evaluation.
 const MANY: usize = 3;
+
+/// Part of a path before its first and after its second node, relative to the distance of the nodes.
+const BEYOND: f64 = 0.2;
 
 /// The wheels of one contact that act on one element.
 #[derive(Clone)]
@@ -35,14 +39,24 @@ struct Member {
     weight: f64,
 }
 
-/// The compliance over the groups at one end of the path.
+/// The compliance over the groups at one node of the path.
 #[derive(Clone, Default)]
-struct PathEnd {
+struct PathNode {
     /// Rail coordinate of each group's wheel.
     x: Vec<f64>,
     value: Vec<f64>,
     /// Derivatives with respect to the position of the row's group.
     slope: Vec<f64>,
+}
+
+/// Coefficients of the polynomials of a pair of groups (i, j).
+#[derive(Clone)]
+struct Pair {
+    /// G(i, j): s^0 to s^3.
+    value: [f64; 4],
+    /// d G(i, j)/d x_i and d G(j, i)/d x_j: s^0 to s^2.
+    slope: [f64; 3],
+    back: [f64; 3],
 }
 
 /// The path of the wheels of a structure.
@@ -55,18 +69,15 @@ pub(crate) struct CompliancePath {
     /// The wheel of each probe.
     wheels: Vec<usize>,
     influence: Influence,
-    ends: [PathEnd; 2],
-    /// Rail coordinates of all wheels at the end of the path.
+    nodes: [PathNode; 2],
+    /// Rail coordinates of all wheels at the second node.
     last: Vec<f64>,
-    /// Length of the path of each group, and the distance of each group from the path at the latest position.
+    /// Distance between the nodes for each group, and the distance of each group from the path at the latest position.
     length: Vec<f64>,
     offset: Vec<f64>,
-    /// Polynomial coefficients, s^0 to s^3 of the values and s^0 to s^2 of the slopes, over pairs of groups,
-    /// row-major.
-    value: [Vec<f64>; 4],
-    slope: [Vec<f64>; 3],
-    /// Values and slopes at the latest position, and the groups of the rows that are current.
-    now: [Vec<f64>; 2],
+    /// Pairs of groups (i, j) with j <= i, row by row.
+    pairs: Vec<Pair>,
+    /// Scratch: the groups of the elements that are wanted.
     rows: Vec<usize>,
     is_set: bool,
 }
@@ -99,19 +110,17 @@ impl CompliancePath {
         }
         let count = groups.len();
         let square = || vec![0.0; count * count];
-        let node = || PathEnd { x: vec![0.0; count], value: square(), slope: square() };
+        let node = || PathNode { x: vec![0.0; count], value: square(), slope: square() };
         Some(CompliancePath {
             influence: Influence::zeros(probes.len()),
             members,
             probes,
             wheels,
-            ends: [node(), node()],
+            nodes: [node(), node()],
             last: vec![0.0; mechanics.wheels.len()],
             length: vec![0.0; count],
             offset: vec![0.0; count],
-            value: std::array::from_fn(|_| square()),
-            slope: std::array::from_fn(|_| square()),
-            now: [square(), square()],
+            pairs: Vec::with_capacity(count * (count + 1) / 2),
             rows: Vec::with_capacity(count),
             groups,
             is_set: false,
@@ -119,8 +128,8 @@ impl CompliancePath {
     }
 
     /// Sets the path between the positions `from` and `to` of all wheels; no rail element may end between them. If
-    /// `goes_on` is true and `from` is within the distance `reach` of the end of the last path, the new path starts
-    /// at that end.
+    /// `goes_on` is true and `from` is within the distance `reach` of the path from the second node of the last path to
+    /// `to`, that node is the first of the new path; no rail element may then end between that node and `from`.
     ///
     /// # Errors
     /// Errors of the compliance.
@@ -131,16 +140,22 @@ impl CompliancePath {
         reach: f64,
         goes_on: bool,
     ) -> Result<(), splines::Error> {
-        let is_near = goes_on
-            && self.is_set
-            && self.groups.iter().zip(&self.ends[1].x).all(|(s, x)| (from[s.wheel] - x).abs() <= reach);
-        self.is_set = false;
-        self.ends.swap(0, 1);
+        let was_set = std::mem::replace(&mut self.is_set, false);
+        let inside = BEYOND / (1.0 + 2.0 * BEYOND);
+        let between = |a: &[f64], b: &[f64], share: f64| -> Vec<f64> {
+            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
+        };
+        let mut second = between(&self.last, to, 1.0 / (1.0 + BEYOND));
+        self.nodes.swap(0, 1);
+        self.set_length(&second);
+        let is_near = goes_on && was_set && self.project(from).1 <= reach;
         if !is_near {
-            self.evaluate(0, compliance, from)?;
+            self.evaluate(0, compliance, &between(from, to, inside))?;
+            second = between(from, to, 1.0 - inside);
+            self.set_length(&second);
         }
-        self.evaluate(1, compliance, to)?;
-        self.last.copy_from_slice(to);
+        self.evaluate(1, compliance, &second)?;
+        self.last.copy_from_slice(&second);
         self.fit();
         self.is_set = true;
         Ok(())
@@ -151,8 +166,8 @@ impl CompliancePath {
         self.is_set && self.project(places).1 <= reach
     }
 
-    /// Rail coordinates of all wheels at the end of the path.
-    pub fn end(&self) -> &[f64] {
+    /// Rail coordinates of all wheels at the second node of the path.
+    pub fn second(&self) -> &[f64] {
         &self.last
     }
 
@@ -161,10 +176,17 @@ impl CompliancePath {
         self.is_set = false;
     }
 
-    /// Evaluates the compliance at one end and sums its entries over the groups.
+    /// Sets the distances of the groups from the first node to the positions `second` of all wheels.
+    fn set_length(&mut self, second: &[f64]) {
+        for ((length, group), x) in self.length.iter_mut().zip(&self.groups).zip(&self.nodes[0].x) {
+            *length = second[group.wheel] - x;
+        }
+    }
+
+    /// Evaluates the compliance at one node and sums its entries over the groups.
     fn evaluate(
         &mut self,
-        end: usize,
+        number: usize,
         compliance: &dyn Compliance,
         places: &[f64],
     ) -> Result<(), splines::Error> {
@@ -172,7 +194,7 @@ impl CompliancePath {
             probe.x = places[wheel];
         }
         compliance.fill(&self.probes, &mut self.influence)?;
-        let (node, count, size) = (&mut self.ends[end], self.groups.len(), self.probes.len());
+        let (node, count, size) = (&mut self.nodes[number], self.groups.len(), self.probes.len());
         node.value.fill(0.0);
         node.slope.fill(0.0);
         for (x, group) in node.x.iter_mut().zip(&self.groups) {
@@ -194,47 +216,40 @@ impl CompliancePath {
 
     fn fit(&mut self) {
         let count = self.groups.len();
-        let [from, to] = &self.ends;
-        for (length, (a, b)) in self.length.iter_mut().zip(from.x.iter().zip(&to.x)) {
-            *length = b - a;
-        }
+        let [from, to] = &self.nodes;
+        self.pairs.clear();
         for i in 0..count {
             for j in 0..=i {
                 let (there, back) = (i * count + j, j * count + i);
                 let (x, y) = (self.length[i], self.length[j]);
-                let along = |node: &PathEnd| node.slope[there] * x + node.slope[back] * y;
+                let along = |node: &PathNode| node.slope[there] * x + node.slope[back] * y;
                 let (rise, start, end) = (to.value[there] - from.value[there], along(from), along(to));
                 let cubic =
                     [from.value[there], start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise];
                 // dG/ds minus the part of linearly varying group slopes equals bend (x^2 + y^2) s (1 - s).
                 let squares = x * x + y * y;
                 let bend = if squares > 0.0 { -3.0 * cubic[3] / squares } else { 0.0 };
-                for (pair, length) in [(there, x), (back, y)] {
-                    let by = bend * length;
-                    let line = to.slope[pair] - from.slope[pair];
-                    for (to, from) in self.value.iter_mut().zip(cubic) {
-                        to[pair] = from;
-                    }
-                    for (to, from) in self.slope.iter_mut().zip([from.slope[pair], line + by, -by]) {
-                        to[pair] = from;
-                    }
-                }
+                let slope = |pair: usize, length: f64| {
+                    let (line, by) = (to.slope[pair] - from.slope[pair], bend * length);
+                    [from.slope[pair], line + by, -by]
+                };
+                self.pairs.push(Pair { value: cubic, slope: slope(there, x), back: slope(back, y) });
             }
         }
     }
 
-    /// Fraction of the path at the point nearest to `places`, and the largest distance of a wheel from that point.
+    /// The s of the point of the path nearest to `places`, and the largest distance of a wheel from that point.
     /// The distances of all groups are stored in `offset`.
     fn project(&mut self, places: &[f64]) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
         for ((group, offset), (start, length)) in
-            self.groups.iter().zip(&mut self.offset).zip(self.ends[0].x.iter().zip(&self.length))
+            self.groups.iter().zip(&mut self.offset).zip(self.nodes[0].x.iter().zip(&self.length))
         {
             *offset = places[group.wheel] - start;
             along += *offset * length;
             squares += length * length;
         }
-        let s = if squares > 0.0 { (along / squares).clamp(0.0, 1.0) } else { 0.0 };
+        let s = if squares > 0.0 { (along / squares).clamp(-BEYOND, 1.0 + BEYOND) } else { 0.0 };
         let mut farthest = 0.0_f64;
         for (offset, length) in self.offset.iter_mut().zip(&self.length) {
             *offset -= s * length;
@@ -243,9 +258,16 @@ impl CompliancePath {
         (s, farthest)
     }
 
-    /// Updates values and slopes of the rows of `elements` to the positions `places`; entries between them and other
-    /// elements are not needed. Returns false if the path is not set or a wheel is farther than `reach` from it.
-    pub fn follow(&mut self, places: &[f64], reach: f64, elements: &Candidates) -> bool {
+    /// Writes values and slopes between `elements` at the positions `places` into the matrices over `m` elements; entries
+    /// between them and other elements are not needed. Returns false if the path is not set or a wheel is farther than
+    /// `reach` from it.
+    pub fn follow(
+        &mut self,
+        places: &[f64],
+        reach: f64,
+        elements: &Candidates,
+        (m, matrices): (usize, &mut RailMatrices),
+    ) -> bool {
         if !self.is_set {
             return false;
         }
@@ -253,62 +275,42 @@ impl CompliancePath {
         if farthest > reach {
             return false;
         }
-        let count = self.groups.len();
+        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
         self.rows.clear();
-        self.rows.extend((0..count).filter(|&group| elements.has(self.groups[group].element)));
-        let [value, slope] = &mut self.now;
-        for &row in &self.rows {
-            let span = row * count..(row + 1) * count;
-            let [a, b, c, d] = self.value.each_ref().map(|of| &of[span.clone()]);
-            let now = &mut value[span.clone()];
-            for ((now, (a, b)), (c, d)) in now.iter_mut().zip(a.iter().zip(b)).zip(c.iter().zip(d)) {
-                *now = a + s * (b + s * (c + s * d));
-            }
-            let [a, b, c] = self.slope.each_ref().map(|of| &of[span.clone()]);
-            for ((now, a), (b, c)) in slope[span].iter_mut().zip(a).zip(b.iter().zip(c)) {
-                *now = a + s * (b + s * c);
+        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| elements.has(group.element))
+        {
+            self.rows.push(number);
+            sums[group.element * m..(group.element + 1) * m].fill(0.0);
+            rates[group.element * m..(group.element + 1) * m].fill(0.0);
+            if let Some(own) = group.tangential {
+                tangential[own * m..(own + 1) * m].fill(0.0);
             }
         }
-        if farthest > 0.0 {
-            for (place, &i) in self.rows.iter().enumerate() {
-                for &j in &self.rows[..=place] {
-                    let (there, back) = (i * count + j, j * count + i);
-                    let more = slope[there] * self.offset[i] + slope[back] * self.offset[j];
-                    value[there] += more;
-                    if i != j {
-                        value[back] += more;
+        for (place, &i) in self.rows.iter().enumerate() {
+            let pairs = &self.pairs[i * (i + 1) / 2..][..=i];
+            let (row, offset) = (&self.groups[i], self.offset[i]);
+            for &j in &self.rows[..=place] {
+                let (pair, column) = (&pairs[j], &self.groups[j]);
+                let quadratic = |[a, b, c]: [f64; 3]| a + s * (b + s * c);
+                let [a, b, c, d] = pair.value;
+                let (slope, back) = (quadratic(pair.slope), quadratic(pair.back));
+                let value = a + s * (b + s * (c + s * d)) + (slope * offset + back * self.offset[j]);
+                let there = row.element * m + column.element;
+                sums[there] += value;
+                rates[there] += slope;
+                if let Some(own) = row.tangential {
+                    tangential[own * m + column.element] += slope;
+                }
+                if i != j {
+                    let there = column.element * m + row.element;
+                    sums[there] += value;
+                    rates[there] += back;
+                    if let Some(own) = column.tangential {
+                        tangential[own * m + row.element] += back;
                     }
                 }
             }
         }
         true
-    }
-
-    /// Writes the latest values and slopes of the rows that are current into the matrices over `m` elements.
-    pub fn put(&self, m: usize, matrices: &mut RailMatrices) {
-        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
-        for &row in &self.rows {
-            let element = self.groups[row].element;
-            sums[element * m..(element + 1) * m].fill(0.0);
-            rates[element * m..(element + 1) * m].fill(0.0);
-        }
-        let count = self.groups.len();
-        for &place in &self.rows {
-            let row = &self.groups[place];
-            let [value, slope] = self.now.each_ref().map(|now| &now[place * count..(place + 1) * count]);
-            let span = row.element * m..(row.element + 1) * m;
-            let (sums, rates) = (&mut sums[span.clone()], &mut rates[span]);
-            for (column, (value, slope)) in self.groups.iter().zip(value.iter().zip(slope)) {
-                sums[column.element] += value;
-                rates[column.element] += slope;
-            }
-            if let Some(own) = row.tangential {
-                let rates = &mut tangential[own * m..(own + 1) * m];
-                rates.fill(0.0);
-                for (column, slope) in self.groups.iter().zip(slope) {
-                    rates[column.element] += slope;
-                }
-            }
-        }
     }
 }

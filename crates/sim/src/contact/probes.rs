@@ -32,4 +32,6 @@ pub(crate) struct Probes {
     pub slots: Vec<Option<usize>>,
     /// Elements for which the longitudinal displacement of the rail is a state.
     pub sliding: Vec<usize>,
+    /// Elements for which this or the penetration is a state.
+    pub states: Vec<usize>,
 }

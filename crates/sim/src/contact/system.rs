@@ -29,6 +29,8 @@ pub(crate) struct System<'a> {
     /// Whether the rail below each vertical contact moves with degrees of freedom alone, without a compliance of its own,
     /// so that the rate of the penetration is a function of the motion.
     pub follows_motion: Vec<bool>,
+    /// The first wheel of each element, if it acts on wheels.
+    pub first_wheel: Vec<Option<usize>>,
     pub probes: Probes,
     pub traits: Traits,
     /// Elements that guide wheels laterally, and springs between two points (ropes and stops).
@@ -61,6 +63,8 @@ pub(crate) struct Traits {
     pub uses_heights: bool,
     /// Whether positions or rows change with the motion within a stage, so that its matrices depend on its solution.
     pub follows_motion: bool,
+    /// Whether the compliance of every structure is symmetric.
+    pub has_symmetric_rails: bool,
     /// Whether the linear contact equations are symmetric: see [`crate::contact::forces`].
     pub is_symmetric: bool,
 }
@@ -87,6 +91,7 @@ impl<'a> System<'a> {
         let follows_motion = find_moved_rails(&mechanics);
         let mut by_height = Candidates::all(elements.len());
         by_height.choose(|i| elements[i].uses_height());
+        let first_wheel = elements.iter().map(|element| first_wheel(&mechanics, element)).collect();
         Ok(System {
             scene,
             foundations,
@@ -96,6 +101,7 @@ impl<'a> System<'a> {
             elements,
             fixed,
             follows_motion,
+            first_wheel,
             probes,
             traits,
             guides,
@@ -142,14 +148,6 @@ impl<'a> System<'a> {
         }
     }
 
-    /// The first wheel on which element `i` acts.
-    pub fn wheel_of(&self, i: usize) -> Option<usize> {
-        self.elements[i].channels(&self.mechanics).into_iter().find_map(|(channel, _)| match channel {
-            Channel::Vertical(wheel) | Channel::Lateral(wheel) | Channel::Traction(wheel) => Some(wheel),
-            _ => None,
-        })
-    }
-
     /// Rope `index` of the scene with the index of its element.
     pub fn rope(&self, index: usize) -> Option<(usize, &RopeForce<'a>)> {
         let element = *self.ropes.get(index)?;
@@ -186,6 +184,14 @@ impl<'a> System<'a> {
         let slots = self.verticals() + self.probes.sliding.len();
         State::zeros(self.mechanics.dofs, slots, self.elements.len())
     }
+}
+
+/// The first wheel on which `element` acts.
+fn first_wheel(mechanics: &Mechanics, element: &ForceElement) -> Option<usize> {
+    element.channels(mechanics).into_iter().find_map(|(channel, _)| match channel {
+        Channel::Vertical(wheel) | Channel::Lateral(wheel) | Channel::Traction(wheel) => Some(wheel),
+        _ => None,
+    })
 }
 
 /// Lists the probes of all elements.
@@ -250,7 +256,8 @@ fn find_probes(mechanics: &Mechanics, elements: &[ForceElement]) -> Probes {
             && entries.iter().enumerate().all(|(i, entry)| entry.element == i && entry.weight == -1.0)
     };
     let is_direct = entries.iter().map(is_direct).collect();
-    Probes { entries, is_direct, tangential, slots, sliding }
+    let states = (0..elements.len()).filter(|&i| slot(i).is_some()).collect();
+    Probes { entries, is_direct, tangential, slots, sliding, states }
 }
 
 /// Whether the rail below each vertical contact has no compliance of its own, and is neither carried nor divided into
@@ -276,8 +283,10 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
     let laws = || scene.contacts.iter().map(|contact| &scene.wheels[contact.wheel].normal);
     let ratio = |law: &NormalLaw| law.damping / law.stiffness;
     let grounded = laws().find(|law| !law.has_memory());
+    let mut compliances = mechanics.foundations.iter().filter_map(|f| f.compliance.as_ref());
+    let has_symmetric_rails = compliances.all(|compliance| compliance.is_symmetric());
     let is_symmetric = !mechanics.moves_freely
-        && mechanics.foundations.iter().filter_map(|f| f.compliance.as_ref()).all(|c| c.is_symmetric())
+        && has_symmetric_rails
         && grounded.is_none_or(|first| {
             laws().all(|law| if law.has_memory() { ratio(first) == 0.0 } else { ratio(law) == ratio(first) })
         });
@@ -295,6 +304,7 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
         has_memory: laws().any(NormalLaw::has_memory),
         uses_heights,
         follows_motion,
+        has_symmetric_rails,
         is_symmetric,
     }
 }

@@ -170,6 +170,14 @@ impl<'a> Mechanics<'a> {
         arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
     }
 
+    /// Roll of the body of wheel `w` at the degrees of freedom `q`.
+    pub fn roll(&self, w: usize, q: &DVector<f64>) -> f64 {
+        const ROLL: usize = BodyDof::Roll as usize;
+        let body = self.wheels[w].body;
+        let terms = self.kinematics.terms(body)[ROLL].iter();
+        self.kinematics.constant(body)[ROLL] + terms.map(|&(number, share)| share * q[number]).sum::<f64>()
+    }
+
     /// Angle, angular velocity and angular acceleration of wheel `w` at `t`; `None` where its spin is not prescribed.
     pub fn turn(&self, w: usize, t: f64) -> Option<Travel> {
         self.wheels[w].turn.map(|motion| motion.at(t))

@@ -111,16 +111,16 @@ impl Sdirk {
     }
 
     /// Extrapolates accelerations and forces of stage `i` by the polynomial through those at the start of the step
-    /// and of the previous stages.
+    /// and of the previous stages [`Tableau::guess`].
     fn guess(&mut self, solver: &Solver, from: &State, i: usize) {
         if i == 0 || !solver.system().mechanics.moves_freely {
             return;
         }
-        let c = self.tableau.c;
-        // Lagrange weights of 0 and the previous abscissae.
-        let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[j]);
+        let (c, stages) = (self.tableau.c, self.tableau.guess[i]);
+        // Lagrange weights of 0 and the abscissae of these stages.
+        let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[stages[j]]);
         let weight = |j: usize| {
-            let others = (0..=i).filter(|&k| k != j);
+            let others = (0..=stages.len()).filter(|&k| k != j);
             others.map(|k| (c[i] - node(k)) / (node(j) - node(k))).product::<f64>()
         };
         let is_guessed = |k: &usize| !solver.is_charted(*k);
@@ -129,8 +129,8 @@ impl Sdirk {
             stage.a[k] = first * from.a[k];
         }
         stage.force.iter_mut().zip(&from.force).for_each(|(to, from)| *to = first * from);
-        for (j, done) in self.done[..i].iter().enumerate() {
-            let share = weight(j + 1);
+        for (j, &before) in stages.iter().enumerate() {
+            let (share, done) = (weight(j + 1), &self.done[before]);
             for k in (0..stage.a.len()).filter(is_guessed) {
                 stage.a[k] += share * done.accelerations[k];
             }

@@ -441,7 +441,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let index = self.touches.iter().zip(&now).position(|(old, new)| old.value * new.value < 0.0)?;
         let system = self.step.system();
         let element = system.guarded(GuardKind::Touch)[index];
-        Some((system.wheel_of(element)?, now[index].value > 0.0))
+        Some((system.first_wheel[element]?, now[index].value > 0.0))
     }
 
     /// Notes a strike at the end of the step if it is the first.
@@ -504,7 +504,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 if let Some(stop) = met {
                     self.note_strike(StruckBy::Stop(stop));
                 }
-                cause = switched.and_then(|i| system.wheel_of(i)).map_or(cause, GapCause::Contact);
+                cause = switched.and_then(|i| system.first_wheel[i]).map_or(cause, GapCause::Contact);
                 after = self.stored();
                 let gained = after.total() - before.total();
                 if has_crossed { self.books.book_rail(gained) } else { self.books.book_switch(-gained) }

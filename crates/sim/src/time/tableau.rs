@@ -8,6 +8,10 @@ pub(crate) struct Tableau {
     /// Rows of the coefficient matrix below the diagonal; row i has i entries. The last row and `gamma` are the
     /// weights.
     pub a: &'static [&'static [f64]],
+    /// Previous stages from which, with the start of the step, each stage is extrapolated for its first guess. Stages near
+    /// to each other multiply their errors in an extrapolation: at the end of a step the quadratic through the start and
+    /// two stages is nearer than the quartic through the start and four.
+    pub guess: &'static [&'static [usize]],
     /// Weights minus those of the embedded method.
     pub error: &'static [f64],
 }
@@ -39,6 +43,7 @@ pub(crate) const SDIRK4: Tableau = Tableau {
         &[371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0],
         &[25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
     ],
+    guess: &[&[], &[0], &[0, 1], &[0, 1, 2], &[1, 2]],
     error: &[-3.0 / 16.0, -27.0 / 32.0, 25.0 / 32.0, 0.0, 0.25],
 };
 

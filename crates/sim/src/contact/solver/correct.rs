@@ -7,7 +7,9 @@
 //! a <- a - Z r_a,   dF = -J^-1 r_F,   F <- F + dF,   a <- a - Z B^T dF.
 //!
 //! A correction reduces the error by a factor of the order of the change of the matrices since they were factored. It
-//! costs a few matrix-vector products.
+//! costs a few matrix-vector products. The geometry is evaluated in the first correction of a stage, and again only if the
+//! bodies have moved by more than the tolerance distance of [`Geometry::is_near`]: from one correction to the next they move
+//! by some 1e-9 of the radius of a wheel.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: simplified Newton iterations.
@@ -15,6 +17,8 @@
 use super::Solver;
 use crate::Error;
 use crate::contact::element::passing;
+#[cfg(doc)]
+use crate::contact::geometry::Geometry;
 use crate::mechanics::state::{Known, State};
 
 impl Solver<'_> {
@@ -25,24 +29,27 @@ impl Solver<'_> {
         is_factored && self.charts.is_empty()
     }
 
-    /// Corrects the stage at `at`. Returns the largest change of the degrees of freedom relative to themselves, and
-    /// the largest change of degrees of freedom and forces relative to their scales. Returns `None` if the set of
-    /// acting laws differs from the factored one; then only the free motion has been improved.
+    /// Corrects the stage at `at`. Returns the largest change of the degrees of freedom relative to themselves, the
+    /// largest change of degrees of freedom and forces relative to their scales, and whether the laws that act are those
+    /// of the last pass. Returns `None` if another element touches; then only the free motion has been improved.
     pub(super) fn correct(
         &mut self,
         g: f64,
         known: &Known,
         at: &mut State,
-    ) -> Result<Option<[f64; 2]>, Error> {
+    ) -> Result<Option<([f64; 2], bool)>, Error> {
         let system = self.system;
-        self.update_candidates(at)?;
+        if !(self.evaluated.is_valid && self.geometry.is_near(system, &self.evaluated.q, &at.q)) {
+            self.evaluate_at(at)?;
+            self.free.fill_given(system, at);
+        }
         let rows = self.geometry.rows();
         self.free.improve(system, g, known, at, self.projection.columns(), |j| rows.force_row(j));
         if !self.reach(g, &known.p, at) {
             return Ok(None);
         }
         let (local, active) = (self.geometry.local(), self.active.flags());
-        let Some(change) = self.problem.corrections(system, local, active, &at.force) else {
+        let Some((change, is_same)) = self.problem.corrections(system, local, active, &at.force) else {
             return Ok(None);
         };
         let size = at.force.iter().fold(f64::MIN_POSITIVE, |max, force| force.abs().max(max));
@@ -52,7 +59,7 @@ impl Solver<'_> {
         let [moved, beside] = self.arrive(g, known, at, |solver, i, at| {
             solver.geometry.approach(i, &at.q) - solver.geometry.deflection(i, &at.force)
         });
-        Ok(Some([moved, beside.max(largest / size)]))
+        Ok(Some(([moved, beside.max(largest / size)], is_same)))
     }
 
     /// Computes penetrations and rates of all elements for the free motion under the forces of `at`. Returns false if
@@ -65,7 +72,7 @@ impl Solver<'_> {
             if is_idle && !fixed.is_followed {
                 continue;
             }
-            let deflection = self.geometry.deflection(i, &at.force);
+            let deflection = self.geometry.deflection(i, &at.force) - self.geometry.drift(i);
             let penetration = self.geometry.approach(i, &self.free.q) - deflection;
             let mut rate = 0.0;
             if self.follows_motion(i) {

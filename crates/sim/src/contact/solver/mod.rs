@@ -37,6 +37,13 @@ pub(crate) enum RailMemory {
     Unknown,
 }
 
+/// Displacements of an evaluation of the geometry in a stage.
+struct Evaluated {
+    q: DVector<f64>,
+    /// Whether there was one in the present stage.
+    is_valid: bool,
+}
+
 /// A numbered scene with the current geometry of its elements, the active set, and the problem of the forces.
 pub(crate) struct Solver<'a> {
     system: &'a System<'a>,
@@ -49,6 +56,8 @@ pub(crate) struct Solver<'a> {
     problem: Problem,
     /// Coefficient g of the stage whose Jacobian is factored in `problem`.
     factored_for: Option<f64>,
+    /// Displacements at which geometry, masses and loads of the present stage were evaluated last.
+    evaluated: Evaluated,
     convergence: Convergence,
     rail_memory: RailMemory,
 }
@@ -67,6 +76,7 @@ impl<'a> Solver<'a> {
             projection: Projection::new(system),
             problem: Problem::new(system.elements.len()),
             factored_for: None,
+            evaluated: Evaluated { q: DVector::zeros(system.mechanics.dofs), is_valid: false },
             convergence: Convergence::default(),
             rail_memory,
         })

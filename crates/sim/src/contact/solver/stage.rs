@@ -9,7 +9,9 @@
 //! F), and updates the guess with the resulting accelerations. Passes are repeated until the changes are within
 //! rounding or the remaining error is within the accuracy of the step ([`Convergence`](super::Convergence)). Later
 //! passes of a step correct the stage with the factors of an earlier one ([`correct`](super::correct)). If no row
-//! depends on the motion, the first pass is the solution.
+//! depends on the motion, the first pass is the solution. The last pass moves the wheels from the places of its geometry;
+//! the penetrations of the state follow them to first order (`Geometry::drift_to`), so that the energy of penetrations
+//! and rails is that of the state.
 //!
 //! A pass is executed in this order: motion without forces; geometry; idle elements (first pass only); mobility
 //! projected on the rows; rows of the problem; forces; check for elements that begin to touch, which repeats the
@@ -24,6 +26,9 @@ use crate::numerics::dense::along;
 
 /// Allowed relative residual of the forces, per unit of the allowed error of the passes.
 const SLACK: f64 = 0.1;
+
+/// Number of changes of the set of acting laws in a stage up to which it is corrected with W and Y of an earlier pass.
+const CHANGES: usize = 2;
 
 /// Result of a pass of a stage.
 enum Pass {
@@ -67,11 +72,13 @@ impl Solver<'_> {
         if self.problem.candidates.are_all() { Ok(()) } else { self.update(to) }
     }
 
-    /// Updates the geometry of the elements that may act in the step to `at`.
+    /// Updates the geometry of the elements that may act in the step to `at`, in a stage.
     ///
     /// # Errors
     /// Errors of the rail models.
-    pub(super) fn update_candidates(&mut self, at: &State) -> Result<(), Error> {
+    pub(super) fn evaluate_at(&mut self, at: &State) -> Result<(), Error> {
+        self.evaluated.q.copy_from(&at.q);
+        self.evaluated.is_valid = true;
         let elements = &self.problem.candidates;
         self.geometry.update_some(self.system, (at.t, &at.q), &at.force, elements)
     }
@@ -114,7 +121,8 @@ impl Solver<'_> {
             self.charts.guess(system, self.geometry.switches(), g, known, at);
         }
         self.problem.slack = self.convergence.allowed().map_or(0.0, |allowed| SLACK * allowed);
-        let mut last = f64::INFINITY;
+        let (mut last, mut changes_of_set) = (f64::INFINITY, 0);
+        self.evaluated.is_valid = false;
         for pass in 0..PASSES {
             if hangs {
                 self.charts.linearise(system, self.geometry.switches(), g, known, at);
@@ -126,24 +134,27 @@ impl Solver<'_> {
                     self.factored_for = None;
                 }
             }
-            let [moved, change] = match corrected {
+            let is_correction = corrected.is_some();
+            let ([moved, change], is_same) = match corrected {
                 Some(changes) => changes,
                 None => match self.pass(g, known, at, pass == 0)? {
-                    Pass::Moved(changes) => changes,
+                    Pass::Moved(changes) => (changes, true),
                     Pass::Touched => continue,
                     Pass::Failed => return Ok(false),
                 },
             };
-            let verdict = self.convergence.judge(change, last);
+            let verdict = self.convergence.judge(change, last, is_correction);
             // In the first pass of a free motion, a small change of positions does not imply accurate speeds.
             let is_sure = pass > 0 || !system.mechanics.moves_freely;
             // Where nothing depends on the motion within the stage, a full pass is its solution; a correction is not, where
             // laws are not linear.
-            let is_solved = !iterates && corrected.is_none();
-            if (moved < 1e-13 && is_sure) || is_solved || verdict.has_ended {
+            let is_solved = !iterates && !is_correction;
+            // After a change of the set of acting laws, it may change again.
+            if is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended)) {
                 return Ok(true);
             }
-            if verdict.is_poor {
+            changes_of_set += usize::from(!is_same);
+            if verdict.is_poor || changes_of_set > CHANGES {
                 self.factored_for = None;
             }
             last = change;
@@ -160,7 +171,7 @@ impl Solver<'_> {
             self.free.move_in_stage(system, g, known, at)?;
         }
         self.factored_for = None;
-        self.update_candidates(at)?;
+        self.evaluate_at(at)?;
         if begins {
             self.find_idle(&at.force);
         }
@@ -296,13 +307,14 @@ impl Solver<'_> {
         penetration: impl Fn(&Self, usize, &State) -> f64,
     ) -> [f64; 2] {
         let changes = self.follow_accelerations(g, known, at);
+        self.geometry.drift_to(self.system, &at.q, &at.force);
         for i in 0..self.system.verticals() {
-            at.p[i] = penetration(self, i, at);
+            at.p[i] = penetration(self, i, at) + self.geometry.drift(i);
             at.p_rate[i] =
                 if self.follows_motion(i) { self.approach_rate(i, at) } else { (at.p[i] - known.p[i]) / g };
         }
         for (i, slot) in self.sliding() {
-            let moved = self.geometry.deflection(i, &at.force);
+            let moved = self.geometry.deflection(i, &at.force) - self.geometry.drift(i);
             at.p_rate[slot] = (moved - known.p[slot]) / g;
             at.p[slot] = moved;
         }
