@@ -270,7 +270,7 @@ pub fn selection_reason(choice: &Choice) -> String {
         ),
         Reason::NoBetter => {
             format!(
-                "auto: {chosen}; {} exceeds the tolerance, and more natural modes would not reduce it enough",
+                "auto: {chosen}; {} exceeds the tolerance, and by the estimates no number of natural modes reduces it enough",
                 error()
             )
         }
@@ -293,7 +293,7 @@ pub fn selection_doubt(name: &str, choice: &Choice, tolerance: f64) -> Option<St
             if choice.reason == Reason::Limit {
                 "it was not possible to reduce it in three runs"
             } else {
-                "more natural modes would not reduce it enough"
+                "by the estimates no number of natural modes reduces it enough"
             }
         ),
         Reason::Unchecked => {

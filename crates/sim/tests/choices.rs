@@ -170,30 +170,31 @@ fn the_number_of_modes_is_raised_where_runs_differ_by_more_than_was_estimated() 
     assert!(raised > 0);
 }
 
-/// A tolerance below what 96 modes leave out is reported as such, after fewer runs than are allowed.
+/// A tolerance below what 144 modes leave out is reported as such, after fewer runs than are allowed.
 #[test]
 fn a_tolerance_that_no_number_of_modes_meets_is_reported() {
     let mut provider = Beam::default();
-    let choice = chosen(0.5, Tolerance { value: 1e-8, ..EXTREMES }, &mut provider);
+    let tolerance = Tolerance { value: 1e-8, measure: Measure::History };
+    let choice = chosen(0.5, tolerance, &mut provider);
     assert_eq!(choice.reason, Reason::NoBetter, "{choice:?} {:?}", provider.runs);
     assert!(choice.estimate.is_some_and(|estimate| estimate > 0.8e-8) && provider.counts().len() < 3);
 }
 
-/// Modes are computed until those that suffice are two thirds of them, or until there are 96.
+/// Modes are computed until those that suffice are two thirds of them, or until there are 144.
 #[test]
 fn one_and_a_half_times_the_modes_that_suffice_are_known() {
     let mut most = 0;
     for (alpha, value) in [(0.25, 1e-2), (0.5, 1e-3), (0.5, 1e-4), (0.25, 1e-8)] {
         let mut provider = Beam::default();
-        let choice = chosen(alpha, Tolerance { value, ..EXTREMES }, &mut provider);
+        let choice = chosen(alpha, Tolerance { value, measure: Measure::History }, &mut provider);
         let Fidelity::Modal(modes) = choice.fidelity else { panic!("{choice:?}") };
         assert_eq!(provider.asked[0], 24);
         assert!(provider.asked.windows(2).all(|pair| pair[0] < pair[1]), "{:?}", provider.asked);
         let known = provider.asked[provider.asked.len() - 1];
-        assert!(known <= 96 && (3 * modes <= 2 * known || known == 96), "{modes} of {:?}", provider.asked);
+        assert!(known <= 144 && (3 * modes <= 2 * known || known == 144), "{modes} of {:?}", provider.asked);
         most = most.max(known);
     }
-    assert_eq!(most, 96, "an accuracy of 1e-8 needs all of them");
+    assert_eq!(most, 144, "an accuracy of 1e-8 needs all of them");
 }
 
 #[test]

@@ -192,13 +192,13 @@ impl Irregularity {
         &self.starts
     }
 
-    /// Coordinates of the steps, where the height changes.
-    pub(crate) fn steps(&self) -> impl Iterator<Item = f64> {
-        let is_step = |&(k, &x): &(usize, &f64)| {
+    /// Coordinates of the steps, where the height changes, and by how much it is larger beyond them.
+    pub(crate) fn steps(&self) -> impl Iterator<Item = [f64; 2]> {
+        self.starts.iter().enumerate().filter_map(|(k, &x)| {
             let [before, after] = [k, k + 1].map(|piece| self.vertical(piece, x)[0]);
-            (after - before).abs() > 1e-9 * (before.abs() + after.abs())
-        };
-        self.starts.iter().enumerate().filter(is_step).map(|(_, x)| *x)
+            let is_step = (after - before).abs() > 1e-9 * (before.abs() + after.abs());
+            is_step.then_some([x, after - before])
+        })
     }
 
     /// Index of the piece at `x` for a wheel that moves in `direction` (the sign counts). At a corner it is the piece

@@ -37,7 +37,7 @@ use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Select
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
 /// Number of modes that are computed first, and at the most.
-const MODES: [usize; 2] = [24, 96];
+const MODES: [usize; 2] = [24, 144];
 /// Least ratio of the number of known modes to the number for which an estimate is used.
 const BEYOND: f64 = 1.5;
 /// Estimate for which a number of modes is chosen, relative to the tolerance.
@@ -53,8 +53,8 @@ const ABOVE_CONTACT: f64 = 3.0;
 /// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
 const NEGLIGIBLE: f64 = 0.1;
 /// Estimate for the largest number of modes, relative to the tolerance, above which no number is expected to suffice.
-const UNREACHABLE: f64 = 30.0;
-/// Ratio of the estimates for two numbers of modes up to which the larger number is no better in this case.
+const UNREACHABLE: f64 = 10.0;
+/// Ratio of the estimates for two numbers of modes up to which the larger number is no better, where neither suffices.
 const NO_BETTER: f64 = 1.5;
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
 const AMPLIFICATION: [f64; 2] = [1.0, 30.0];
@@ -169,20 +169,21 @@ impl Open {
 
     /// The same; where there is none, the smallest number whose estimate, times `factor`, is within the tolerance with
     /// the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far beyond the
-    /// tolerance ([`UNREACHABLE`]), it is the smallest number that is as good but for the factor [`NO_BETTER`].
+    /// tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
     fn count_for(&self, limit: f64, factor: f64, least: usize) -> Option<usize> {
         let within = || self.sufficient_count(SAFE / factor * self.tolerance, least);
-        let last = || self.tails.last().filter(|last| last.kept >= least);
         let most = || {
-            let last = last()?;
-            let is_unreachable = last.error > UNREACHABLE * self.tolerance;
-            if is_unreachable {
-                self.sufficient_count(NO_BETTER * last.error, least)
-            } else {
-                Some(last.kept)
-            }
+            let last = self.tails.last().filter(|last| last.kept >= least)?;
+            let is_unreachable = last.error > (UNREACHABLE * self.tolerance).min(1.0);
+            if is_unreachable { self.no_worse_count(least) } else { Some(last.kept) }
         };
         self.sufficient_count(limit, least).or_else(within).or_else(most)
+    }
+
+    /// Smallest number of modes, at least `least`, whose estimate is that for the largest number or less, but for the factor
+    /// [`NO_BETTER`].
+    fn no_worse_count(&self, least: usize) -> Option<usize> {
+        self.sufficient_count(NO_BETTER * self.tails.last()?.error, least)
     }
 
     /// Number of modes with which the start of a run with `count` modes is repeated, and the ratio of the estimates for the
@@ -342,7 +343,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             if own.tail(0).error > aim {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
                 self.estimate(own, first, compliances, 1, limit);
-                let enough = |limit: f64| own.count_for(limit, UNKNOWN, 1).unwrap_or(own.known());
+                // a run that only checks influence need not be within the tolerance itself
+                let found = |limit: f64| match own.sufficient_count(limit, 1) {
+                    None if !is_hopeless => own.no_worse_count(1),
+                    None => own.count_for(limit, UNKNOWN, 1),
+                    found => found,
+                };
+                let enough = |limit: f64| found(limit).unwrap_or(own.known());
                 *count = enough(limit).max(least.min(enough(NEGLIGIBLE * aim)));
             }
         }
@@ -377,7 +384,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             let mut start = None;
             let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
-            let is_unreachable = factor * lacking > UNREACHABLE * strictest.value;
+            let is_unreachable = factor * lacking > (UNREACHABLE * strictest.value).min(1.0);
             if raised == counts && !is_unreachable {
                 (higher, start) = self.check_start(&open, &counts, higher, strictest, bounces)?;
                 let found = start.as_ref().map_or(0.0, |start| start.error);

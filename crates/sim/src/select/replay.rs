@@ -174,7 +174,8 @@ impl<'a> Replay<'a> {
             let has = |quantity: &RecordedQuantity| quantity.channel == Some(channel);
             record.quantities.iter().position(has).map(slot)
         };
-        let mut wheels = loaded_wheels(loaded, basis)?;
+        let frequencies = basis.structure.dynamics.frequencies();
+        let mut wheels = loaded_wheels(scene, foundations, structure, history, &frequencies)?;
         let mut by_wheel = Vec::new();
         wheels.retain(|wheel| {
             let slots = (Channel::Deflection(wheel.index), Channel::Vertical(wheel.index));
@@ -303,6 +304,11 @@ impl<'a> Replay<'a> {
             }
             let [left, right] = beside;
             self.step((share - from) * h, &begin, &left);
+            // the shapes are those under the wheels at this instant
+            for (interval, shapes) in intervals.iter().zip(self.shapes.chunks(end.value.len())) {
+                let impulse = interval.impulse(share);
+                self.oscillators.iter_mut().zip(shapes).for_each(|(mode, shape)| mode.push(shape * impulse));
+            }
             (begin, from) = (right, share);
         }
         self.step((1.0 - from) * h, &begin, end);

@@ -38,6 +38,11 @@ impl Oscillator {
         self.state = [load * self.flexibility(), 0.0, 0.0];
     }
 
+    /// Takes an impulse.
+    pub fn push(&mut self, impulse: f64) {
+        self.state[1] += impulse;
+    }
+
     /// Coefficients of a step of length `h`.
     fn set_step(&mut self, h: f64) {
         self.length = h;

@@ -8,11 +8,11 @@
 //! - the slope of the shapes of the modes jumps where a wheel passes a hinge, a support of a shear-flexible beam or another
 //!   break of its rail;
 //! - the force jumps where a wheel passes a step of its rail, or meets it with a damper, of which the instant is not known.
-//!   Before and after that it changes as in the intervals beside.
+//!   Before and after that it changes as in the intervals beside. A damper between wheel and rail gives the rail an impulse
+//!   c dh at a step of the height dh as well.
 
-use super::{Loaded, ModalBasis};
 use crate::mechanics::wheels::Wheels;
-use crate::{Channel, Damper, Error, History, Irregularity};
+use crate::{Channel, Damper, Error, Foundation, History, Irregularity, Scene};
 
 /// Largest ratio of the bends of a force at two neighbouring samples between which it is smooth.
 const SMOOTH: f64 = 3.0;
@@ -23,8 +23,8 @@ const BESIDE: f64 = 1e-9;
 
 /// A wheel on the structure, with the positions of its values in a sample.
 pub(super) struct LoadedWheel {
-    /// Places at which the height of its rail steps: there its force jumps.
-    steps: Vec<f64>,
+    /// Places at which the height of its rail steps, and by how much: there its force jumps.
+    steps: Vec<[f64; 2]>,
     /// Places at which the slope of the shapes may jump.
     breaks: Vec<f64>,
     /// Whether its force jumps where it meets the rail: its damper acts at once.
@@ -41,22 +41,27 @@ pub(super) struct LoadedWheel {
     pub at_modes: Vec<f64>,
 }
 
-/// The wheels on the structure that the samples contain.
+/// The wheels on a structure that the samples of a run contain. `frequencies` are those of the modes.
 ///
 /// # Errors
 /// A wheel beyond its rail.
-pub(super) fn loaded_wheels(loaded: &Loaded<'_>, basis: &ModalBasis) -> Result<Vec<LoadedWheel>, Error> {
-    let frequencies = basis.structure.dynamics.frequencies();
-    let foundation = &loaded.foundations[loaded.structure];
+pub(super) fn loaded_wheels(
+    scene: &Scene,
+    foundations: &[Foundation],
+    structure: usize,
+    history: &History,
+    frequencies: &[f64],
+) -> Result<Vec<LoadedWheel>, Error> {
+    let foundation = &foundations[structure];
     let mut wheels = Vec::new();
-    for (index, point) in Wheels::new(loaded.scene, loaded.foundations, || 0)?.points.iter().enumerate() {
-        let contact = &loaded.scene.contacts[point.contact];
-        let Some(first) = loaded.history.position(Channel::Position(index)) else { continue };
-        if contact.structure != loaded.structure {
+    for (index, point) in Wheels::new(scene, foundations, || 0)?.points.iter().enumerate() {
+        let contact = &scene.contacts[point.contact];
+        let Some(first) = history.position(Channel::Position(index)) else { continue };
+        if contact.structure != structure {
             continue;
         }
-        let law = &loaded.scene.wheels[contact.wheel].normal;
-        let rest = loaded.history.sample(0)[first + 1].max(0.0);
+        let law = &scene.wheels[contact.wheel].normal;
+        let rest = history.sample(0)[first + 1].max(0.0);
         let at = law.at(law.penetration(rest), 0.0);
         let (k, c) = (at.by_penetration, if law.damper == Damper::Rail { at.by_rate } else { 0.0 });
         let rail = contact.rail;
@@ -96,6 +101,8 @@ pub(super) struct Interval {
     rates: [[f64; 2]; 3],
     /// Share of the interval after which the forces jump.
     jump: Option<f64>,
+    /// Upward impulse on the rail at that instant.
+    impulse: f64,
     /// Shares after which the slopes of the shapes jump.
     breaks: Vec<f64>,
 }
@@ -108,7 +115,7 @@ impl LoadedWheel {
         let [a, b] = [i, next].map(|at| history.sample(at));
         let h = b[0] - a[0];
         let x = [a[self.first], b[self.first]];
-        let jump = if h > 0.0 { self.jump(a, b) } else { None };
+        let (jump, impulse) = if h > 0.0 { self.jump(a, b) } else { None }.unzip();
         // traction and lateral force act on the rail as they are given, the vertical one downwards
         let channels = [(self.first + 3, 1.0), (self.first + 2, 1.0), (self.first + 1, -1.0)];
         let forces = channels.map(|(k, sign)| [sign * a[k], sign * b[k]]);
@@ -125,17 +132,20 @@ impl LoadedWheel {
         let within = |at: &f64| (*at - x[0]) * (*at - x[1]) < 0.0;
         let share = |at: f64| ((at - x[0]) / (x[1] - x[0])).clamp(CORNER, 1.0 - CORNER);
         let breaks = self.breaks.iter().copied().filter(within).map(share).collect();
-        Interval { h, x, forces, rates, jump, breaks }
+        Interval { h, x, forces, rates, jump, impulse: impulse.unwrap_or(0.0), breaks }
     }
 
-    /// Share of the interval between two samples after which the forces jump first.
-    fn jump(&self, before: &[f64], after: &[f64]) -> Option<f64> {
+    /// Share of the interval between two samples after which the forces jump first, and the upward impulse on the rail there.
+    fn jump(&self, before: &[f64], after: &[f64]) -> Option<(f64, f64)> {
         let [from, to] = [before, after].map(|sample| sample[self.first]);
-        let passed = self.steps.iter().filter(|x| (**x - from) * (**x - to) < 0.0);
         let [force, later] = [before, after].map(|sample| sample[self.first + 1]);
-        let landing = (self.is_damped && force == 0.0 && later > 0.0).then_some(0.5);
-        let first = passed.map(|x| (x - from) / (to - from)).chain(landing).min_by(f64::total_cmp);
-        first.map(|share| share.clamp(CORNER, 1.0 - CORNER))
+        let passed = self.steps.iter().filter(|[x, _]| (x - from) * (x - to) < 0.0).map(|[x, height]| {
+            let raised = if force > 0.0 { height * (to - from).signum() } else { 0.0 };
+            ((x - from) / (to - from), -self.contact[1] * raised)
+        });
+        let landing = (self.is_damped && force == 0.0 && later > 0.0).then_some((0.5, 0.0));
+        let first = passed.chain(landing).min_by(|a, b| a.0.total_cmp(&b.0));
+        first.map(|(share, impulse)| (share.clamp(CORNER, 1.0 - CORNER), impulse))
     }
 }
 
@@ -143,6 +153,11 @@ impl Interval {
     /// Shares of the interval after which the load of the wheel on a mode is not smooth.
     pub fn corners(&self) -> impl Iterator<Item = f64> + '_ {
         self.breaks.iter().copied().chain(self.jump)
+    }
+
+    /// Upward impulse of the wheel on the rail after a share of the interval.
+    pub fn impulse(&self, share: f64) -> f64 {
+        if self.jump == Some(share) { self.impulse } else { 0.0 }
     }
 
     /// The wheel after a share of the interval, just before this instant if `side` is -1 and just after it if it is 1.

@@ -16,7 +16,7 @@ fn sampled(times: &[f64], x: impl Fn(f64) -> f64, force: impl Fn(f64) -> f64) ->
     history
 }
 
-fn wheel(steps: &[f64], breaks: &[f64], is_damped: bool) -> LoadedWheel {
+fn wheel(steps: &[[f64; 2]], breaks: &[f64], is_damped: bool) -> LoadedWheel {
     LoadedWheel {
         steps: steps.to_vec(),
         breaks: breaks.to_vec(),
@@ -25,7 +25,7 @@ fn wheel(steps: &[f64], breaks: &[f64], is_damped: bool) -> LoadedWheel {
         body: 0,
         rail: 0,
         first: 1,
-        contact: [1.0, 0.0],
+        contact: [1.0, 3.0],
         at_modes: Vec::new(),
     }
 }
@@ -71,8 +71,10 @@ fn forces_jump_at_steps_of_the_rail_and_where_a_damped_wheel_meets_it() {
     let times: Vec<f64> = (0..9).map(f64::from).collect();
     let stepped = |t: f64| if t < 4.25 { 10.0 + 2.0 * t } else { 90.0 - 3.0 * t };
     let history = sampled(&times, |t| 2.0 * t, stepped);
-    let interval = wheel(&[8.5], &[], false).interval(&history, 4);
+    let interval = wheel(&[[8.5, 0.5]], &[], false).interval(&history, 4);
     assert_eq!(interval.corners().collect::<Vec<_>>(), [0.25]);
+    // c dh, downwards on a rail that rises
+    assert_eq!((interval.impulse(0.25), interval.impulse(0.5)), (-1.5, 0.0));
     for (share, side) in [(0.1, 1.0), (0.25, -1.0), (0.25, 1.0), (0.6, -1.0)] {
         let t = 4.0 + share;
         let expected =
@@ -82,7 +84,7 @@ fn forces_jump_at_steps_of_the_rail_and_where_a_damped_wheel_meets_it() {
     let landing = sampled(&times, |t| 2.0 * t, |t| if t < 4.5 { 0.0 } else { 60.0 + 5.0 * t });
     let [damped, undamped] = [true, false].map(|own| wheel(&[], &[], own).interval(&landing, 4));
     assert_eq!((damped.at(0.5, -1.0).forces[2], damped.at(0.5, 1.0).forces[2]), (0.0, -82.5));
-    assert_eq!(undamped.corners().count(), 0);
+    assert_eq!((undamped.corners().count(), damped.impulse(0.5)), (0, 0.0));
 }
 
 /// Identity: at a break of the rail the two instants lie on its two sides, also of a wheel that moves backwards.
