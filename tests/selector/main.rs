@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 use sim::{Reason, Status};
 
 /// Number of modes of a reference.
-const MODES: usize = 96;
+const MODES: usize = 144;
 /// Accuracy of a reference.
 const ACCURACY: f64 = 1e-7;
 
@@ -180,6 +180,7 @@ fn extremes(values: &[f64], start: f64) -> [f64; 2] {
 #[test]
 fn choices_keep_the_tolerance_for_every_recorded_quantity() {
     let folder = tempfile::tempdir().expect("a folder");
+    let mut doubted = Vec::new();
     for (index, crossing) in QUICK.iter().enumerate() {
         let reference =
             crossing.run(folder.path(), ACCURACY, &json!({"foundation": "modal", "modes": MODES}));
@@ -192,10 +193,15 @@ fn choices_keep_the_tolerance_for_every_recorded_quantity() {
                 "{index} {measure}: {:?}, {:?}, estimate {:?} of {}; error {error:.1e} of {column}",
                 choice.fidelity, choice.reason, choice.estimate, choice.quantity
             );
-            assert!(matches!(choice.reason, Reason::Sufficient | Reason::Kept), "{choice:?}");
             assert!(error <= crossing.tolerance, "{choice:?}: {error} of {column}");
+            if !matches!(choice.reason, Reason::Sufficient | Reason::Kept) {
+                assert_eq!(choice.reason, Reason::NoBetter, "{choice:?}");
+                doubted.push((index, measure));
+            }
         }
     }
+    // under a fast wheel the reactions of a shear-flexible beam converge like 1/n
+    assert_eq!(doubted, [(9, "history")]);
 }
 
 /// Source: the runway of an engineer, HEB 400 over three spans under two undamped wheels of 180 kN. Modes and meshes show that

@@ -174,10 +174,10 @@ fn the_number_of_modes_is_raised_where_runs_differ_by_more_than_was_estimated() 
 #[test]
 fn a_tolerance_that_no_number_of_modes_meets_is_reported() {
     let mut provider = Beam::default();
-    let tolerance = Tolerance { value: 1e-8, measure: Measure::History };
+    let tolerance = Tolerance { value: 2e-9, measure: Measure::History };
     let choice = chosen(0.5, tolerance, &mut provider);
     assert_eq!(choice.reason, Reason::NoBetter, "{choice:?} {:?}", provider.runs);
-    assert!(choice.estimate.is_some_and(|estimate| estimate > 0.8e-8) && provider.counts().len() < 3);
+    assert!(choice.estimate.is_some_and(|estimate| estimate > 2e-9) && provider.counts().len() < 3);
 }
 
 /// Modes are computed until those that suffice are two thirds of them, or until there are 144.
