@@ -175,7 +175,7 @@ impl<'a> Replay<'a> {
             record.quantities.iter().position(has).map(slot)
         };
         let frequencies = basis.structure.dynamics.frequencies();
-        let mut wheels = loaded_wheels(scene, foundations, structure, history, &frequencies)?;
+        let mut wheels = loaded_wheels(scene, foundations, structure, history, frequencies)?;
         let mut by_wheel = Vec::new();
         wheels.retain(|wheel| {
             let slots = (Channel::Deflection(wheel.index), Channel::Vertical(wheel.index));
