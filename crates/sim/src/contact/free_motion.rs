@@ -4,6 +4,7 @@ use nalgebra::{DMatrix, DVector, SVector};
 
 use super::system::System;
 use crate::Error;
+use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::inertia::columns_of;
 use crate::mechanics::mobility::Mobility;
 use crate::mechanics::state::{Known, State};
@@ -192,8 +193,7 @@ impl<'a> FreeMotion<'a> {
     pub fn fill_given(&mut self, system: &System, at: &State) {
         self.fill_loads(system, at.t);
         let mechanics = &system.mechanics;
-        let constant = mechanics.blocks[0].body_mass();
-        let Some(constant) = constant.filter(|_| !mechanics.carried.is_empty()) else { return };
+        let Some(constant) = changed_mass(mechanics) else { return };
         self.mass.copy_from(constant);
         let sums = (&mut self.mass, &mut self.given);
         mechanics.carried.add(&mechanics.kinematics, (at.t, &at.q, &at.v), sums, &mut self.columns);
@@ -201,10 +201,15 @@ impl<'a> FreeMotion<'a> {
 
     /// Updates the mobility of a stage, or M^-1, to the mass matrix, where carried bodies change it.
     fn set_mass(&mut self, system: &System, in_stage: bool) -> Result<(), Error> {
-        if system.mechanics.carried.is_empty() || system.mechanics.blocks[0].body_mass().is_none() {
+        if changed_mass(&system.mechanics).is_none() {
             return Ok(());
         }
         let mobility = if in_stage { &mut self.stage } else { &mut self.inverse };
         mobility.set_mass(&self.mass)
     }
+}
+
+/// The constant part of the mass matrix of the bodies, where carried bodies change the matrix.
+fn changed_mass<'a>(mechanics: &'a Mechanics<'_>) -> Option<&'a DMatrix<f64>> {
+    mechanics.blocks[0].body_mass().filter(|_| !mechanics.carried.is_empty())
 }

@@ -15,6 +15,7 @@ use super::matrices::RailMatrices;
 use super::probes::Entry;
 use crate::Foundation;
 use crate::mechanics::assembly::Mechanics;
+use crate::numerics::cubic::cubic;
 
 /// Number of probes from which interpolation along a path is faster than evaluation.
 const MANY: usize = 3;
@@ -223,17 +224,15 @@ impl CompliancePath {
                 let (there, back) = (i * count + j, j * count + i);
                 let (x, y) = (self.length[i], self.length[j]);
                 let along = |node: &PathNode| node.slope[there] * x + node.slope[back] * y;
-                let (rise, start, end) = (to.value[there] - from.value[there], along(from), along(to));
-                let cubic =
-                    [from.value[there], start, 3.0 * rise - 2.0 * start - end, start + end - 2.0 * rise];
+                let value = cubic([from.value[there], to.value[there]], [along(from), along(to)]);
                 // dG/ds minus the part of linearly varying group slopes equals bend (x^2 + y^2) s (1 - s).
                 let squares = x * x + y * y;
-                let bend = if squares > 0.0 { -3.0 * cubic[3] / squares } else { 0.0 };
+                let bend = if squares > 0.0 { -3.0 * value[3] / squares } else { 0.0 };
                 let slope = |pair: usize, length: f64| {
                     let (line, by) = (to.slope[pair] - from.slope[pair], bend * length);
                     [from.slope[pair], line + by, -by]
                 };
-                self.pairs.push(Pair { value: cubic, slope: slope(there, x), back: slope(back, y) });
+                self.pairs.push(Pair { value, slope: slope(there, x), back: slope(back, y) });
             }
         }
     }

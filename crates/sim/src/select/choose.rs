@@ -13,8 +13,9 @@
 //!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
 //!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
 //!    the new run changes the quantities by its error there, whatever the wheels amplify. Errors of motions and wheel
-//!    forces that grow during the start are taken to grow on as long as the wheels remember their bounces ([`drift`]). Where the error exceeds the tolerance and the steps cause more than half of it, the new run is
-//!    repeated with that finer accuracy.
+//!    forces that grow during the start are taken to grow on as long as the wheels remember their bounces ([`drift`]).
+//!    Where the error exceeds the tolerance and the steps cause more than half of it, the new run is repeated with that
+//!    finer accuracy.
 //! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
 //!    of it in reactions and internal forces, where the errors of the steps of both runs are larger), and otherwise the new
 //!    run if its error is within 0.8 of the tolerance (within the tolerance where no further run would help), and so is that
@@ -174,8 +175,11 @@ impl Open {
         let within = || self.sufficient_count(SAFE / factor * self.tolerance, least);
         let most = || {
             let last = self.tails.last().filter(|last| last.kept >= least)?;
-            let is_unreachable = last.error > (UNREACHABLE * self.tolerance).min(1.0);
-            if is_unreachable { self.no_worse_count(least) } else { Some(last.kept) }
+            if is_unreachable(last.error, self.tolerance) {
+                self.no_worse_count(least)
+            } else {
+                Some(last.kept)
+            }
         };
         self.sufficient_count(limit, least).or_else(within).or_else(most)
     }
@@ -297,6 +301,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record, accuracy, number: self.runs })
     }
 
+    /// The bounces of the wheels in a run.
+    fn bounces(&self, trial: &Trial) -> Bounces {
+        Bounces {
+            slowest: slowest_bounce(&self.scene, &trial.run.history),
+            remembered: remembered_bounces(&self.scene),
+        }
+    }
+
     /// Steps 2 to 4 of the head of this module, from the run `first` with influence functions.
     fn search(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
         match first.run.status {
@@ -306,10 +318,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             // On other foundations the wheels would leave their rails as well.
             Status::Stopped | Status::Failed(..) => return Ok(first),
         }
-        let bounces = Bounces {
-            slowest: slowest_bounce(&self.scene, &first.run.history),
-            remembered: remembered_bounces(&self.scene),
-        };
+        let bounces = self.bounces(&first);
         let compliances = std::mem::take(&mut first.foundations);
         let frequency = 2.0 * std::f64::consts::PI / fastest_bounce(&self.scene);
         let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, frequency);
@@ -384,8 +393,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             let mut start = None;
             let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
-            let is_unreachable = factor * lacking > (UNREACHABLE * strictest.value).min(1.0);
-            if raised == counts && !is_unreachable {
+            if raised == counts && !is_unreachable(factor * lacking, strictest.value) {
                 (higher, start) = self.check_start(&open, &counts, higher, strictest, bounces)?;
                 let found = start.as_ref().map_or(0.0, |start| start.error);
                 if found > strictest.value {
@@ -485,11 +493,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         {
             return None;
         }
-        let mut replaced = higher.record.clone();
-        for (own, finer) in replaced.quantities.iter_mut().zip(&finer.record.quantities) {
-            let count = finer.values.len().min(own.values.len());
-            own.values[..count].copy_from_slice(&finer.values[..count]);
-        }
+        let replaced = higher.record.with_start_of(&finer.record, finer.record.time.len());
         let apart = difference(&replaced, &higher.record, measure, bounces);
         let times = [start, remembered_time(&self.scene)];
         let drift = drift(&replaced, &higher.record, measure, bounces, times);
@@ -642,10 +646,6 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         loop {
             let known = own.known();
             if own.tails_of != Some((trial.number, known)) {
-                let bounces = Bounces {
-                    slowest: slowest_bounce(&self.scene, &trial.run.history),
-                    remembered: remembered_bounces(&self.scene),
-                };
                 let loaded = Loaded {
                     scene: &self.scene,
                     structure: own.structure,
@@ -653,7 +653,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                     history: &trial.run.history,
                     record: &trial.record,
                     measure: self.tolerances[own.structure].map_or(Measure::History, |own| own.measure),
-                    bounces,
+                    bounces: self.bounces(trial),
                 };
                 own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
                 own.tails_of = Some((trial.number, known));
@@ -745,6 +745,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
         Selection { choices: self.choices, run, runs: self.runs }
     }
+}
+
+/// Whether an error is so far beyond a tolerance, or a whole range, that more modes are not expected to bring it within.
+fn is_unreachable(error: f64, tolerance: f64) -> bool {
+    error > (UNREACHABLE * tolerance).min(1.0)
 }
 
 /// The least tolerance of all structures.

@@ -23,6 +23,14 @@ struct Bounce {
     ratio: f64,
 }
 
+impl Bounce {
+    /// Time within which the dampers reduce it to a hundredth, ln(100) / (ratio omega), `end` at the most.
+    fn remembered_time(&self, end: f64) -> f64 {
+        // without contacts the ratio is not a number
+        (100.0_f64.ln() / (self.ratio * self.omega)).min(end)
+    }
+}
+
 fn bounces(scene: &Scene) -> impl Iterator<Item = Bounce> + '_ {
     scene.bodies.iter().enumerate().map(|(b, body)| {
         let contacts = || scene.contacts.iter().filter(|contact| contact.body == b);
@@ -46,21 +54,15 @@ pub(super) fn fastest_bounce(scene: &Scene) -> f64 {
 }
 
 /// Largest number of bounces of a body after which the run still depends on the phase of the first one: those of the
-/// run, or those within which the dampers of its contacts reduce a bounce to a hundredth, ln(100) / (2 pi ratio).
+/// run, or those within which the dampers of its contacts reduce a bounce to a hundredth.
 pub(super) fn remembered_bounces(scene: &Scene) -> f64 {
-    let of = |bounce: Bounce| {
-        let all = scene.end * bounce.omega / (2.0 * PI);
-        let decay = 100.0_f64.ln() / (2.0 * PI * bounce.ratio);
-        // without contacts the ratio is not a number, and there are no bounces
-        if decay < all { decay } else { all }
-    };
+    let of = |bounce: Bounce| bounce.remembered_time(scene.end) * bounce.omega / (2.0 * PI);
     bounces(scene).map(of).fold(0.0, f64::max)
 }
 
-/// Longest time, up to that of the run, within which the dampers of the contacts of a body reduce a bounce to a hundredth,
-/// ln(100) / (ratio omega).
+/// Longest time, up to that of the run, after which the run still depends on the phase of the first bounce of a body.
 pub(super) fn remembered_time(scene: &Scene) -> f64 {
-    bounces(scene).map(|own| (100.0_f64.ln() / (own.ratio * own.omega)).min(scene.end)).fold(0.0, f64::max)
+    bounces(scene).map(|own| own.remembered_time(scene.end)).fold(0.0, f64::max)
 }
 
 /// Period of the slowest bounce of a wheel in a run on flexible rails: 2 pi sqrt(d/g), with d the largest sum of

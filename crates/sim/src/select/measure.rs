@@ -100,6 +100,16 @@ impl Record {
         Record { time: history.column(Channel::Time), quantities }
     }
 
+    /// This record with the first `count` values of each quantity from `other`, as far as both reach.
+    pub(super) fn with_start_of(&self, other: &Record, count: usize) -> Record {
+        let mut mixed = self.clone();
+        for (own, other) in mixed.quantities.iter_mut().zip(&other.quantities) {
+            let count = count.min(own.values.len()).min(other.values.len());
+            own.values[..count].copy_from_slice(&other.values[..count]);
+        }
+        mixed
+    }
+
     /// Scale of every quantity, see the head of this module; 0 for a quantity of a kind that is zero throughout.
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
@@ -206,12 +216,8 @@ pub(super) fn drift(
     };
     let (a, b) = (motion(a), motion(b));
     let until = |time: f64| {
-        let count = b.time.partition_point(|t| *t <= time).min(a.time.len());
-        let mut mixed = b.clone();
-        for (own, other) in mixed.quantities.iter_mut().zip(&a.quantities) {
-            own.values[..count].copy_from_slice(&other.values[..count]);
-        }
-        difference(&mixed, &b, measure, bounces)
+        let count = b.time.partition_point(|t| *t <= time);
+        difference(&b.with_start_of(&a, count), &b, measure, bounces)
     };
     let [half, whole] = [0.5 * start, start].map(until);
     let growth = (whole.largest - half.largest).max(0.0) / (0.5 * start) * (end - start).max(0.0);

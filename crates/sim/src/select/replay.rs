@@ -132,6 +132,13 @@ struct Loads {
     rate: Vec<f64>,
 }
 
+impl Loads {
+    /// No load on `n` modes.
+    fn zeros(n: usize) -> Self {
+        Loads { value: vec![0.0; n], rate: vec![0.0; n] }
+    }
+}
+
 struct Replay<'a> {
     loaded: &'a Loaded<'a>,
     basis: &'a ModalBasis,
@@ -229,18 +236,12 @@ impl<'a> Replay<'a> {
     fn sample(&mut self, i: usize) -> Result<(), Error> {
         let (history, n) = (self.loaded.history, self.oscillators.len());
         let sample = history.sample(i);
-        let before = self.intervals.clone();
-        self.intervals = self.wheels.iter().map(|wheel| wheel.interval(history, i)).collect();
+        let after = self.wheels.iter().map(|wheel| wheel.interval(history, i)).collect();
+        let before = std::mem::replace(&mut self.intervals, after);
         // before the first sample the forces change as they do after it
-        let sides = [if i == 0 { &self.intervals } else { &before }, &self.intervals].map(Vec::as_slice);
-        let share = if i == 0 { 0.0 } else { 1.0 };
-        let at = |side: usize, share: f64, sign: f64| -> Vec<WheelInstant> {
-            sides[side].iter().map(|own| own.at(share, sign)).collect()
-        };
-        let (ends, begins) = (at(0, share, -1.0), at(1, 0.0, 1.0));
-        let (mut ending, mut beginning) = (Loads::default(), Loads::default());
-        ending.value = vec![0.0; n];
-        (ending.rate, beginning.rate) = (vec![0.0; n], vec![0.0; n]);
+        let begins = instants(&self.intervals, 0.0, 1.0);
+        let ends = if i == 0 { begins.clone() } else { instants(&before, 1.0, -1.0) };
+        let (mut ending, mut beginning) = (Loads::zeros(n), Loads::zeros(n));
         self.add_loads(&ends, Some(&begins), &mut ending, &mut beginning.rate)?;
         beginning.value.clone_from(&ending.value);
         let flexibility: Vec<f64> = self.oscillators.iter().map(Oscillator::flexibility).collect();
@@ -295,11 +296,9 @@ impl<'a> Replay<'a> {
         // the shapes under the wheels at the sample are needed once more
         let kept = if shares.is_empty() { None } else { Some((self.shapes.clone(), self.slopes.clone())) };
         for share in shares {
-            let mut beside = [-1.0, 1.0].map(|_| Loads::default());
+            let mut beside = [-1.0, 1.0].map(|_| Loads::zeros(end.value.len()));
             for (side, loads) in [-1.0, 1.0].into_iter().zip(&mut beside) {
-                let at: Vec<WheelInstant> = intervals.iter().map(|own| own.at(share, side)).collect();
-                (loads.value, loads.rate) = (vec![0.0; end.value.len()], vec![0.0; end.value.len()]);
-                self.add_loads(&at, None, loads, &mut [])?;
+                self.add_loads(&instants(intervals, share, side), None, loads, &mut [])?;
                 self.add_carrier(i - 1, share, loads);
             }
             let [left, right] = beside;
@@ -468,6 +467,11 @@ impl<'a> Replay<'a> {
             Measure::Extremes => counts.map(by_extremes).collect(),
         }
     }
+}
+
+/// All wheels after a share of an interval, see [`Interval::at`].
+fn instants(intervals: &[Interval], share: f64, side: f64) -> Vec<WheelInstant> {
+    intervals.iter().map(|own| own.at(share, side)).collect()
 }
 
 /// Acceleration of a body at sample `i`, from its six speeds at the samples beside it.

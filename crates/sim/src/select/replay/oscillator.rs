@@ -1,5 +1,7 @@
 //! One natural mode under a load that is a cubic polynomial of time.
 
+use crate::numerics::cubic::cubic;
+
 /// Largest damping ratio that is distinguished from others; the formulas are those of an oscillation.
 const MOST_DAMPED: f64 = 0.999;
 
@@ -67,8 +69,8 @@ impl Oscillator {
             self.set_step(h);
         }
         let LoadAtEnds { value: [a, b], rate: [rate, rate_b] } = load;
-        let steep = (b - a) / h;
-        let (c2, c3) = ((3.0 * steep - 2.0 * rate - rate_b) / h, (rate + rate_b - 2.0 * steep) / (h * h));
+        let [_, _, c2, c3] = cubic([a, b], [h * rate, h * rate_b]);
+        let (c2, c3) = (c2 / (h * h), c3 / (h * h * h));
         let (by, lag) = (self.flexibility(), 2.0 * self.ratio * self.omega);
         let d3 = by * c3;
         let d2 = by * (c2 - 3.0 * lag * d3);

@@ -12,6 +12,7 @@
 //!   c dh at a step of the height dh as well.
 
 use crate::mechanics::wheels::Wheels;
+use crate::numerics::cubic::{cubic, value_and_slope};
 use crate::{Channel, Damper, Error, Foundation, History, Irregularity, Scene};
 
 /// Largest ratio of the bends of a force at two neighbouring samples between which it is smooth.
@@ -172,29 +173,18 @@ impl Interval {
             match is_after {
                 Some(false) => [a + share * h * rate, rate],
                 Some(true) => [b - (1.0 - share) * h * rate_b, rate_b],
-                None => cubic(*h, share, [a, b], [rate, rate_b]),
+                None if share <= 0.0 => [a, rate],
+                None if share >= 1.0 => [b, rate_b],
+                None => {
+                    let [value, slope] = value_and_slope(cubic([a, b], [h * rate, h * rate_b]), share);
+                    [value, slope / h]
+                }
             }
         });
         // exactly the sample at its ends
         let x = if share >= 1.0 { *to } else { from + share_of_x * (to - from) };
         WheelInstant { x, speed, forces: values.map(|own| own[0]), rates: values.map(|own| own[1]) }
     }
-}
-
-/// Value and rate, after a share of an interval of length `h`, of the cubic polynomial with values and rates at its ends.
-fn cubic(h: f64, share: f64, [a, b]: [f64; 2], [rate, rate_b]: [f64; 2]) -> [f64; 2] {
-    if share <= 0.0 {
-        return [a, rate];
-    }
-    if share >= 1.0 {
-        return [b, rate_b];
-    }
-    let rest = 1.0 - share;
-    let value = a * rest * rest * (1.0 + 2.0 * share)
-        + b * share * share * (3.0 - 2.0 * share)
-        + h * share * rest * (rate * rest - rate_b * share);
-    let steep = 6.0 * share * rest * (b - a) / h;
-    [value, steep + rate * rest * (1.0 - 3.0 * share) + rate_b * share * (3.0 * share - 2.0)]
 }
 
 /// Difference quotient of channel `k` after sample `i`.
