@@ -1,7 +1,7 @@
 //! Builds the foundation that a scene specifies from the solution or the tables of a structure.
 
 use formats::scene::{self, Handover, Origin, Structure};
-use sim::{Extent, Foundation, Measure};
+use sim::{Extent, Foundation};
 use splines::{Axis, Influence, Probe};
 
 use crate::built::BuiltFoundation;
@@ -42,11 +42,22 @@ pub fn build(
     solved: Option<&SolvedModel>,
     lateral: bool,
 ) -> Result<BuiltFoundation, Error> {
+    build_with_modes(cache, structure, solved, lateral, ACCURACY)
+}
+
+/// [`build`], with the frequencies of a foundation in a given number of modes within `accuracy`.
+pub(super) fn build_with_modes(
+    cache: &mut ModeCache,
+    structure: &Structure,
+    solved: Option<&SolvedModel>,
+    lateral: bool,
+    accuracy: f64,
+) -> Result<BuiltFoundation, Error> {
     let irregularities = structure.irregularities.clone();
     let mut carrier = mount::mount(structure)?;
     let is_loaded_along = structure.longitudinal;
     let BuiltFoundation { mut foundation, basis: motion } =
-        build_on_ground(cache, structure, solved, lateral)?;
+        build_on_ground(cache, structure, solved, lateral, accuracy)?;
     // where the degrees of freedom represent the mass, their mass matrix replaces the rigid mass of the spec
     if let (Some(carrier), Some(moving)) = (&mut carrier, foundation.carrier.take()) {
         (carrier.mass, carrier.coupling) = (moving.mass, moving.coupling);
@@ -75,6 +86,7 @@ fn build_on_ground(
     structure: &Structure,
     solved: Option<&SolvedModel>,
     lateral: bool,
+    accuracy: f64,
 ) -> Result<BuiltFoundation, Error> {
     let extents = || {
         let extent =
@@ -94,7 +106,7 @@ fn build_on_ground(
         scene::Foundation::Modal { modes, damping } => cache.lowest(
             &structure.name,
             required_solution(structure, solved)?,
-            (modes, mode_accuracy(structure)),
+            (modes, accuracy),
             damping,
             Dampers::NONE,
             excitation,
@@ -138,14 +150,6 @@ pub(super) fn coarse_modes(
 ) -> Result<BuiltFoundation, Error> {
     let excitation = Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier };
     cache.coarse(&structure.name, solved, count, structure.damping, excitation)
-}
-
-/// Largest relative error of the frequencies of a structure. Where the number of modes is chosen by a tolerance of
-/// extremes, it is a tenth of that; only the highest modes, whose share is small, err by as much. At equal times the phase of every oscillation counts, to which each period
-/// adds 2 pi times this error.
-fn mode_accuracy(structure: &Structure) -> f64 {
-    let is_coarse = structure.auto && structure.measure == Measure::Extremes;
-    if is_coarse { (0.1 * structure.tolerance).max(ACCURACY) } else { ACCURACY }
 }
 
 fn required_solution<'s>(

@@ -30,7 +30,7 @@ use std::sync::{Arc, OnceLock};
 
 use fea::{FactoredFrame, Modes, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
-use sim::{Dynamics, Extent, Foundation, Shapes};
+use sim::{Dynamics, Extent, Foundation, Measure, Shapes};
 use splines::{Compliance, ExactSurface, Probe, Rails, ResidualFlexibility};
 
 use crate::built::{BuiltFoundation, MotionBasis};
@@ -44,6 +44,10 @@ use formats::spec::ties::Pad;
 pub(super) const ACCURACY: f64 = 1e-6;
 /// The same for modes that serve only to estimate the error of leaving them out.
 const COARSE: f64 = 0.1;
+/// The same for modes of a result with a tolerance of extremes, relative to the tolerance.
+const BY_EXTREMES: f64 = 0.1;
+/// Error of a result at equal times by the phases of its modes, relative to its tolerance.
+const BY_PHASES: f64 = 0.05;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
 /// are assumed not to excite the mode.
 const STILL: f64 = 1e-6;
@@ -217,9 +221,11 @@ impl Dampers<'_> {
 /// themselves are kept with the solution of the structure, for other runs.
 #[derive(Default)]
 pub struct ModeCache {
-    /// In the order in which they were computed, with increasing numbers of modes. The same number of modes is always
-    /// taken from the same mesh: signs of modes, and so the coordinates in a run, differ between meshes.
-    lowest: Vec<Arc<MeshModes>>,
+    /// In the order in which they were computed, with the accuracy of their frequencies. For one accuracy, the same number
+    /// of modes is always taken from the same mesh: signs of modes, and so the coordinates in a run, differ between meshes.
+    lowest: Vec<(f64, Arc<MeshModes>)>,
+    /// Accuracies that were found for pairs of numbers of modes ([`ModeCache::accuracy`]).
+    accuracies: Vec<([usize; 2], f64)>,
     /// Modes that serve only to estimate errors.
     coarse: Option<Arc<MeshModes>>,
     /// Number of elements for each member, and all modes of that mesh.
@@ -228,7 +234,7 @@ pub struct ModeCache {
 
 impl ModeCache {
     /// The foundation of the lowest `count` modes that `excitation` excites, with frequencies within `accuracy`, each
-    /// with the fraction `ratio` of critical damping. All calls must have the same `accuracy`.
+    /// with the fraction `ratio` of critical damping.
     pub(super) fn lowest(
         &mut self,
         name: &str,
@@ -238,14 +244,60 @@ impl ModeCache {
         dampers: Dampers<'_>,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let index = match self.lowest.iter().position(|modes| modes.has(count)) {
+        let index = match self.lowest.iter().position(|(own, modes)| *own <= accuracy && modes.has(count)) {
             Some(index) => index,
             None => {
-                self.lowest.push(MeshModes::lowest(name, solved, count, accuracy, excitation)?);
+                self.lowest.push((accuracy, MeshModes::lowest(name, solved, count, accuracy, excitation)?));
                 self.lowest.len() - 1
             }
         };
-        self.lowest[index].foundation(name, count, ratio, dampers, excitation)
+        self.lowest[index].1.foundation(name, count, ratio, dampers, excitation)
+    }
+
+    /// Accuracy of the frequencies of the highest of `count` modes in a run of length `duration` whose error may reach
+    /// `tolerance`, where only the lowest `kept` modes belong to a result and the others show its error.
+    ///
+    /// The error of a frequency omega by the length of the parts of members is at most proportional to omega^2
+    /// ([`fea::refined_modes`]), and the amplitude of a mode under loads that move is about proportional to 1/omega^2.
+    ///
+    /// By extremes the error epsilon of the highest of the lowest n = `kept` modes may be a tenth of the tolerance; only the
+    /// highest modes, whose share is small, err by as much. At equal times the phase of every oscillation counts: a phase
+    /// error epsilon_k omega_k T of mode k, with T the duration, causes the error
+    ///
+    /// ```text
+    /// epsilon_k omega_k T (omega_1/omega_k)^2 = epsilon (omega_1/omega_n)^2 omega_k T,    k = n at the most
+    /// ```
+    ///
+    /// which may be a twentieth of the tolerance. The frequencies are those of the coarse modes; where these are not known,
+    /// it is 1e-6. The same numbers of modes always get the same accuracy, whatever coarse modes are known by then.
+    pub(super) fn accuracy(&mut self, tolerance: (f64, Measure), duration: f64, counts: [usize; 2]) -> f64 {
+        if let Some((_, known)) = self.accuracies.iter().find(|(own, _)| *own == counts) {
+            return *known;
+        }
+        let accuracy = self.least_accuracy(tolerance, duration, counts);
+        self.accuracies.push((counts, accuracy));
+        accuracy
+    }
+
+    fn least_accuracy(
+        &self,
+        (tolerance, measure): (f64, Measure),
+        duration: f64,
+        [count, kept]: [usize; 2],
+    ) -> f64 {
+        let Some(modes) = self.coarse.as_ref().filter(|modes| !modes.excited.is_empty()) else {
+            return ACCURACY;
+        };
+        let omega = |count: usize| modes.excited[count.clamp(1, modes.excited.len()) - 1].omega;
+        let [lowest, own, highest] = [1, kept, count].map(omega);
+        let square = |ratio: f64| ratio * ratio;
+        let most = BY_EXTREMES * tolerance;
+        let of_kept = match measure {
+            Measure::Extremes => most,
+            Measure::History => most.min(BY_PHASES * tolerance * square(own / lowest) / (own * duration)),
+        };
+        let of_kept = of_kept.max(ACCURACY);
+        (of_kept * square(highest / own)).min(COARSE.max(of_kept))
     }
 
     /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with

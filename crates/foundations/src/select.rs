@@ -11,10 +11,10 @@ use sim::{
     Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance, TrialCheck,
 };
 
-use crate::build::{build, coarse_modes};
+use crate::build::{build_with_modes, coarse_modes};
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
-use crate::modal::ModeCache;
+use crate::modal::{ACCURACY, ModeCache};
 use crate::solved::{SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
@@ -106,20 +106,21 @@ pub fn select_and_run(
     let mode_caches = scene.structures.iter().map(|_| ModeCache::default()).collect();
     let lateral = scene.has_flanges();
     let bases = scene.structures.iter().map(|_| None).collect();
-    let mut provider = SceneFoundations { scene, known, lateral, mode_caches, bases, recorded, observer };
+    let duration = input.end;
+    let mut provider =
+        SceneFoundations { scene, known, lateral, duration, mode_caches, bases, recorded, observer };
     let sim::Selection { choices, run, .. } = sim::choose(input, &tolerances, &mut provider, watch)?;
-    let mut mode_caches = provider.mode_caches;
+    // the run does not return its foundations; they are built again from the cached modes
+    let built = (0..tolerances.len())
+        .map(|structure| {
+            let choice = choices.iter().find(|choice| choice.structure == structure);
+            provider.build(structure, choice.map_or(Fidelity::Rigid, |choice| choice.fidelity), None)
+        })
+        .collect::<Result<Vec<BuiltFoundation>, Error>>()?;
     for choice in &choices {
         let structure = &mut scene.structures[choice.structure];
         structure.foundation = scene_foundation(structure, choice.fidelity);
     }
-    // the run does not return its foundations; they are built again from the cached modes
-    let built = scene
-        .structures
-        .iter()
-        .zip(&mut mode_caches)
-        .map(|(structure, cache)| build(cache, structure, solution_of(known, &structure.origin), lateral))
-        .collect::<Result<Vec<BuiltFoundation>, Error>>()?;
     Ok(AutoRun { choices, run, built })
 }
 
@@ -138,6 +139,8 @@ struct SceneFoundations<'a> {
     scene: &'a Scene,
     known: &'a [SolvedStructure],
     lateral: bool,
+    /// Largest duration of a run.
+    duration: f64,
     /// Modes of each structure.
     mode_caches: Vec<ModeCache>,
     /// Motions of the degrees of freedom of the foundations that were built last.
@@ -147,14 +150,36 @@ struct SceneFoundations<'a> {
 }
 
 impl SceneFoundations<'_> {
-    /// Builds the foundation of a structure at a fidelity, which is ignored where the foundation is fixed.
-    fn build(&mut self, structure: usize, fidelity: Fidelity) -> Result<BuiltFoundation, Error> {
+    /// Builds the foundation of a structure at a fidelity, which is ignored where the foundation is fixed. Where only the
+    /// lowest `kept` modes belong to a result, the frequencies of the others may err by more.
+    fn build(
+        &mut self,
+        structure: usize,
+        fidelity: Fidelity,
+        kept: Option<usize>,
+    ) -> Result<BuiltFoundation, Error> {
         let mut own = self.scene.structures[structure].clone();
         if own.auto {
             own.foundation = scene_foundation(&own, fidelity);
         }
+        let cache = &mut self.mode_caches[structure];
+        let accuracy = match fidelity {
+            Fidelity::Modal(count) if own.auto => {
+                let counts = [count, kept.unwrap_or(count)];
+                cache.accuracy((own.tolerance, own.measure), self.duration, counts)
+            }
+            _ => ACCURACY,
+        };
         let solved = solution_of(self.known, &own.origin);
-        build(&mut self.mode_caches[structure], &own, solved, self.lateral)
+        build_with_modes(cache, &own, solved, self.lateral, accuracy)
+    }
+
+    /// Enters a foundation as that of the next run.
+    fn enter(&mut self, structure: usize, built: BuiltFoundation) -> sim::Foundation {
+        let BuiltFoundation { mut foundation, basis } = built;
+        foundation.recorded = (self.recorded)(structure, &foundation);
+        self.bases[structure] = basis;
+        foundation
     }
 }
 
@@ -179,10 +204,18 @@ impl FoundationProvider for SceneFoundations<'_> {
     }
 
     fn foundation(&mut self, structure: usize, fidelity: Fidelity) -> Result<sim::Foundation, Error> {
-        let BuiltFoundation { mut foundation, basis } = self.build(structure, fidelity)?;
-        foundation.recorded = (self.recorded)(structure, &foundation);
-        self.bases[structure] = basis;
-        Ok(foundation)
+        let built = self.build(structure, fidelity, None)?;
+        Ok(self.enter(structure, built))
+    }
+
+    fn finer_foundation(
+        &mut self,
+        structure: usize,
+        count: usize,
+        kept: usize,
+    ) -> Result<sim::Foundation, Error> {
+        let built = self.build(structure, Fidelity::Modal(count), Some(kept))?;
+        Ok(self.enter(structure, built))
     }
 
     fn run(

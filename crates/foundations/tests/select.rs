@@ -73,6 +73,35 @@ fn a_fast_crossing_is_run_with_modes_within_its_tolerance() {
     }
 }
 
+/// Analytic: frequencies of the bridge, (r pi/l)^2 sqrt(EI/m). By extremes they are within a tenth of the tolerance; at equal
+/// times the phase error of the highest one in the run, times its amplitude 1/omega^2, is within a twentieth of it.
+#[test]
+fn frequencies_of_chosen_modes_have_the_accuracy_that_the_measure_needs() {
+    let omega =
+        |r: usize| (r as f64 * std::f64::consts::PI / 25.0).powi(2) * (2.87e9 * 2.9 / 2303.0_f64).sqrt();
+    for measure in [sim::Measure::Extremes, sim::Measure::History] {
+        let (mut scene, solved) = example("yang_yau");
+        let own = &mut scene.structures[0];
+        (own.auto, own.tolerance, own.measure, own.foundation) = (true, 1e-2, measure, Foundation::Influence);
+        let end = scene.end;
+        let (found, _) = selected(&mut scene, &solved, false);
+        let Fidelity::Modal(modes) = found.choices[0].fidelity else { panic!("{:?}", found.choices) };
+        let structure = found.built[0].foundation.structure.as_ref().expect("mass");
+        let frequencies = structure.dynamics.frequencies();
+        let share = omega(1) / omega(modes);
+        let allowed = match measure {
+            sim::Measure::Extremes => 0.1 * 1e-2,
+            sim::Measure::History => (0.05 * 1e-2 / (share * share * omega(modes) * end)).min(0.1 * 1e-2),
+        };
+        for (k, found) in frequencies.iter().take(modes).enumerate() {
+            let error = (found / omega(k + 1) - 1.0).abs();
+            assert!(error <= allowed, "{measure:?}, mode {k}: {error:e} of {allowed:e}");
+        }
+        let Some(MotionBasis::Modes { refined, .. }) = &found.built[0].basis else { panic!("natural modes") };
+        assert!(refined.error.is_some_and(|error| error > 1e-6), "no finer than needed: {:?}", refined.error);
+    }
+}
+
 #[test]
 fn a_foundation_that_is_given_is_kept() {
     let (mut scene, solved) = example("bogie");

@@ -242,7 +242,7 @@ impl<'a> Lanczos<'a> {
         let size = old + width;
         let mut projection = std::mem::replace(&mut self.projection, DMatrix::zeros(0, 0));
         projection = projection.resize(size, size, 0.0);
-        let coefficients = self.orthogonalise(&mut images);
+        let coefficients = self.orthogonalise(&mut images, 2);
         let coupling = self.coupling.rows(0, width);
         projection.view_mut((old, 0), (width, old)).copy_from(&coupling);
         projection.view_mut((0, old), (old, width)).copy_from(&coupling.transpose());
@@ -258,6 +258,10 @@ impl<'a> Lanczos<'a> {
         }
         self.projection = projection;
         self.coupling = DMatrix::zeros(BLOCK, size);
+        // vectors that are small beside K^-1 M x have lost digits of their orthogonality
+        if images.column_iter().any(|image| self.norm(&image.clone_owned()) < FEW_DIGITS * self.largest) {
+            self.orthogonalise(&mut images, 1);
+        }
         for (j, image) in images.column_iter().enumerate() {
             self.append(image.clone_owned(), Some(old + j));
         }
@@ -292,7 +296,7 @@ impl<'a> Lanczos<'a> {
     /// Removes the part of `x` in the basis and in the next block.
     fn project_out(&self, x: &mut DVector<f64>) {
         let mut block = DMatrix::from_columns(std::slice::from_ref(x));
-        self.orthogonalise(&mut block);
+        self.orthogonalise(&mut block, 2);
         x.copy_from(&block.column(0));
         for _ in 0..2 {
             for (other, momentum) in self.next_block.iter().zip(&self.next_momenta) {
@@ -307,6 +311,7 @@ impl<'a> Lanczos<'a> {
     /// rounding is left of the vector.
     fn append(&mut self, mut x: DVector<f64>, column: Option<usize>) -> bool {
         let scale = if column.is_some() { self.largest } else { 1.0 };
+        let before = self.norm(&x);
         for _ in 0..2 {
             for (i, (other, momentum)) in self.next_block.iter().zip(&self.next_momenta).enumerate() {
                 let coefficient = momentum.dot(&x);
@@ -327,8 +332,8 @@ impl<'a> Lanczos<'a> {
         }
         x /= size;
         momentum /= size;
-        // A vector that was small has lost digits of its orthogonality.
-        if size < FEW_DIGITS * scale {
+        // A vector of which little is left has lost digits of its orthogonality.
+        if size < FEW_DIGITS * before {
             self.project_out(&mut x);
             momentum = symmetric_product(self.pencil.mass, x.as_view());
             let size = x.dot(&momentum).max(0.0).sqrt();
@@ -340,10 +345,10 @@ impl<'a> Lanczos<'a> {
         true
     }
 
-    /// Orthogonalises the columns of `block` against the basis, twice; returns their coefficients, basis x block.
-    fn orthogonalise(&self, block: &mut DMatrix<f64>) -> DMatrix<f64> {
+    /// Orthogonalises the columns of `block` against the basis, `times` times; returns their coefficients, basis x block.
+    fn orthogonalise(&self, block: &mut DMatrix<f64>, times: usize) -> DMatrix<f64> {
         let mut coefficients = DMatrix::zeros(self.vectors.ncols(), block.ncols());
-        for _ in 0..2 {
+        for _ in 0..times {
             let parts = block::inner(&self.vectors, &self.pencil.momenta(block));
             block::subtract(block, &self.vectors, &parts);
             coefficients += parts;

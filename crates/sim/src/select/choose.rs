@@ -32,7 +32,7 @@
 use std::ops::ControlFlow;
 
 use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, remembered_time, slowest_bounce};
-use super::measure::{Bounces, MANY, Measure, Record, difference, drift};
+use super::measure::{Bounces, MANY, Measure, Record, difference, drift, share_at_end};
 use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
 use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
@@ -283,11 +283,26 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         accuracy: f64,
         is_compared: bool,
     ) -> Result<Trial, L::Error> {
+        self.checking_trial(fidelities, &[], accuracy, is_compared)
+    }
+
+    /// The same; where `kept` has a number of modes, that of the run whose error is to be shown, only these need the
+    /// accuracy of a result.
+    fn checking_trial(
+        &mut self,
+        fidelities: &[Fidelity],
+        kept: &[(usize, usize)],
+        accuracy: f64,
+        is_compared: bool,
+    ) -> Result<Trial, L::Error> {
         let auto = fidelities.iter().enumerate().filter(|(s, _)| self.tolerances[*s].is_some());
         self.provider.begin(&auto.map(|(s, fidelity)| (s, *fidelity)).collect::<Vec<_>>());
         let built = fidelities.iter().enumerate();
         let foundations = built
-            .map(|(s, fidelity)| self.provider.foundation(s, *fidelity))
+            .map(|(s, fidelity)| match (fidelity, kept.iter().find(|own| own.0 == s)) {
+                (Fidelity::Modal(count), Some((_, kept))) => self.provider.finer_foundation(s, *count, *kept),
+                _ => self.provider.foundation(s, *fidelity),
+            })
             .collect::<Result<Vec<_>, _>>()?;
         self.scene.accuracy = accuracy;
         let run = self.provider.run(&self.scene, &foundations, self.watch)?;
@@ -474,9 +489,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         bounces: Bounces,
     ) -> Option<TailError> {
         let (mut fidelities, mut ratio) = (higher.fidelities.clone(), START_ACCURACY.1);
+        let mut kept = Vec::new();
         for (own, count) in open.iter().zip(counts) {
             if let Some((more, own_ratio)) = own.beyond(*count) {
                 fidelities[own.structure] = Fidelity::Modal(more);
+                kept.push((own.structure, *count));
                 ratio = ratio.max(own_ratio);
             }
         }
@@ -486,7 +503,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             return None;
         }
         self.scene.end = start;
-        let finer = self.trial(&fidelities, START_ACCURACY.0 * higher.accuracy, true);
+        let finer = self.checking_trial(&fidelities, &kept, START_ACCURACY.0 * higher.accuracy, true);
         self.scene.end = end;
         let finer = finer.ok()?;
         if finer.run.status != Status::Done || finer.record.quantities.len() != higher.record.quantities.len()
@@ -496,11 +513,15 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let replaced = higher.record.with_start_of(&finer.record, finer.record.time.len());
         let apart = difference(&replaced, &higher.record, measure, bounces);
         let times = [start, remembered_time(&self.scene)];
-        let drift = drift(&replaced, &higher.record, measure, bounces, times);
-        // in a long run neither phases nor what they do to single bounces counts
-        let is_counted = measure == Measure::History || bounces.remembered <= MANY;
-        let (apart, quantity) =
-            if is_counted && drift.0 > apart.largest { drift } else { (apart.largest, apart.quantity) };
+        // in a long run neither phases nor what they do to single bounces counts, but for the last one
+        let is_long = measure == Measure::Extremes && bounces.remembered > MANY;
+        let drift = if is_long {
+            let (moved, quantity) = drift(&replaced, &higher.record, Measure::History, bounces, times);
+            (share_at_end(&higher.record, bounces.slowest) * moved, quantity)
+        } else {
+            drift(&replaced, &higher.record, measure, bounces, times)
+        };
+        let (apart, quantity) = if drift.0 > apart.largest { drift } else { (apart.largest, apart.quantity) };
         let error = TailError { kept: 0, error: apart / (1.0 - ratio), quantity };
         for own in open {
             let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);

@@ -175,6 +175,9 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
     for (index, scale) in b.scales().into_iter().enumerate() {
         let [one, other] = [a, b].map(|record| &record.quantities[index]);
         let values = [&one.values[..count], &other.values[..count]];
+        if values[0] == values[1] {
+            continue;
+        }
         let largest = match measure {
             Measure::History => pointwise(values),
             Measure::Extremes if is_long && !other.group.is_empty() => {
@@ -222,6 +225,29 @@ pub(super) fn drift(
     let [half, whole] = [0.5 * start, start].map(until);
     let growth = (whole.largest - half.largest).max(0.0) / (0.5 * start) * (end - start).max(0.0);
     (whole.largest + growth, whole.quantity)
+}
+
+/// Largest change of the extremes of a record that a shift of its motion in time may cause, relative to the largest change
+/// of its motion at equal times. A shift by less than a bounce moves an extreme in time and leaves its value, but for those
+/// that the end of the run cuts off: values that are reached within the last `period` change like all values there, in
+/// proportion to how far they move within it.
+pub(super) fn share_at_end(record: &Record, period: f64) -> f64 {
+    let Some(end) = record.time.last() else { return 0.0 };
+    let last = record.time.partition_point(|t| *t < end - period);
+    let scales = record.scales();
+    let [mut cut_off, mut motion] = [0.0_f64; 2];
+    for (quantity, scale) in record.quantities.iter().zip(scales).filter(|(_, scale)| *scale > 0.0) {
+        let over = |values: &[f64]| extremes(values.iter(), values.first().copied().unwrap_or_default());
+        let [whole, own] = [over(&quantity.values), over(&quantity.values[last..])];
+        let swing = (own[1] - own[0]) / scale;
+        if quantity.channel.is_some() && !quantity.is_position {
+            motion = motion.max(swing);
+        }
+        if quantity.group.is_empty() && (own[0] == whole[0] || own[1] == whole[1]) {
+            cut_off = cut_off.max(swing);
+        }
+    }
+    if motion > 0.0 { (cut_off / motion).min(1.0) } else { 0.0 }
 }
 
 /// Smallest and largest value of the quantities of a group in the first `count` samples.

@@ -83,10 +83,15 @@ pub(super) struct Loaded<'a> {
 /// What one quantity lacks without the lowest modes, for each of the numbers of modes kept.
 struct Slot {
     quantity: usize,
+    lacking: Lacking,
+}
+
+/// What the measure of the errors needs of it.
+enum Lacking {
     /// Largest absolute values at all samples.
-    largest: Vec<f64>,
+    Largest(Vec<f64>),
     /// Values at the times of the record, number by number.
-    series: Vec<f32>,
+    Series(Vec<f32>),
 }
 
 impl Slot {
@@ -94,15 +99,19 @@ impl Slot {
     /// modes kept.
     fn note(&mut self, counts: &[usize], row: Option<usize>, term: impl Fn(usize) -> f64, modes: usize) {
         let (mut sum, mut above) = (0.0_f64, modes);
-        let rows = self.series.len() / counts.len().max(1);
         for (k, count) in counts.iter().enumerate().rev() {
             while above > *count {
                 above -= 1;
                 sum += term(above);
             }
-            self.largest[k] = self.largest[k].max(sum.abs());
-            if let Some(row) = row.filter(|row| *row < rows) {
-                self.series[k * rows + row] = sum as f32;
+            match &mut self.lacking {
+                Lacking::Largest(largest) => largest[k] = largest[k].max(sum.abs()),
+                Lacking::Series(series) => {
+                    let rows = series.len() / counts.len();
+                    if let Some(row) = row.filter(|row| *row < rows) {
+                        series[k * rows + row] = sum as f32;
+                    }
+                }
             }
         }
     }
@@ -171,11 +180,12 @@ impl<'a> Replay<'a> {
     fn new(loaded: &'a Loaded<'a>, basis: &'a ModalBasis, counts: Vec<usize>) -> Result<Self, Error> {
         let Loaded { scene, structure, foundations, history, record, .. } = *loaded;
         let n = basis.structure.dynamics.dofs();
-        let rows = if loaded.measure == Measure::Extremes { record.time.len() } else { 0 };
-        let slot = |quantity: usize| Slot {
-            quantity,
-            largest: vec![0.0; counts.len()],
-            series: vec![0.0; rows * counts.len()],
+        let slot = |quantity: usize| {
+            let lacking = match loaded.measure {
+                Measure::History => Lacking::Largest(vec![0.0; counts.len()]),
+                Measure::Extremes => Lacking::Series(vec![0.0; record.time.len() * counts.len()]),
+            };
+            Slot { quantity, lacking }
         };
         let of_channel = |channel: Channel| {
             let has = |quantity: &RecordedQuantity| quantity.channel == Some(channel);
@@ -255,13 +265,16 @@ impl<'a> Replay<'a> {
             self.advance(i, &before, &ending)?;
         }
         self.last = beginning;
+        let row = (self.loaded.record.time.get(self.row) == Some(&sample[0])).then_some(self.row);
+        self.row += usize::from(row.is_some());
+        if row.is_none() && self.loaded.measure == Measure::Extremes {
+            return Ok(());
+        }
         let modes = || self.oscillators.iter().zip(&flexibility);
         let lag: Vec<f64> =
             modes().zip(&of_wheels.value).map(|((mode, by), load)| mode.state[0] - load * by).collect();
         let rates: Vec<f64> =
             modes().zip(&of_wheels.rate).map(|((mode, by), rate)| mode.state[1] - rate * by).collect();
-        let row = (self.loaded.record.time.get(self.row) == Some(&sample[0])).then_some(self.row);
-        self.row += usize::from(row.is_some());
         for (w, end) in ends.iter().enumerate() {
             self.note_wheel(w, sample, row, end.speed, [&lag, &rates])?;
         }
@@ -442,7 +455,8 @@ impl<'a> Replay<'a> {
         let pointwise = |(index, kept): (usize, usize)| {
             let mut found = TailError { kept, error: 0.0, quantity: String::new() };
             for slot in &slots {
-                let (largest, scale) = (slot.largest[index], scales[slot.quantity]);
+                let Lacking::Largest(largest) = &slot.lacking else { continue };
+                let (largest, scale) = (largest[index], scales[slot.quantity]);
                 let error = if largest == 0.0 { 0.0 } else { beyond(slot, kept) * largest / scale };
                 if error > found.error || error.is_nan() {
                     found.error = if error.is_nan() { f64::INFINITY } else { error };
@@ -454,7 +468,8 @@ impl<'a> Replay<'a> {
         let by_extremes = |(index, kept): (usize, usize)| {
             let (mut completed, rows) = (record.clone(), record.time.len());
             for slot in &slots {
-                let lacking = &slot.series[index * rows..(index + 1) * rows];
+                let Lacking::Series(series) = &slot.lacking else { continue };
+                let lacking = &series[index * rows..(index + 1) * rows];
                 let values = completed.quantities[slot.quantity].values.iter_mut();
                 values.zip(lacking).for_each(|(value, own)| *value += beyond(slot, kept) * f64::from(*own));
             }

@@ -50,6 +50,20 @@ pub trait FoundationProvider {
     /// The fidelity cannot be built.
     fn foundation(&mut self, structure: usize, fidelity: Fidelity) -> Result<Foundation, Self::Error>;
 
+    /// Builds a foundation with `count` modes that only shows the error of one with the lowest `kept` of them: only their
+    /// frequencies need the accuracy of a result.
+    ///
+    /// # Errors
+    /// The modes cannot be computed.
+    fn finer_foundation(
+        &mut self,
+        structure: usize,
+        count: usize,
+        _kept: usize,
+    ) -> Result<Foundation, Self::Error> {
+        self.foundation(structure, Fidelity::Modal(count))
+    }
+
     /// Runs the scene with [`run()`], unless the provider uses another integration.
     ///
     /// # Errors

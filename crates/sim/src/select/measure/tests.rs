@@ -38,3 +38,22 @@ fn a_difference_that_grows_with_time_is_extrapolated() {
     let by_extremes = super::drift(&growing, &exact, Measure::Extremes, bounces, [0.8, 10.0]).0;
     assert!((by_extremes - 0.2).abs() < 1e-12, "{by_extremes}");
 }
+
+/// Analytic: a force of scale 20 moves by 2 in the last 0.2 s, a reaction of scale 10 by 0.4. Where the end of the run cuts
+/// the fall of the reaction off, a shift in time moves its least value by (0.4/10) / (2/20) of what it moves the force; where
+/// the least value lies within the run, not at all.
+#[test]
+fn a_shift_in_time_moves_extremes_at_the_end_of_a_run() {
+    let force = |t: f64| if t < 0.75 { 20.0 * t } else { 12.0 - 20.0 * (t - 0.9).abs() };
+    let cut_off = |t: f64| if t < 0.75 { 10.0 - t } else { 2.0 * (1.0 - t) };
+    let record = |reaction: &dyn Fn(f64) -> f64| {
+        let mut made = record(20.0, force, reaction);
+        made.quantities[1].least_scale = 10.0;
+        made
+    };
+    let found = share_at_end(&record(&cut_off), 0.25);
+    assert!((found - 0.4).abs() < 1e-9, "{found}");
+    let within = |t: f64| if (t - 0.5).abs() < 0.01 { -1.0 } else { cut_off(t) };
+    assert_eq!(share_at_end(&record(&within), 0.25), 0.0);
+    assert_eq!(share_at_end(&Record::default(), 0.25), 0.0);
+}

@@ -21,16 +21,20 @@ fn accelerations_of_a_carrier_are_differences_of_its_speeds() {
     assert_eq!(acceleration(&history(&[0.5]), 0, 1), [0.0; 6]);
 }
 
-/// Analytic: what is lacking without the lowest m modes is the sum of the others; the largest of all samples counts, and the
-/// values at the rows of the record are kept.
+/// Analytic: what is lacking without the lowest m modes is the sum of the others; by values the largest of all samples counts,
+/// by extremes the values at the rows of the record are kept.
 #[test]
 fn the_sums_over_the_modes_left_out_are_noted() {
-    let (counts, mut slot) = ([0, 1, 3], Slot { quantity: 0, largest: vec![0.0; 3], series: vec![0.0; 6] });
-    slot.note(&counts, Some(0), |r| [8.0, -4.0, 2.0, 1.0][r], 4);
-    assert_eq!(slot.largest, [7.0, 1.0, 1.0]);
-    slot.note(&counts, None, |r| [0.0, -4.0, 2.0, 0.5][r], 4);
-    assert_eq!(slot.largest, [7.0, 1.5, 1.0]);
-    slot.note(&counts, Some(1), |r| [0.0, 0.0, 0.0, -3.0][r], 4);
-    assert_eq!(slot.largest, [7.0, 3.0, 3.0]);
-    assert_eq!(slot.series, [7.0, -3.0, -1.0, -3.0, 1.0, -3.0]);
+    let counts = [0, 1, 3];
+    let notes =
+        [(Some(0), [8.0, -4.0, 2.0, 1.0]), (None, [0.0, -4.0, 2.0, 0.5]), (Some(1), [0.0, 0.0, 0.0, -3.0])];
+    let noted = |lacking: Lacking| {
+        let mut slot = Slot { quantity: 0, lacking };
+        notes.iter().for_each(|(row, terms)| slot.note(&counts, *row, |r| terms[r], 4));
+        slot.lacking
+    };
+    let Lacking::Largest(largest) = noted(Lacking::Largest(vec![0.0; 3])) else { panic!("of one kind") };
+    assert_eq!(largest, [7.0, 3.0, 3.0]);
+    let Lacking::Series(series) = noted(Lacking::Series(vec![0.0; 6])) else { panic!("of one kind") };
+    assert_eq!(series, [7.0, -3.0, -1.0, -3.0, 1.0, -3.0]);
 }
