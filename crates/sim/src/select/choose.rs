@@ -502,9 +502,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         if start >= end {
             return None;
         }
+        // its forces do not act on the modes: the times of the record suffice
+        let parts = std::mem::replace(&mut self.scene.output_parts, 1);
         self.scene.end = start;
         let finer = self.checking_trial(&fidelities, &kept, START_ACCURACY.0 * higher.accuracy, true);
-        self.scene.end = end;
+        (self.scene.end, self.scene.output_parts) = (end, parts);
         let finer = finer.ok()?;
         if finer.run.status != Status::Done || finer.record.quantities.len() != higher.record.quantities.len()
         {

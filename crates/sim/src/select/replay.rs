@@ -88,16 +88,16 @@ struct Slot {
 
 /// What the measure of the errors needs of it.
 enum Lacking {
-    /// Largest absolute values at all samples.
+    /// Largest absolute values at the times of the record.
     Largest(Vec<f64>),
     /// Values at the times of the record, number by number.
     Series(Vec<f32>),
 }
 
 impl Slot {
-    /// Notes, at a sample with this row of the record, the sum of `term` over the modes that are not kept, for each number of
+    /// Notes, at this row of the record, the sum of `term` over the modes that are not kept, for each number of
     /// modes kept.
-    fn note(&mut self, counts: &[usize], row: Option<usize>, term: impl Fn(usize) -> f64, modes: usize) {
+    fn note(&mut self, counts: &[usize], row: usize, term: impl Fn(usize) -> f64, modes: usize) {
         let (mut sum, mut above) = (0.0_f64, modes);
         for (k, count) in counts.iter().enumerate().rev() {
             while above > *count {
@@ -108,9 +108,7 @@ impl Slot {
                 Lacking::Largest(largest) => largest[k] = largest[k].max(sum.abs()),
                 Lacking::Series(series) => {
                     let rows = series.len() / counts.len();
-                    if let Some(row) = row.filter(|row| *row < rows) {
-                        series[k * rows + row] = sum as f32;
-                    }
+                    series[k * rows + row] = sum as f32;
                 }
             }
         }
@@ -242,7 +240,7 @@ impl<'a> Replay<'a> {
         })
     }
 
-    /// Moves the modes to sample `i` and notes what is lacking there.
+    /// Moves the modes to sample `i` and notes what is lacking there if it is a row of the record.
     fn sample(&mut self, i: usize) -> Result<(), Error> {
         let (history, n) = (self.loaded.history, self.oscillators.len());
         let sample = history.sample(i);
@@ -265,11 +263,11 @@ impl<'a> Replay<'a> {
             self.advance(i, &before, &ending)?;
         }
         self.last = beginning;
-        let row = (self.loaded.record.time.get(self.row) == Some(&sample[0])).then_some(self.row);
-        self.row += usize::from(row.is_some());
-        if row.is_none() && self.loaded.measure == Measure::Extremes {
+        if self.loaded.record.time.get(self.row) != Some(&sample[0]) {
             return Ok(());
         }
+        let row = self.row;
+        self.row += 1;
         let modes = || self.oscillators.iter().zip(&flexibility);
         let lag: Vec<f64> =
             modes().zip(&of_wheels.value).map(|((mode, by), load)| mode.state[0] - load * by).collect();
@@ -406,7 +404,7 @@ impl<'a> Replay<'a> {
         &mut self,
         w: usize,
         sample: &[f64],
-        row: Option<usize>,
+        row: usize,
         speed: f64,
         [lag, rates]: [&[f64]; 2],
     ) -> Result<(), Error> {
