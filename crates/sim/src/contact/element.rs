@@ -109,8 +109,7 @@ pub(crate) trait Element {
         false
     }
 
-    /// Whether its penetration is evaluated while it is idle, because it may begin to act within a stage or because
-    /// other elements depend on it.
+    /// Whether it is watched while it is idle, because it may begin to act within a stage.
     fn is_followed(&self) -> bool {
         false
     }

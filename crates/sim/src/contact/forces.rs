@@ -79,11 +79,14 @@ struct Factors {
 /// The problem of the forces, solved repeatedly without allocation.
 pub(crate) struct Problem {
     pub effects: Effects,
-    /// Elements that may have a force; the others have none, and nothing of them is evaluated.
+    /// Elements that may have a force; the others have none.
     pub candidates: Candidates,
     /// Elements that are assumed to have no force, independent of their laws; their columns of the mobility are not
     /// filled.
     pub idle: Vec<bool>,
+    /// The candidates of which the problem consists: those that are not idle, and idle ones with a force to be released
+    /// or on whose penetration others depend. Nothing is evaluated for other elements.
+    pub sought: Vec<usize>,
     /// Allowed relative residual of the forces; zero if only rounding is allowed.
     pub slack: f64,
     residuals: Residuals,
@@ -150,6 +153,7 @@ impl Problem {
             },
             candidates: Candidates::all(m),
             idle: vec![false; m],
+            sought: (0..m).collect(),
             slack: 0.0,
             residuals: Residuals {
                 reached: vec![[0.0; 2]; m],
@@ -170,6 +174,22 @@ impl Problem {
             newton: vec![0.0; m],
             change: vec![0.0; m],
         }
+    }
+
+    /// Makes all elements part of the problem.
+    pub fn seek_all(&mut self) {
+        self.idle.fill(false);
+        self.candidates.choose(|_| true);
+        self.seek(0, &[]);
+    }
+
+    /// Lists the elements of which the problem consists, where the first `verticals` elements are vertical contacts and
+    /// `force` are the forces at the start.
+    pub fn seek(&mut self, verticals: usize, force: &[f64]) {
+        let Problem { candidates, idle, sought, .. } = self;
+        let is_sought = |i: &usize| !idle[*i] || *i < verticals || force[*i] != 0.0;
+        sought.clear();
+        sought.extend(candidates.list().iter().copied().filter(is_sought));
     }
 
     /// Solves for the forces of the `active` elements; `force` contains the initial guess. Returns false if the
@@ -302,14 +322,12 @@ impl Problem {
 
     /// Evaluates the residuals of the laws under `force` with W and Y; returns the largest absolute residual.
     fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
-        for &i in self.candidates.list() {
-            if !self.idle[i] || system.fixed[i].is_followed {
-                // The rates of other elements depend on no force.
-                let has_rate = system.fixed[i].feels_rates || system.fixed[i].has_memory;
-                let effects = &self.effects;
-                let rate = if has_rate { effects.rate_under(i, force) } else { effects.rate[i] };
-                self.residuals.reached[i] = [effects.penetration(i, force), rate];
-            }
+        for &i in &self.sought {
+            // The rates of other elements depend on no force.
+            let has_rate = system.fixed[i].feels_rates || system.fixed[i].has_memory;
+            let effects = &self.effects;
+            let rate = if has_rate { effects.rate_under(i, force) } else { effects.rate[i] };
+            self.residuals.reached[i] = [effects.penetration(i, force), rate];
         }
         self.evaluate_laws(system, local, active, force);
         largest(&self.residuals.value)
@@ -318,10 +336,10 @@ impl Problem {
     /// Fills the residuals F - law(p, r) under `force` at the stored penetrations and rates, the list of acting
     /// elements, and the slopes of their laws. The residual of an element that does not act is its force.
     fn evaluate_laws(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) {
-        let Problem { effects, candidates, idle, residuals, .. } = self;
+        let Problem { effects, idle, sought, residuals, .. } = self;
         residuals.clear();
         let m = force.len();
-        for &i in candidates.list() {
+        for &i in &*sought {
             if effects.kind[i] == RowKind::Given {
                 continue;
             }
@@ -410,16 +428,20 @@ impl Problem {
 
     /// Sums of the magnitudes of the changes of the forces by each set of `errors` of penetrations and rates, times its
     /// weight, with the W and Y of the last problem, into `out`. `forces` are the system, the local properties of the elements,
-    /// the active elements and the forces. Returns false if the Jacobian is singular.
+    /// the active elements and the forces; `None` if the laws were evaluated under these forces last, and the Jacobian is
+    /// that of W and Y. Returns false if the Jacobian is singular.
     pub fn add_responses(
         &mut self,
-        (system, local, active, force): (&System, &[Local], &[bool], &[f64]),
+        forces: Option<(&System, &[Local], &[bool], &[f64])>,
         errors: [(&[[f64; 2]], f64); 3],
         out: &mut [f64],
     ) -> bool {
         out.fill(0.0);
-        self.evaluate(system, local, active, force);
-        if !self.factor() {
+        if let Some((system, local, active, force)) = forces {
+            self.evaluate(system, local, active, force);
+        }
+        let is_current = forces.is_none() && self.residuals.acting == self.factors.elements;
+        if !(is_current || self.factor()) {
             return false;
         }
         self.residuals.released.clear();

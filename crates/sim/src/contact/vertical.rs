@@ -168,10 +168,6 @@ impl Element for Vertical<'_> {
         self.law.has_memory()
     }
 
-    fn is_followed(&self) -> bool {
-        true
-    }
-
     fn law(&self, query: &Query, _: &mut Vec<Coupling>) -> Option<Law> {
         if !query.is_active {
             return None;

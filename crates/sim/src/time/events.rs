@@ -24,6 +24,10 @@ const PASSED: f64 = 8.0;
 /// Tolerance of the position of a touch, as a fraction of the step.
 const TOUCH_WIDTH: f64 = 1e-4;
 
+/// Error of the forces, relative to the largest, in the states at which a touch is sought. It moves a flange beside its rail
+/// by as much of the deflection, which is far less than what the flange moves in the tolerance of the position.
+const TOUCH_SLACK: f64 = 1e-8;
+
 /// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
     if is_fixed { SLACK } else { SLACK.max(SLACK_BY_ERROR * tolerance) }
@@ -154,7 +158,8 @@ pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard>
 
 /// Fraction of the step just taken at which an element first touches or separates, if a guard changes its sign by
 /// more than the force [`OVERSHOOT`] times `largest`. The result is the first root of the touch guards on the
-/// interpolant; `before` are their values at the start of the step.
+/// interpolant; `before` are their values at the start of the step. If it is found, the step must be repeated: the geometry
+/// of the solver is that of a state inside it.
 ///
 /// # Errors
 /// Any error from evaluating the rails.
@@ -183,7 +188,7 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
     }
     let mut failure = None;
     let [_, first] = narrow(ends, TOUCH_WIDTH, |fraction| {
-        let is_solved = step.look_at(fraction).unwrap_or_else(|error| {
+        let is_solved = step.look_within(fraction, TOUCH_SLACK).unwrap_or_else(|error| {
             failure = Some(error);
             false
         });
@@ -193,11 +198,7 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
             beyond.fold(f64::NEG_INFINITY, f64::max)
         })
     });
-    if let Some(error) = failure {
-        return Err(error);
-    }
-    step.return_to_end()?;
-    Ok(Some(first))
+    failure.map_or(Ok(Some(first)), Err)
 }
 
 /// Finds the first element that must become active or inactive within the step. Returns the fraction of the step at

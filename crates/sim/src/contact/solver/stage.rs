@@ -34,8 +34,6 @@ const CHANGES: usize = 2;
 enum Pass {
     /// Largest changes of the degrees of freedom, relative to themselves and relative to their scales.
     Moved([f64; 2]),
-    /// Elements that had been treated as idle were found to touch.
-    Touched,
     /// The problem of the forces did not converge.
     Failed,
 }
@@ -139,7 +137,6 @@ impl Solver<'_> {
                 Some(changes) => changes,
                 None => match self.pass(g, known, at, pass == 0)? {
                     Pass::Moved(changes) => (changes, true),
-                    Pass::Touched => continue,
                     Pass::Failed => return Ok(false),
                 },
             };
@@ -149,6 +146,12 @@ impl Solver<'_> {
             // Where nothing depends on the motion within the stage, a full pass is its solution; a correction is not, where
             // laws are not linear.
             let is_solved = !iterates && !is_correction;
+            // An element that touches is part of the problem from the next pass on.
+            if (!is_correction || verdict.has_ended) && self.find_touching(at) {
+                self.factored_for = None;
+                last = change;
+                continue;
+            }
             // After a change of the set of acting laws, it may change again.
             if is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended)) {
                 return Ok(true);
@@ -175,10 +178,11 @@ impl Solver<'_> {
         if begins {
             self.find_idle(&at.force);
         }
-        let elements = (self.problem.candidates.list(), &self.problem.idle[..]);
+        self.problem.seek(system.verticals(), &at.force);
+        let elements = (&self.problem.sought[..], &self.problem.idle[..]);
         self.projection.fill(system, self.geometry.rows(), self.free.mobility(), elements);
-        for k in 0..self.problem.candidates.list().len() {
-            let i = self.problem.candidates.list()[k];
+        for k in 0..self.problem.sought.len() {
+            let i = self.problem.sought[k];
             self.fill_row(i, g, &known.p);
             if self.follows_motion(i) {
                 self.fill_passing(i, g, at);
@@ -190,9 +194,6 @@ impl Solver<'_> {
         let (local, active) = (self.geometry.local(), self.active.flags());
         if !self.problem.solve(system, local, active, &mut at.force) {
             return Ok(Pass::Failed);
-        }
-        if self.find_touching(&at.force) {
-            return Ok(Pass::Touched);
         }
         self.factored_for = Some(g);
         self.projection.add_forces(&self.free.a, -1.0, &at.force, &mut at.a);
@@ -210,13 +211,13 @@ impl Solver<'_> {
         }
     }
 
-    /// Removes the idle mark of elements that touch under `force`; returns whether there are any.
-    fn find_touching(&mut self, force: &[f64]) -> bool {
+    /// Removes the idle mark of elements that touch at `at`; returns whether there are any.
+    fn find_touching(&mut self, at: &State) -> bool {
         let mut is_found = false;
-        let Problem { effects, candidates, idle, .. } = &mut self.problem;
-        for &i in candidates.list() {
-            let touches = |p: f64| self.system.elements[i].touches(p);
-            if idle[i] && self.system.fixed[i].is_followed && touches(effects.penetration(i, force)) {
+        let Problem { candidates, idle, .. } = &mut self.problem;
+        for &i in candidates.list().iter().filter(|&&i| self.system.fixed[i].is_followed) {
+            let penetration = || self.geometry.approach(i, &at.q) - self.geometry.deflection(i, &at.force);
+            if idle[i] && self.system.elements[i].touches(penetration()) {
                 idle[i] = false;
                 is_found = true;
             }
