@@ -6,7 +6,9 @@
 //!
 //! Newton's method is applied to rho(F) = F - law(e - W F, r_0 - Y F). The Jacobian is I + law_p W + law_r Y minus
 //! the slopes of the laws with respect to other forces, over the elements whose laws act; the other elements have the
-//! row F_i = 0. The step is halved while the residual increases. The iteration ends when the change of the forces or
+//! row F_i = 0. The step is halved while the residual increases, but not where another set of laws acts at its end: laws
+//! that begin and cease to act are pieces of a function that is nearly linear in each of them, and a whole step reaches
+//! the right piece sooner than many short ones. The iteration ends when the change of the forces or
 //! their residual is within rounding, or when the residual is within the slack that the caller allows. If all
 //! elements are linear vertical contacts, a single linear system is solved instead.
 
@@ -25,6 +27,9 @@ const CHORD: f64 = 1e-3;
 /// Damping factor of the Newton step below which the step is not halved again. A brake on
 /// a compliant rail sticks only within 1e-6 of the forces on either side, and within less in short steps.
 const SHORTEST: f64 = 1e-12;
+/// Number of whole steps to another set of acting laws that may increase the residual; if they do not lead to the solution,
+/// it is sought from the first guess without them.
+const LEAPS: usize = 6;
 /// A rate at which every tangential law is at its limit.
 const SATURATED: f64 = 1e150;
 
@@ -94,6 +99,7 @@ pub(crate) struct Problem {
     /// Scratch: matrix and unknowns of the linear problem, forces and changes of Newton's method.
     matrix: Vec<f64>,
     unknown: Vec<usize>,
+    first: Vec<f64>,
     start: Vec<f64>,
     newton: Vec<f64>,
     change: Vec<f64>,
@@ -170,6 +176,7 @@ impl Problem {
             },
             matrix: vec![0.0; m * m],
             unknown: Vec::with_capacity(m),
+            first: vec![0.0; m],
             start: vec![0.0; m],
             newton: vec![0.0; m],
             change: vec![0.0; m],
@@ -281,8 +288,9 @@ impl Problem {
         for i in (0..system.verticals()).filter(|&i| !active[i]) {
             force[i] = 0.0;
         }
+        self.first.copy_from_slice(force);
         let mut size = self.evaluate(system, local, active, force);
-        let mut is_current = false;
+        let (mut is_current, mut leaps) = (false, LEAPS);
         for _ in 0..ITERATIONS {
             let before = size;
             if !(is_current && self.residuals.acting == self.factors.elements || self.factor()) {
@@ -301,6 +309,16 @@ impl Problem {
                 let now = self.evaluate(system, local, active, force);
                 if now <= size || now <= TOLERANCE * scale || damping < SHORTEST {
                     size = now;
+                    break;
+                }
+                let is_elsewhere = self.residuals.acting != self.factors.elements;
+                if damping == 1.0 && is_elsewhere && leaps > 0 && now.is_finite() {
+                    size = now;
+                    leaps -= 1;
+                    if leaps == 0 {
+                        force.copy_from_slice(&self.first);
+                        size = self.evaluate(system, local, active, force);
+                    }
                     break;
                 }
                 // In very short steps, c times the rounding error of a rate exceeds the residual that is allowed, but the

@@ -173,13 +173,13 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
     let mut passes: Vec<(usize, f64)> = Vec::new();
     let mut ends = [f64::NEG_INFINITY; 2];
     let after = guards(step.solver, GuardKind::Touch, &step.to);
-    for (index, (before, Guard { value: now, stiffness })) in before.iter().zip(after).enumerate() {
-        let (before, slack) = (before.value, slack / stiffness);
-        if before * now < 0.0 && before.abs().min(now.abs()) > slack {
-            let aim = 0.5 * slack * now.signum();
+    for (index, (old, new)) in before.iter().zip(&after).enumerate() {
+        let slack = slack / new.stiffness;
+        if old.value * new.value < 0.0 && old.value.abs().min(new.value.abs()) > slack {
+            let aim = 0.5 * slack * new.value.signum();
             passes.push((index, aim));
-            for (end, value) in ends.iter_mut().zip([before, now]) {
-                *end = end.max((value - aim) * aim.signum());
+            for (end, guards) in ends.iter_mut().zip([before, &after]) {
+                *end = end.max((straight(step.solver, index, guards) - aim) * aim.signum());
             }
         }
     }
@@ -194,11 +194,20 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
         });
         is_solved.then(|| {
             let now = guards(step.solver, GuardKind::Touch, &step.probe);
-            let beyond = passes.iter().map(|&(index, aim)| (now[index].value - aim) * aim.signum());
+            let beyond = passes.iter().map(|&(index, aim)| (straight(step.solver, index, &now) - aim) * aim.signum());
             beyond.fold(f64::NEG_INFINITY, f64::max)
         })
     });
     failure.map_or(Ok(Some(first)), Err)
+}
+
+/// The value of touch guard `index` with an overlap p replaced by p + k G p, the overlap with a rigid rail. Where a flange
+/// touches, its rail gives way, so that its overlap grows slower than its clearance shrank by the factor 1 + k G; without
+/// this kink at the root, its search takes a third of the evaluations.
+fn straight(solver: &Solver, index: usize, guards: &[Guard]) -> f64 {
+    let Guard { value, stiffness } = guards[index];
+    let element = solver.system().guarded(GuardKind::Touch)[index];
+    if value > 0.0 { value * (1.0 + stiffness * solver.geometry().own_compliance(element)) } else { value }
 }
 
 /// Finds the first element that must become active or inactive within the step. Returns the fraction of the step at
