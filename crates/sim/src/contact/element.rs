@@ -282,6 +282,8 @@ pub(crate) struct Query<'q> {
     pub is_active: bool,
     /// Decrease of the element's rate per unit of its own force.
     pub fall: f64,
+    /// Whether the law of an element that presses is continued to where it would separate.
+    pub continues: bool,
 }
 
 impl Query<'_> {

@@ -72,6 +72,17 @@ struct Residuals {
     couplings: Vec<Coupling>,
     /// Elements that do not act, but have a force.
     released: Vec<usize>,
+    /// Whether a law was kept acting, or from acting.
+    is_held: bool,
+}
+
+/// Whether the laws that act in a correction are those of the factored Jacobian.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum ActingLaws {
+    Same,
+    /// They were held to be those, where others would act.
+    Held,
+    Changed,
 }
 
 /// LU factors of a Jacobian over the elements that acted when it was built.
@@ -130,6 +141,7 @@ impl Residuals {
         self.couplings.clear();
         self.value.fill(0.0);
         self.released.clear();
+        self.is_held = false;
     }
 
     fn set_idle(&mut self, i: usize, force: f64) {
@@ -168,6 +180,7 @@ impl Problem {
                 slopes: Vec::with_capacity(m),
                 couplings: Vec::new(),
                 released: Vec::new(),
+                is_held: false,
             },
             factors: Factors {
                 elements: Vec::with_capacity(m),
@@ -347,17 +360,27 @@ impl Problem {
             let rate = if has_rate { effects.rate_under(i, force) } else { effects.rate[i] };
             self.residuals.reached[i] = [effects.penetration(i, force), rate];
         }
-        self.evaluate_laws(system, local, active, force);
+        self.evaluate_laws(system, local, active, force, false);
         largest(&self.residuals.value)
     }
 
     /// Fills the residuals F - law(p, r) under `force` at the stored penetrations and rates, the list of acting
-    /// elements, and the slopes of their laws. The residual of an element that does not act is its force.
-    fn evaluate_laws(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) {
-        let Problem { effects, idle, sought, residuals, .. } = self;
+    /// elements, and the slopes of their laws. The residual of an element that does not act is its force. If `holds` is true,
+    /// the laws that act are those of the factored Jacobian, as far as they can be continued.
+    fn evaluate_laws(
+        &mut self,
+        system: &System,
+        local: &[Local],
+        active: &[bool],
+        force: &[f64],
+        holds: bool,
+    ) {
+        let Problem { effects, idle, sought, residuals, factors, .. } = self;
         residuals.clear();
         let m = force.len();
+        let mut held = factors.elements.iter().peekable();
         for &i in &*sought {
+            let is_held = holds && held.next_if_eq(&&i).is_some();
             if effects.kind[i] == RowKind::Given {
                 continue;
             }
@@ -369,6 +392,7 @@ impl Problem {
                 local: &local[i],
                 is_active: active[i] && !idle[i],
                 fall: effects.y[i * m + i],
+                continues: false,
             };
             let keeping = effects.keeping(i, force);
             if let Some(wanted) = keeping {
@@ -376,7 +400,14 @@ impl Problem {
                 (query.rate, query.fall) = (SATURATED.copysign(wanted), 0.0);
             }
             let known = residuals.couplings.len();
-            let Some(mut law) = system.elements[i].law(&query, &mut residuals.couplings) else {
+            let mut found = system.elements[i].law(&query, &mut residuals.couplings);
+            if holds && found.is_some() != is_held {
+                residuals.is_held = true;
+                residuals.couplings.truncate(known);
+                query.continues = is_held;
+                found = if is_held { system.elements[i].law(&query, &mut residuals.couplings) } else { None };
+            }
+            let Some(mut law) = found else {
                 residuals.set_idle(i, force[i]);
                 continue;
             };
@@ -482,22 +513,29 @@ impl Problem {
     }
 
     /// Newton's change of the forces at penetrations and rates that the caller has set, with the factors of an
-    /// earlier Jacobian; if the set of acting laws differs from the factored one, with that of these laws and the W and Y
-    /// of the earlier one. Returns whether it is that of an earlier one as well, or `None` if it is singular.
+    /// earlier Jacobian. If `holds` is true, the laws that act are those of the factored one, as far as they can be
+    /// continued: under a first guess of the forces others may seem to act. If the set of acting laws differs from the
+    /// factored one, the Jacobian is that of these laws and the W and Y of the earlier one. Returns `None` if it is singular.
     pub fn corrections(
         &mut self,
         system: &System,
         local: &[Local],
         active: &[bool],
         force: &[f64],
-    ) -> Option<(&[f64], bool)> {
-        self.evaluate_laws(system, local, active, force);
+        holds: bool,
+    ) -> Option<(&[f64], ActingLaws)> {
+        self.evaluate_laws(system, local, active, force, holds);
         let is_earlier = self.residuals.acting == self.factors.elements;
         if !(is_earlier || self.factor()) {
             return None;
         }
         self.take_newton_step();
-        Some((&self.residuals.value, is_earlier))
+        let laws = match (is_earlier, self.residuals.is_held) {
+            (true, false) => ActingLaws::Same,
+            (true, true) => ActingLaws::Held,
+            (false, _) => ActingLaws::Changed,
+        };
+        Some((&self.residuals.value, laws))
     }
 
     /// Force of element `i` at a given penetration and rate.
@@ -518,6 +556,7 @@ impl Problem {
             local: &local[i],
             is_active: true,
             fall: 0.0,
+            continues: false,
         };
         let known = self.residuals.couplings.len();
         let law = system.elements[i].law(&query, &mut self.residuals.couplings);

@@ -21,6 +21,7 @@ use nalgebra::DVector;
 
 use super::{PASSES, Problem, RowKind, Solver};
 use crate::Error;
+use crate::contact::forces::ActingLaws;
 use crate::mechanics::state::{Known, State};
 use crate::numerics::dense::along;
 
@@ -127,16 +128,16 @@ impl Solver<'_> {
             }
             let mut corrected = None;
             if self.may_correct(g) {
-                corrected = self.correct(g, known, at)?;
+                corrected = self.correct(g, known, at, pass == 0)?;
                 if corrected.is_none() {
                     self.factored_for = None;
                 }
             }
             let is_correction = corrected.is_some();
-            let ([moved, change], is_same) = match corrected {
+            let ([moved, change], laws) = match corrected {
                 Some(changes) => changes,
                 None => match self.pass(g, known, at, pass == 0)? {
-                    Pass::Moved(changes) => (changes, true),
+                    Pass::Moved(changes) => (changes, ActingLaws::Same),
                     Pass::Failed => return Ok(false),
                 },
             };
@@ -149,14 +150,15 @@ impl Solver<'_> {
             // An element that touches is part of the problem from the next pass on.
             if (!is_correction || verdict.has_ended) && self.find_touching(at) {
                 self.factored_for = None;
-                last = change;
+                last = f64::INFINITY;
                 continue;
             }
             // After a change of the set of acting laws, it may change again.
+            let is_same = laws == ActingLaws::Same;
             if is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended)) {
                 return Ok(true);
             }
-            changes_of_set += usize::from(!is_same);
+            changes_of_set += usize::from(laws == ActingLaws::Changed);
             if verdict.is_poor || changes_of_set > CHANGES {
                 self.factored_for = None;
             }
