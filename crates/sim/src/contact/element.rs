@@ -28,6 +28,7 @@ use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::point::PointPair;
 use crate::mechanics::state::State;
 use crate::numerics::dense::along;
+use crate::scene::irregularity::ShapeCell;
 
 /// A force element.
 pub(crate) trait Element {
@@ -244,11 +245,13 @@ pub(crate) struct Local {
     pub is_on: bool,
     /// The spring of a rope or a stop.
     pub spring: Spring,
+    /// The shape of the unloaded rail about the element.
+    pub shape: ShapeCell,
 }
 
 impl Default for Local {
     fn default() -> Self {
-        Local { fraction: [1.0, 0.0], is_on: false, spring: Spring::default() }
+        Local { fraction: [1.0, 0.0], is_on: false, spring: Spring::default(), shape: ShapeCell::default() }
     }
 }
 

@@ -14,7 +14,7 @@ fn pieces_are_linear_between_rows_and_constant_beyond() {
     assert_eq!(at(2.5, -1.0), [3.0, 2.0]);
     assert_eq!((at(3.0, -1.0), at(3.0, 1.0)), ([4.0, 2.0], [1.0, 0.0]));
     assert_eq!(at(9.0, 1.0), [1.0, 0.0]);
-    assert_eq!(shape.lateral(0, 0.0), [5.0, 0.0]);
+    assert_eq!(shape.side(LATERAL, 0, 0.0), [5.0, 0.0]);
 }
 
 #[test]
@@ -48,7 +48,7 @@ fn sum_has_the_corners_and_the_values_of_both() {
     assert_eq!(sum.breaks(), [1.0, 2.0, 3.0, 7.0]);
     for x in [-4.0, 1.5, 2.5, 3.5, 6.9, 7.1] {
         let parts = [&step, &swell, &endless];
-        let value = |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.lateral(s.piece(x, 1.0, 0), x));
+        let value = |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.side(LATERAL, s.piece(x, 1.0, 0), x));
         let (vertical, lateral) = value(&sum);
         for k in 0..2 {
             let [a, b] = [0, 1].map(|side| {
