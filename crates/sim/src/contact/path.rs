@@ -30,8 +30,6 @@ struct Group {
     /// One of its wheels.
     wheel: usize,
     tangential: Option<usize>,
-    /// Whether no other group acts on the element.
-    is_whole: bool,
 }
 
 /// The contribution of one probe to a group.
@@ -52,17 +50,14 @@ struct PathNode {
     slope: Vec<f64>,
 }
 
-/// Number of columns whose polynomials are evaluated together.
-const WIDTH: usize = 4;
-
-/// Coefficients of the polynomials of the pairs of a group i and [`WIDTH`] groups j that follow each other.
-#[derive(Clone, Copy, Default)]
-struct Pairs {
+/// Coefficients of the polynomials of a pair of groups (i, j).
+#[derive(Clone)]
+struct Pair {
     /// G(i, j): s^0 to s^3.
-    value: [[f64; WIDTH]; 4],
+    value: [f64; 4],
     /// d G(i, j)/d x_i and d G(j, i)/d x_j: s^0 to s^2.
-    slope: [[f64; WIDTH]; 3],
-    back: [[f64; WIDTH]; 3],
+    slope: [f64; 3],
+    back: [f64; 3],
 }
 
 /// The path of the wheels of a structure.
@@ -81,10 +76,10 @@ pub(crate) struct CompliancePath {
     /// Distance between the nodes for each group, and the distance of each group from the path at the latest position.
     length: Vec<f64>,
     offset: Vec<f64>,
-    /// Pairs of groups (i, j) with j <= i, row by row, in whole widths.
-    pairs: Vec<Pairs>,
-    /// Scratch: which groups are of elements that are wanted.
-    is_wanted: Vec<bool>,
+    /// Pairs of groups (i, j) with j <= i, row by row.
+    pairs: Vec<Pair>,
+    /// Scratch: the groups of the elements that are wanted.
+    rows: Vec<usize>,
     is_set: bool,
 }
 
@@ -103,12 +98,7 @@ impl CompliancePath {
             let same = |known: &Group| known.element == *element && contact(known.wheel) == contact(*wheel);
             let group = groups.iter().position(same).unwrap_or(groups.len());
             if group == groups.len() {
-                groups.push(Group {
-                    element: *element,
-                    wheel: *wheel,
-                    tangential: *tangential,
-                    is_whole: true,
-                });
+                groups.push(Group { element: *element, wheel: *wheel, tangential: *tangential });
             }
             let own =
                 |(at, of): (&Probe, &usize)| at.rail == probe.rail && at.axis == probe.axis && of == wheel;
@@ -120,10 +110,6 @@ impl CompliancePath {
             members.push(Member { group, probe: place, weight: *weight });
         }
         let count = groups.len();
-        for k in 0..count {
-            let own = groups[k].element;
-            groups[k].is_whole = groups.iter().filter(|group| group.element == own).count() == 1;
-        }
         let square = || vec![0.0; count * count];
         let node = || PathNode { x: vec![0.0; count], value: square(), slope: square() };
         Some(CompliancePath {
@@ -134,9 +120,9 @@ impl CompliancePath {
             nodes: [node(), node()],
             last: vec![0.0; mechanics.wheels.len()],
             length: vec![0.0; count],
-            offset: vec![0.0; count.next_multiple_of(WIDTH)],
-            pairs: Vec::with_capacity((0..count).map(|row| row / WIDTH + 1).sum()),
-            is_wanted: vec![false; count.next_multiple_of(WIDTH)],
+            offset: vec![0.0; count],
+            pairs: Vec::with_capacity(count * (count + 1) / 2),
+            rows: Vec::with_capacity(count),
             groups,
             is_set: false,
         })
@@ -234,8 +220,6 @@ impl CompliancePath {
         let [from, to] = &self.nodes;
         self.pairs.clear();
         for i in 0..count {
-            self.pairs.extend(std::iter::repeat_n(Pairs::default(), i / WIDTH + 1));
-            let own = self.pairs.len() - (i / WIDTH + 1);
             for j in 0..=i {
                 let (there, back) = (i * count + j, j * count + i);
                 let (x, y) = (self.length[i], self.length[j]);
@@ -248,10 +232,7 @@ impl CompliancePath {
                     let (line, by) = (to.slope[pair] - from.slope[pair], bend * length);
                     [from.slope[pair], line + by, -by]
                 };
-                let (pairs, lane) = (&mut self.pairs[own + j / WIDTH], j % WIDTH);
-                (0..4).for_each(|k| pairs.value[k][lane] = value[k]);
-                let (slope, back) = (slope(there, x), slope(back, y));
-                (0..3).for_each(|k| (pairs.slope[k][lane], pairs.back[k][lane]) = (slope[k], back[k]));
+                self.pairs.push(Pair { value, slope: slope(there, x), back: slope(back, y) });
             }
         }
     }
@@ -294,77 +275,41 @@ impl CompliancePath {
             return false;
         }
         let RailMatrices { value: sums, slope: rates, tangential } = matrices;
-        for (group, is_wanted) in self.groups.iter().zip(&mut self.is_wanted) {
-            *is_wanted = elements.has(group.element);
-            if *is_wanted && !group.is_whole {
-                clear(&self.groups, group, (sums, rates), m);
-            }
-            if let Some(own) = group.tangential.filter(|_| *is_wanted) {
+        self.rows.clear();
+        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| elements.has(group.element))
+        {
+            self.rows.push(number);
+            sums[group.element * m..(group.element + 1) * m].fill(0.0);
+            rates[group.element * m..(group.element + 1) * m].fill(0.0);
+            if let Some(own) = group.tangential {
                 tangential[own * m..(own + 1) * m].fill(0.0);
             }
         }
-        let mut rest = &self.pairs[..];
-        for (i, row) in self.groups.iter().enumerate() {
-            let (own, others) = rest.split_at(i / WIDTH + 1);
-            rest = others;
-            if !self.is_wanted[i] {
-                continue;
-            }
-            for (k, pairs) in own.iter().enumerate() {
-                let [values, slopes, backs] = pairs.at(s, self.offset[i], &self.offset[k * WIDTH..]);
-                let columns = k * WIDTH..((k + 1) * WIDTH).min(i + 1);
-                for ((j, value), (slope, back)) in columns.zip(values).zip(slopes.into_iter().zip(backs)) {
-                    let column = &self.groups[j];
-                    if !self.is_wanted[j] {
-                        continue;
-                    }
-                    let there = row.element * m + column.element;
-                    let across = column.element * m + row.element;
-                    if row.is_whole && column.is_whole {
-                        (sums[there], rates[there]) = (value, slope);
-                        (sums[across], rates[across]) = (value, back);
-                    } else {
-                        sums[there] += value;
-                        rates[there] += slope;
-                        if i != j {
-                            sums[across] += value;
-                            rates[across] += back;
-                        }
-                    }
-                    if let Some(own) = row.tangential {
-                        tangential[own * m + column.element] += slope;
-                    }
-                    if let Some(own) = column.tangential.filter(|_| i != j) {
+        for (place, &i) in self.rows.iter().enumerate() {
+            let pairs = &self.pairs[i * (i + 1) / 2..][..=i];
+            let (row, offset) = (&self.groups[i], self.offset[i]);
+            for &j in &self.rows[..=place] {
+                let (pair, column) = (&pairs[j], &self.groups[j]);
+                let quadratic = |[a, b, c]: [f64; 3]| a + s * (b + s * c);
+                let [a, b, c, d] = pair.value;
+                let (slope, back) = (quadratic(pair.slope), quadratic(pair.back));
+                let value = a + s * (b + s * (c + s * d)) + (slope * offset + back * self.offset[j]);
+                let there = row.element * m + column.element;
+                sums[there] += value;
+                rates[there] += slope;
+                if let Some(own) = row.tangential {
+                    tangential[own * m + column.element] += slope;
+                }
+                if i != j {
+                    let there = column.element * m + row.element;
+                    sums[there] += value;
+                    rates[there] += back;
+                    if let Some(own) = column.tangential {
                         tangential[own * m + row.element] += back;
                     }
                 }
             }
         }
         true
-    }
-}
-
-impl Pairs {
-    /// Values G(i, j), and derivatives d G(i, j)/d x_i and d G(j, i)/d x_j, at the place s of the path, at the distance
-    /// `offset` of group i and the distances `offsets` of the groups j from it.
-    #[inline]
-    fn at(&self, s: f64, offset: f64, offsets: &[f64]) -> [[f64; WIDTH]; 3] {
-        let quadratic = |of: &[[f64; WIDTH]; 3]| -> [f64; WIDTH] {
-            std::array::from_fn(|k| of[0][k] + s * (of[1][k] + s * of[2][k]))
-        };
-        let (slope, back) = (quadratic(&self.slope), quadratic(&self.back));
-        let [a, b, c, d] = &self.value;
-        let value = std::array::from_fn(|k| {
-            a[k] + s * (b[k] + s * (c[k] + s * d[k])) + (slope[k] * offset + back[k] * offsets[k])
-        });
-        [value, slope, back]
-    }
-}
-
-/// Clears the row and the column of the element of `group` in the matrices over `m` elements.
-fn clear(groups: &[Group], group: &Group, (sums, rates): (&mut [f64], &mut [f64]), m: usize) {
-    for other in groups {
-        let (there, across) = (group.element * m + other.element, other.element * m + group.element);
-        (sums[there], rates[there], sums[across], rates[across]) = (0.0, 0.0, 0.0, 0.0);
     }
 }

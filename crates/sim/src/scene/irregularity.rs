@@ -75,14 +75,15 @@ const CELLS: f64 = 128.0;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShapeCell {
     piece: usize,
-    number: f64,
     centre: f64,
+    /// Half of its width, or -1 before its first use.
+    half: f64,
     terms: [f64; 6],
 }
 
 impl Default for ShapeCell {
     fn default() -> Self {
-        ShapeCell { piece: 0, number: f64::NAN, centre: 0.0, terms: [0.0; 6] }
+        ShapeCell { piece: 0, centre: 0.0, half: -1.0, terms: [0.0; 6] }
     }
 }
 
@@ -90,11 +91,12 @@ impl ShapeCell {
     /// Value and slope of one side of `shape` at `x` on `piece`, which is extrapolated beyond its ends.
     #[inline]
     pub(crate) fn at(&mut self, shape: &Irregularity, side: usize, piece: usize, x: f64) -> [f64; 2] {
-        let width = shape.cell_width(side);
-        let number = (x / width).round();
-        if number != self.number || piece != self.piece {
-            let centre = if number == 0.0 { 0.0 } else { number * width };
-            *self = ShapeCell { piece, number, centre, terms: shape.expansion(side, piece, centre) };
+        let is_inside = |cell: &ShapeCell| x > cell.centre - cell.half && x < cell.centre + cell.half;
+        if !(is_inside(self) && piece == self.piece) {
+            let width = shape.cell_width(side);
+            let centre = if width.is_finite() { (x / width).round() * width } else { 0.0 };
+            *self =
+                ShapeCell { piece, centre, half: 0.5 * width, terms: shape.expansion(side, piece, centre) };
         }
         let (d, [a, b, c, d3, e, f]) = (x - self.centre, self.terms);
         let square = d * d;

@@ -2,7 +2,7 @@
 
 use splines::Axis;
 
-use super::{Irregularity, Wave};
+use super::{Irregularity, LATERAL, Wave};
 
 #[test]
 fn pieces_are_linear_between_rows_and_constant_beyond() {
