@@ -76,6 +76,17 @@ struct Residuals {
     is_held: bool,
 }
 
+/// The laws that are to act.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Wanted {
+    /// Those that act at the present penetrations and rates.
+    Natural,
+    /// These, and those of elements with a force, as far as they can be continued.
+    Continued,
+    /// Those of the factored Jacobian, as far as they can be continued.
+    Factored,
+}
+
 /// Whether the laws that act in a correction are those of the factored Jacobian.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ActingLaws {
@@ -302,7 +313,8 @@ impl Problem {
             force[i] = 0.0;
         }
         self.first.copy_from_slice(force);
-        let mut size = self.evaluate(system, local, active, force);
+        // Under a first guess of the forces, laws that act may seem to have ceased.
+        let mut size = self.evaluate(system, local, active, force, Wanted::Continued);
         let (mut is_current, mut leaps) = (false, LEAPS);
         for _ in 0..ITERATIONS {
             let before = size;
@@ -319,7 +331,7 @@ impl Problem {
                 for (f, (start, newton)) in force.iter_mut().zip(self.start.iter().zip(&self.newton)) {
                     *f = start - damping * newton;
                 }
-                let now = self.evaluate(system, local, active, force);
+                let now = self.evaluate(system, local, active, force, Wanted::Natural);
                 if now <= size || now <= TOLERANCE * scale || damping < SHORTEST {
                     size = now;
                     break;
@@ -330,7 +342,7 @@ impl Problem {
                     leaps -= 1;
                     if leaps == 0 {
                         force.copy_from_slice(&self.first);
-                        size = self.evaluate(system, local, active, force);
+                        size = self.evaluate(system, local, active, force, Wanted::Natural);
                     }
                     break;
                 }
@@ -352,7 +364,14 @@ impl Problem {
     }
 
     /// Evaluates the residuals of the laws under `force` with W and Y; returns the largest absolute residual.
-    fn evaluate(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> f64 {
+    fn evaluate(
+        &mut self,
+        system: &System,
+        local: &[Local],
+        active: &[bool],
+        force: &[f64],
+        wanted: Wanted,
+    ) -> f64 {
         for &i in &self.sought {
             // The rates of other elements depend on no force.
             let has_rate = system.fixed[i].feels_rates || system.fixed[i].has_memory;
@@ -360,21 +379,21 @@ impl Problem {
             let rate = if has_rate { effects.rate_under(i, force) } else { effects.rate[i] };
             self.residuals.reached[i] = [effects.penetration(i, force), rate];
         }
-        self.evaluate_laws(system, local, active, force, false);
+        self.evaluate_laws(system, local, active, force, wanted);
         largest(&self.residuals.value)
     }
 
     /// Fills the residuals F - law(p, r) under `force` at the stored penetrations and rates, the list of acting
-    /// elements, and the slopes of their laws. The residual of an element that does not act is its force. If `holds` is true,
-    /// the laws that act are those of the factored Jacobian, as far as they can be continued.
+    /// elements, and the slopes of their laws. The residual of an element that does not act is its force.
     fn evaluate_laws(
         &mut self,
         system: &System,
         local: &[Local],
         active: &[bool],
         force: &[f64],
-        holds: bool,
+        wanted: Wanted,
     ) {
+        let holds = wanted == Wanted::Factored;
         let Problem { effects, idle, sought, residuals, factors, .. } = self;
         residuals.clear();
         let m = force.len();
@@ -392,7 +411,7 @@ impl Problem {
                 local: &local[i],
                 is_active: active[i] && !idle[i],
                 fall: effects.y[i * m + i],
-                continues: false,
+                continues: wanted == Wanted::Continued,
             };
             let keeping = effects.keeping(i, force);
             if let Some(wanted) = keeping {
@@ -487,7 +506,7 @@ impl Problem {
     ) -> bool {
         out.fill(0.0);
         if let Some((system, local, active, force)) = forces {
-            self.evaluate(system, local, active, force);
+            self.evaluate(system, local, active, force, Wanted::Natural);
         }
         let is_current = forces.is_none() && self.residuals.acting == self.factors.elements;
         if !(is_current || self.factor()) {
@@ -524,7 +543,8 @@ impl Problem {
         force: &[f64],
         holds: bool,
     ) -> Option<(&[f64], ActingLaws)> {
-        self.evaluate_laws(system, local, active, force, holds);
+        let wanted = if holds { Wanted::Factored } else { Wanted::Natural };
+        self.evaluate_laws(system, local, active, force, wanted);
         let is_earlier = self.residuals.acting == self.factors.elements;
         if !(is_earlier || self.factor()) {
             return None;
