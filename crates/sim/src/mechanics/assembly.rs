@@ -123,10 +123,7 @@ impl<'a> Mechanics<'a> {
             gravity: DVector::zeros(dofs),
         };
         mechanics.assemble()?;
-        mechanics.moves_freely = mechanics
-            .coordinates
-            .iter()
-            .any(|coordinate| !coordinate.terms.is_empty());
+        mechanics.moves_freely = mechanics.coordinates.iter().any(|coordinate| !coordinate.terms.is_empty());
         Ok(mechanics)
     }
 
@@ -170,7 +167,8 @@ impl<'a> Mechanics<'a> {
     /// Velocity of the hub of wheel `w` along its rail.
     pub fn speed_along(&self, w: usize, at: &State) -> f64 {
         let coordinate = &self.coordinates[w];
-        let travel = |root: usize| self.scene.bodies[root].motion.as_ref().map_or(0.0, |motion| motion.at(at.t).v);
+        let travel =
+            |root: usize| self.scene.bodies[root].motion.as_ref().map_or(0.0, |motion| motion.at(at.t).v);
         let moved: f64 = coordinate.terms.iter().map(|&(number, share)| share * at.v[number]).sum();
         coordinate.driven.map_or(0.0, travel) + moved
     }

@@ -194,7 +194,8 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
         });
         is_solved.then(|| {
             let now = guards(step.solver, GuardKind::Touch, &step.probe);
-            let beyond = passes.iter().map(|&(index, aim)| (straight(step.solver, index, &now) - aim) * aim.signum());
+            let beyond =
+                passes.iter().map(|&(index, aim)| (straight(step.solver, index, &now) - aim) * aim.signum());
             beyond.fold(f64::NEG_INFINITY, f64::max)
         })
     });

@@ -94,8 +94,8 @@ impl Solver<'_> {
             }
         }
         let (local, active) = (self.geometry.local(), self.active.flags());
-        // The last stage ends with its laws evaluated, and with the factors of its problem.
-        let is_current = is_staged && self.factored_for.take().is_some();
+        // The last stage ends with its laws evaluated, and with the factors of its problem, unless this was linear.
+        let is_current = is_staged && self.factored_for.take().is_some() && self.problem.is_factored();
         let forces = Some((system, local, active, &at.force[..])).filter(|_| !is_current);
         self.problem.add_responses(forces, [(&now, bounces), (&later, bounces), (&own, 1.0)], out)
     }

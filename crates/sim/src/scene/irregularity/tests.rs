@@ -48,7 +48,8 @@ fn sum_has_the_corners_and_the_values_of_both() {
     assert_eq!(sum.breaks(), [1.0, 2.0, 3.0, 7.0]);
     for x in [-4.0, 1.5, 2.5, 3.5, 6.9, 7.1] {
         let parts = [&step, &swell, &endless];
-        let value = |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.side(LATERAL, s.piece(x, 1.0, 0), x));
+        let value =
+            |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.side(LATERAL, s.piece(x, 1.0, 0), x));
         let (vertical, lateral) = value(&sum);
         for k in 0..2 {
             let [a, b] = [0, 1].map(|side| {
