@@ -6,7 +6,7 @@ use nalgebra::DVector;
 const LEFT: f64 = 1e-6;
 
 /// Multiple of it that is allowed after the first correction of a stage.
-const EASE: f64 = 200.0;
+const EASE: f64 = 20.0;
 
 /// Step tolerance above which the contraction ratio of another stage justifies the full allowed error; below it the
 /// allowed error is reduced by the square of tolerance/LOOSE.
