@@ -147,15 +147,16 @@ impl Solver<'_> {
             // Where nothing depends on the motion within the stage, a full pass is its solution; a correction is not, where
             // laws are not linear.
             let is_solved = !iterates && !is_correction;
+            // After a change of the set of acting laws, it may change again.
+            let is_same = laws == ActingLaws::Same;
+            let ends = is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended));
             // An element that touches is part of the problem from the next pass on.
-            if (!is_correction || verdict.has_ended) && self.find_touching(at) {
+            if (ends || !is_correction) && self.find_touching(at) {
                 self.factored_for = None;
                 last = f64::INFINITY;
                 continue;
             }
-            // After a change of the set of acting laws, it may change again.
-            let is_same = laws == ActingLaws::Same;
-            if is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended)) {
+            if ends {
                 return Ok(true);
             }
             changes_of_set += usize::from(laws == ActingLaws::Changed);
