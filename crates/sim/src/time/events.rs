@@ -204,7 +204,7 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
 
 /// The value of touch guard `index` with an overlap p replaced by p + k G p, the overlap with a rigid rail. Where a flange
 /// touches, its rail gives way, so that its overlap grows slower than its clearance shrank by the factor 1 + k G; without
-/// this kink at the root, its search takes a third of the evaluations.
+/// this kink at the root, its search takes two thirds of the evaluations.
 fn straight(solver: &Solver, index: usize, guards: &[Guard]) -> f64 {
     let Guard { value, stiffness } = guards[index];
     let element = solver.system().guarded(GuardKind::Touch)[index];

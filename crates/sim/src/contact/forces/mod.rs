@@ -196,22 +196,19 @@ impl Problem {
             || self.hold_penetrations(active, force) && self.solve_newton(system, local, active, force)
     }
 
+    /// Evaluates the laws under `force` and factors their Jacobian with the W and Y of the last problem. Returns false if it is
+    /// singular.
+    pub fn linearise(&mut self, system: &System, local: &[Local], active: &[bool], force: &[f64]) -> bool {
+        self.evaluate(system, local, active, force, Wanted::Natural);
+        self.factor()
+    }
+
     /// Sums of the magnitudes of the changes of the forces by each set of `errors` of penetrations and rates, times its
-    /// weight, with the W and Y of the last problem, into `out`. `forces` are the system, the local properties of the elements,
-    /// the active elements and the forces; `None` if the laws were evaluated under these forces last, and the Jacobian is
-    /// that of W and Y. Returns false if the Jacobian is singular.
-    pub fn add_responses(
-        &mut self,
-        forces: Option<(&System, &[Local], &[bool], &[f64])>,
-        errors: [(&[[f64; 2]], f64); 3],
-        out: &mut [f64],
-    ) -> bool {
+    /// weight, into `out`, with the laws evaluated last and the W and Y of the last problem. Returns false if the Jacobian is
+    /// singular.
+    pub fn add_responses(&mut self, errors: [(&[[f64; 2]], f64); 3], out: &mut [f64]) -> bool {
         out.fill(0.0);
-        if let Some((system, local, active, force)) = forces {
-            self.evaluate(system, local, active, force, Wanted::Natural);
-        }
-        let is_current = forces.is_none() && self.residuals.acting == self.factors.elements;
-        if !(is_current || self.factor()) {
+        if !(self.residuals.acting == self.factors.elements || self.factor()) {
             return false;
         }
         self.residuals.released.clear();

@@ -95,9 +95,12 @@ impl Solver<'_> {
         }
         let (local, active) = (self.geometry.local(), self.active.flags());
         // The last stage ends with its laws evaluated, and with the factors of its problem, unless this was linear.
-        let is_current = is_staged && self.factored_for.take().is_some() && self.problem.is_factored();
-        let forces = Some((system, local, active, &at.force[..])).filter(|_| !is_current);
-        self.problem.add_responses(forces, [(&now, bounces), (&later, bounces), (&own, 1.0)], out)
+        let is_solved = self.factored_for.take().is_some() && self.problem.is_factored();
+        let is_current = is_staged && is_solved;
+        if !(is_current || self.problem.linearise(system, local, active, &at.force)) {
+            return false;
+        }
+        self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out)
     }
 
     /// Sets the `frequency` of each degree of freedom, or 0 where it has none, and returns the largest number of bounces
