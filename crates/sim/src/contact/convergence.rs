@@ -5,7 +5,8 @@ use nalgebra::DVector;
 /// Iteration error allowed in a stage, per unit of the step tolerance.
 const LEFT: f64 = 1e-6;
 
-/// Multiple of it that is allowed after the first correction of a stage.
+/// Multiple of it that is allowed after the first correction of a stage. With a hundred times as much, the energy of some
+/// runs closes ten times worse.
 const EASE: f64 = 20.0;
 
 /// Step tolerance above which the contraction ratio of another stage justifies the full allowed error; below it the
