@@ -144,17 +144,28 @@ impl RailCompliance {
             if path.leads_to(from, reach) && path.leads_to(to, reach) {
                 continue;
             }
-            let is_free = |start: &[f64], end: &[f64]| {
-                !entries.iter().any(|Entry { wheel, probe, .. }| {
-                    mechanics.breaks.between(s, probe.rail, start[*wheel], end[*wheel]).len() > 0
-                })
+            // Part of the way from `start` to `end` before the first break of a rail.
+            let free = |start: &[f64], end: &[f64]| {
+                let shares = entries.iter().filter_map(|Entry { wheel, probe, .. }| {
+                    let (start, end) = (start[*wheel], end[*wheel]);
+                    let place = mechanics.breaks.between(s, probe.rail, start, end).next()?;
+                    Some(if end == start { 0.0 } else { (place - start) / (end - start) })
+                });
+                shares.fold(1.0, f64::min)
             };
+            let is_free = |start: &[f64], end: &[f64]| free(start, end) == 1.0;
             let inner = |end: &[f64]| -> [Vec<f64>; 2] {
                 let of = |k: usize| (0..from.len()).map(|w| within([from[w], end[w]], reach)[k]).collect();
                 [of(0), of(1)]
             };
+            // The path ends before the break of a rail, where this is beyond the end of the step.
+            let [start, last] = inner(beyond);
+            let share = free(&start, &last);
+            let nearer: Vec<f64> =
+                from.iter().zip(beyond).map(|(from, to)| from + share * (to - from)).collect();
             // An error of the rail is ignored here, because the step itself reports it.
-            let ends = [beyond, to].map(inner).into_iter().find(|[start, end]| is_free(start, end));
+            let leads_on = |[start, end]: &[Vec<f64>; 2]| is_free(start, end);
+            let ends = [&nearer[..], to].map(inner).into_iter().find(leads_on);
             let is_set = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
                 let goes_on = is_free(path.second(), &ends[0]);
                 path.set(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), reach, goes_on).is_ok()

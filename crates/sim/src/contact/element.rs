@@ -28,6 +28,7 @@ use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::point::PointPair;
 use crate::mechanics::state::State;
 use crate::numerics::dense::along;
+use crate::scene::irregularity::ShapeCell;
 
 /// A force element.
 pub(crate) trait Element {
@@ -109,8 +110,7 @@ pub(crate) trait Element {
         false
     }
 
-    /// Whether its penetration is evaluated while it is idle, because it may begin to act within a stage or because
-    /// other elements depend on it.
+    /// Whether it is watched while it is idle, because it may begin to act within a stage.
     fn is_followed(&self) -> bool {
         false
     }
@@ -245,11 +245,13 @@ pub(crate) struct Local {
     pub is_on: bool,
     /// The spring of a rope or a stop.
     pub spring: Spring,
+    /// The shape of the unloaded rail about the element.
+    pub shape: ShapeCell,
 }
 
 impl Default for Local {
     fn default() -> Self {
-        Local { fraction: [1.0, 0.0], is_on: false, spring: Spring::default() }
+        Local { fraction: [1.0, 0.0], is_on: false, spring: Spring::default(), shape: ShapeCell::default() }
     }
 }
 
@@ -283,6 +285,8 @@ pub(crate) struct Query<'q> {
     pub is_active: bool,
     /// Decrease of the element's rate per unit of its own force.
     pub fall: f64,
+    /// Whether the law of an element that presses is continued to where it would separate.
+    pub continues: bool,
 }
 
 impl Query<'_> {

@@ -9,6 +9,7 @@ use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
 use crate::numerics::dense::along;
 use crate::scene::dof::arm_rows;
+use crate::scene::irregularity::LATERAL;
 use crate::{BodyDof, Channel, Flange};
 
 /// Part of the clearance within which a flange is near its rail.
@@ -51,7 +52,7 @@ impl Element for FlangeContact<'_> {
 
     /// The rail is below the hub by the height of the wheel; the lateral irregularity of the rail reduces the
     /// approach.
-    fn update_row(&self, at: &Where, row: &mut RowMut, _: &mut Local) {
+    fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
         let (w, kinematics) = (self.wheel, &at.mechanics.kinematics);
         let body = at.mechanics.wheels[w].body;
         let by_height = arm_rows([0.0, -at.places.height[w], 0.0])[2][ROLL];
@@ -62,7 +63,7 @@ impl Element for FlangeContact<'_> {
         if at.is_uneven
             && let Some(shape) = at.mechanics.irregularity(w)
         {
-            let [place, slope] = shape.lateral(at.places.piece[w], at.places.x[w]);
+            let [place, slope] = local.shape.at(shape, LATERAL, at.places.piece[w], at.places.x[w]);
             *row.approach_offset -= place;
             *row.rise = -slope;
         }
@@ -112,7 +113,11 @@ impl Element for FlangeContact<'_> {
 
     fn law(&self, query: &Query, _: &mut Vec<Coupling>) -> Option<Law> {
         let flange = self.flange;
-        let overlap = if query.is_active { flange.overlap(query.penetration()) } else { 0.0 };
+        let mut overlap = if query.is_active { flange.overlap(query.penetration()) } else { 0.0 };
+        let force = query.force[query.index];
+        if overlap == 0.0 && query.continues && force != 0.0 {
+            overlap = query.penetration() - flange.clearance.copysign(force);
+        }
         if overlap == 0.0 {
             return None;
         }

@@ -58,20 +58,9 @@ impl Places {
 
     /// Rail coordinate of wheel `w` at the degrees of freedom `q`, with the prescribed travel of the last update.
     pub fn of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
-        let wheel = &mechanics.wheels[w];
-        let body = &mechanics.scene.bodies[wheel.body];
-        let kinematics = &mechanics.kinematics;
-        if body.pinned.is_some() {
-            let (moved, constant) = (kinematics.apply(wheel.body, q), kinematics.constant(wheel.body));
-            let root = kinematics.root(wheel.body);
-            let travel =
-                if mechanics.scene.bodies[root].motion.is_some() { self.travel[root].x } else { 0.0 };
-            let value = |i: usize| moved[i] + constant[i];
-            return travel + value(0) + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1];
-        }
-        let numbers = &kinematics.numbers[wheel.body];
-        let value = |i: usize| numbers[i].map_or(body.start[i], |number| q[number]);
-        let x = if body.motion.is_some() { self.travel[wheel.body].x } else { value(0) };
-        x + wheel.hub[0] + value(4) * wheel.hub[2] - value(5) * wheel.hub[1]
+        let coordinate = &mechanics.coordinates[w];
+        let travel = coordinate.driven.map_or(0.0, |root| self.travel[root].x);
+        let moved: f64 = coordinate.terms.iter().map(|&(number, share)| share * q[number]).sum();
+        travel + coordinate.constant + moved
     }
 }

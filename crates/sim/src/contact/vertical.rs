@@ -18,6 +18,7 @@ use crate::mechanics::state::State;
 use crate::numerics::dense::along;
 use crate::numerics::step::step_integral;
 use crate::scene::dof::arm_rows;
+use crate::scene::irregularity::VERTICAL;
 use crate::scene::wheel::LawValue;
 use crate::{Channel, Damper, Irregularity, NormalLaw};
 
@@ -115,12 +116,12 @@ impl Element for Vertical<'_> {
     }
 
     /// Shape of the unloaded rail: an upward irregularity increases the approach.
-    fn update_row(&self, at: &Where, row: &mut RowMut, _: &mut Local) {
+    fn update_row(&self, at: &Where, row: &mut RowMut, local: &mut Local) {
         if !at.is_uneven {
             return;
         }
         if let Some(shape) = &self.mean {
-            let [height, slope] = shape.vertical(0, at.places.x[self.wheels.start]);
+            let [height, slope] = local.shape.at(shape, VERTICAL, 0, at.places.x[self.wheels.start]);
             *row.approach_offset += height;
             *row.rise += slope;
             return;
@@ -166,10 +167,6 @@ impl Element for Vertical<'_> {
 
     fn has_memory(&self) -> bool {
         self.law.has_memory()
-    }
-
-    fn is_followed(&self) -> bool {
-        true
     }
 
     fn law(&self, query: &Query, _: &mut Vec<Coupling>) -> Option<Law> {

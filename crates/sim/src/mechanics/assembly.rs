@@ -15,7 +15,7 @@ use super::coupling::InertialCoupling;
 use super::inertia::Block;
 use super::kinematics::{Kinematics, Terms};
 use super::state::State;
-use super::wheels::{WheelGroup, WheelPoint, Wheels};
+use super::wheels::{RailCoordinate, WheelGroup, WheelPoint, Wheels};
 use crate::scene::breaks::RailBreaks;
 use crate::scene::check::check_carriers;
 use crate::scene::dof::arm_rows;
@@ -35,6 +35,8 @@ pub(crate) struct Mechanics<'a> {
     pub kinematics: Kinematics<'a>,
     /// All physical wheels.
     pub wheels: Vec<WheelPoint<'a>>,
+    /// Rail coordinate of each wheel.
+    pub coordinates: Vec<RailCoordinate>,
     /// Groups of wheels that share one vertical force.
     pub groups: Vec<WheelGroup>,
     /// Range of wheel groups of each contact.
@@ -100,7 +102,9 @@ impl<'a> Mechanics<'a> {
         let mut kinematics = Kinematics::new(scene, numbers)?;
         let carried = CarriedBodies::new(foundations, &kinematics)?;
         kinematics.add_masses(foundations, &structures, |b| carried.has(b));
+        let coordinates = wheels.iter().map(|wheel| RailCoordinate::new(&kinematics, wheel)).collect();
         let mut mechanics = Mechanics {
+            coordinates,
             scene,
             foundations,
             breaks: RailBreaks::new(foundations),
@@ -119,10 +123,7 @@ impl<'a> Mechanics<'a> {
             gravity: DVector::zeros(dofs),
         };
         mechanics.assemble()?;
-        mechanics.moves_freely = mechanics
-            .wheels
-            .iter()
-            .any(|wheel| !mechanics.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]).is_empty());
+        mechanics.moves_freely = mechanics.coordinates.iter().any(|coordinate| !coordinate.terms.is_empty());
         Ok(mechanics)
     }
 
@@ -165,9 +166,11 @@ impl<'a> Mechanics<'a> {
 
     /// Velocity of the hub of wheel `w` along its rail.
     pub fn speed_along(&self, w: usize, at: &State) -> f64 {
-        let wheel = &self.wheels[w];
-        let (_, speed) = self.body(wheel.body, at.t, &at.q, &at.v);
-        arm_rows(wheel.hub)[0].iter().zip(&speed).map(|(arm, speed)| arm * speed).sum()
+        let coordinate = &self.coordinates[w];
+        let travel =
+            |root: usize| self.scene.bodies[root].motion.as_ref().map_or(0.0, |motion| motion.at(at.t).v);
+        let moved: f64 = coordinate.terms.iter().map(|&(number, share)| share * at.v[number]).sum();
+        coordinate.driven.map_or(0.0, travel) + moved
     }
 
     /// Roll of the body of wheel `w` at the degrees of freedom `q`.

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use super::kinematics::{Kinematics, Terms};
+use crate::scene::dof::arm_rows;
 use crate::{Error, Foundation, Profile, Scene};
 
 /// One physical wheel.
@@ -15,6 +17,26 @@ pub(crate) struct WheelPoint<'a> {
     pub spin: Option<usize>,
     /// Prescribed spin; `None` where the spin is not prescribed.
     pub turn: Option<&'a Profile>,
+}
+
+/// Rail coordinate of a wheel as a linear function of the degrees of freedom, x = constant + travel of its root + terms q.
+pub(crate) struct RailCoordinate {
+    pub constant: f64,
+    /// The root of the body, where its travel is prescribed.
+    pub driven: Option<usize>,
+    pub terms: Terms,
+}
+
+impl RailCoordinate {
+    pub fn new(kinematics: &Kinematics, wheel: &WheelPoint) -> Self {
+        let (line, root) = (arm_rows(wheel.hub)[0], kinematics.root(wheel.body));
+        let constant: f64 = line.iter().zip(kinematics.constant(wheel.body)).map(|(l, c)| l * c).sum();
+        RailCoordinate {
+            constant: wheel.hub[0] + constant,
+            driven: kinematics.scene.bodies[root].motion.is_some().then_some(root),
+            terms: kinematics.combine(wheel.body, &line),
+        }
+    }
 }
 
 /// Wheels that share one vertical force: the wheels of a contact, with one group for each rigid part that they may

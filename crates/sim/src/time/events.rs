@@ -24,6 +24,10 @@ const PASSED: f64 = 8.0;
 /// Tolerance of the position of a touch, as a fraction of the step.
 const TOUCH_WIDTH: f64 = 1e-4;
 
+/// Error of the forces, relative to the largest, in the states at which a touch is sought. It moves a flange beside its rail
+/// by as much of the deflection, which is far less than what the flange moves in the tolerance of the position.
+const TOUCH_SLACK: f64 = 1e-8;
+
 /// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
     if is_fixed { SLACK } else { SLACK.max(SLACK_BY_ERROR * tolerance) }
@@ -154,7 +158,8 @@ pub(crate) fn guards(solver: &Solver, kind: GuardKind, at: &State) -> Vec<Guard>
 
 /// Fraction of the step just taken at which an element first touches or separates, if a guard changes its sign by
 /// more than the force [`OVERSHOOT`] times `largest`. The result is the first root of the touch guards on the
-/// interpolant; `before` are their values at the start of the step.
+/// interpolant; `before` are their values at the start of the step. If it is found, the step must be repeated: the geometry
+/// of the solver is that of a state inside it.
 ///
 /// # Errors
 /// Any error from evaluating the rails.
@@ -168,13 +173,13 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
     let mut passes: Vec<(usize, f64)> = Vec::new();
     let mut ends = [f64::NEG_INFINITY; 2];
     let after = guards(step.solver, GuardKind::Touch, &step.to);
-    for (index, (before, Guard { value: now, stiffness })) in before.iter().zip(after).enumerate() {
-        let (before, slack) = (before.value, slack / stiffness);
-        if before * now < 0.0 && before.abs().min(now.abs()) > slack {
-            let aim = 0.5 * slack * now.signum();
+    for (index, (old, new)) in before.iter().zip(&after).enumerate() {
+        let slack = slack / new.stiffness;
+        if old.value * new.value < 0.0 && old.value.abs().min(new.value.abs()) > slack {
+            let aim = 0.5 * slack * new.value.signum();
             passes.push((index, aim));
-            for (end, value) in ends.iter_mut().zip([before, now]) {
-                *end = end.max((value - aim) * aim.signum());
+            for (end, guards) in ends.iter_mut().zip([before, &after]) {
+                *end = end.max((straight(step.solver, index, guards) - aim) * aim.signum());
             }
         }
     }
@@ -183,21 +188,27 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
     }
     let mut failure = None;
     let [_, first] = narrow(ends, TOUCH_WIDTH, |fraction| {
-        let is_solved = step.look_at(fraction).unwrap_or_else(|error| {
+        let is_solved = step.look_within(fraction, TOUCH_SLACK).unwrap_or_else(|error| {
             failure = Some(error);
             false
         });
         is_solved.then(|| {
             let now = guards(step.solver, GuardKind::Touch, &step.probe);
-            let beyond = passes.iter().map(|&(index, aim)| (now[index].value - aim) * aim.signum());
+            let beyond =
+                passes.iter().map(|&(index, aim)| (straight(step.solver, index, &now) - aim) * aim.signum());
             beyond.fold(f64::NEG_INFINITY, f64::max)
         })
     });
-    if let Some(error) = failure {
-        return Err(error);
-    }
-    step.return_to_end()?;
-    Ok(Some(first))
+    failure.map_or(Ok(Some(first)), Err)
+}
+
+/// The value of touch guard `index` with an overlap p replaced by p + k G p, the overlap with a rigid rail. Where a flange
+/// touches, its rail gives way, so that its overlap grows slower than its clearance shrank by the factor 1 + k G; without
+/// this kink at the root, its search takes two thirds of the evaluations.
+fn straight(solver: &Solver, index: usize, guards: &[Guard]) -> f64 {
+    let Guard { value, stiffness } = guards[index];
+    let element = solver.system().guarded(GuardKind::Touch)[index];
+    if value > 0.0 { value * (1.0 + stiffness * solver.geometry().own_compliance(element)) } else { value }
 }
 
 /// Finds the first element that must become active or inactive within the step. Returns the fraction of the step at

@@ -275,12 +275,20 @@ impl<'a, 'b> Step<'a, 'b> {
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn look_at(&mut self, fraction: f64) -> Result<bool, Error> {
+        self.look_within(fraction, 0.0)
+    }
+
+    /// As [`Step::look_at`], where the forces may err by the `slack` relative to the largest.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails.
+    pub fn look_within(&mut self, fraction: f64, slack: f64) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
         self.solver.interpolate([&self.from, &self.to], fraction, &mut self.probe)?;
         if let Integrator::Collocation(collocation) = &self.integrator {
             collocation.interpolate(&self.from, fraction, &mut self.probe);
         }
-        self.solver.instant(&mut self.probe)
+        self.solver.instant_within(&mut self.probe, slack)
     }
 
     /// Resets the geometry of the solver to the end of the step, after states inside the step were evaluated.

@@ -17,6 +17,7 @@
 use super::Solver;
 use crate::Error;
 use crate::contact::element::passing;
+use crate::contact::forces::ActingLaws;
 #[cfg(doc)]
 use crate::contact::geometry::Geometry;
 use crate::mechanics::state::{Known, State};
@@ -30,14 +31,15 @@ impl Solver<'_> {
     }
 
     /// Corrects the stage at `at`. Returns the largest change of the degrees of freedom relative to themselves, the
-    /// largest change of degrees of freedom and forces relative to their scales, and whether the laws that act are those
-    /// of the last pass. Returns `None` if another element touches; then only the free motion has been improved.
+    /// largest change of degrees of freedom and forces relative to their scales, and which laws act; if `holds` is true, those
+    /// of the last pass. Returns `None` if their Jacobian is singular; then only the free motion has been improved.
     pub(super) fn correct(
         &mut self,
         g: f64,
         known: &Known,
         at: &mut State,
-    ) -> Result<Option<([f64; 2], bool)>, Error> {
+        holds: bool,
+    ) -> Result<Option<([f64; 2], ActingLaws)>, Error> {
         let system = self.system;
         if !(self.evaluated.is_valid && self.geometry.is_near(system, &self.evaluated.q, &at.q)) {
             self.evaluate_at(at)?;
@@ -45,11 +47,9 @@ impl Solver<'_> {
         }
         let rows = self.geometry.rows();
         self.free.improve(system, g, known, at, self.projection.columns(), |j| rows.force_row(j));
-        if !self.reach(g, &known.p, at) {
-            return Ok(None);
-        }
+        self.reach(g, &known.p, at);
         let (local, active) = (self.geometry.local(), self.active.flags());
-        let Some((change, is_same)) = self.problem.corrections(system, local, active, &at.force) else {
+        let Some((change, laws)) = self.problem.corrections(system, local, active, &at.force, holds) else {
             return Ok(None);
         };
         let size = at.force.iter().fold(f64::MIN_POSITIVE, |max, force| force.abs().max(max));
@@ -59,19 +59,15 @@ impl Solver<'_> {
         let [moved, beside] = self.arrive(g, known, at, |solver, i, at| {
             solver.geometry.approach(i, &at.q) - solver.geometry.deflection(i, &at.force)
         });
-        Ok(Some(([moved, beside.max(largest / size)], is_same)))
+        Ok(Some(([moved, beside.max(largest / size)], laws)))
     }
 
-    /// Computes penetrations and rates of all elements for the free motion under the forces of `at`. Returns false if
-    /// an element that was treated as idle touches.
-    fn reach(&mut self, g: f64, known: &[f64], at: &State) -> bool {
+    /// Computes penetrations and rates of the elements of the problem for the free motion under the forces of `at`.
+    fn reach(&mut self, g: f64, known: &[f64], at: &State) {
         let system = self.system;
-        for k in 0..self.problem.candidates.list().len() {
-            let i = self.problem.candidates.list()[k];
-            let (is_idle, fixed) = (self.problem.idle[i], system.fixed[i]);
-            if is_idle && !fixed.is_followed {
-                continue;
-            }
+        for k in 0..self.problem.sought.len() {
+            let i = self.problem.sought[k];
+            let fixed = system.fixed[i];
             let deflection = self.geometry.deflection(i, &at.force) - self.geometry.drift(i);
             let penetration = self.geometry.approach(i, &self.free.q) - deflection;
             let mut rate = 0.0;
@@ -89,11 +85,7 @@ impl Solver<'_> {
                 let rails = self.geometry.rails();
                 rate += passing(&system.mechanics, &system.probes, rails, at, i);
             }
-            if is_idle && system.elements[i].touches(penetration) {
-                return false;
-            }
             self.problem.set_reached(i, [penetration, rate]);
         }
-        true
     }
 }

@@ -71,7 +71,7 @@ impl Solver<'_> {
         };
         let zeros = || vec![[0.0; 2]; out.len()];
         let (mut now, mut later, mut own) = (zeros(), zeros(), zeros());
-        for i in 0..out.len() {
+        for &i in &self.problem.sought {
             let tilted = system.mechanics.moves_freely && !system.fixed[i].is_tangential;
             let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
             let rates = &(if self.remembers(i) { &rows.approach } else { &rows.rate })[i * n..(i + 1) * n];
@@ -94,9 +94,13 @@ impl Solver<'_> {
             }
         }
         let (local, active) = (self.geometry.local(), self.active.flags());
-        self.factored_for = None;
-        let forces = (system, local, active, &at.force[..]);
-        self.problem.add_responses(forces, [(&now, bounces), (&later, bounces), (&own, 1.0)], out)
+        // The last stage ends with its laws evaluated, and with the factors of its problem, unless this was linear.
+        let is_solved = self.factored_for.take().is_some() && self.problem.is_factored();
+        let is_current = is_staged && is_solved;
+        if !(is_current || self.problem.linearise(system, local, active, &at.force)) {
+            return false;
+        }
+        self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out)
     }
 
     /// Sets the `frequency` of each degree of freedom, or 0 where it has none, and returns the largest number of bounces
@@ -184,8 +188,7 @@ impl Solver<'_> {
     /// Fills the problem with W = G, and Y = G/h in the rows of contacts whose penetration is a state.
     fn fill_without_mobility(&mut self, at: &State, h: f64) {
         let m = at.force.len();
-        self.problem.idle.fill(false);
-        self.problem.candidates.choose(|_| true);
+        self.problem.seek_all();
         let effects = &mut self.problem.effects;
         effects.w.copy_from_slice(&self.geometry.rails().value);
         effects.y.fill(0.0);

@@ -299,11 +299,18 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Errors of the rail models.
     pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
+        self.instant_within(at, 0.0)
+    }
+
+    /// As [`Solver::instant`], where the forces may err by the `slack` relative to the largest, and the heights by as much.
+    ///
+    /// # Errors
+    /// Errors of the rail models.
+    pub fn instant_within(&mut self, at: &mut State, slack: f64) -> Result<bool, Error> {
         let system = self.system;
-        self.problem.idle.fill(false);
-        self.problem.candidates.choose(|_| true);
+        self.problem.seek_all();
         self.factored_for = None;
-        self.problem.slack = 0.0;
+        self.problem.slack = slack;
         self.update(at)?;
         for _ in 0..PASSES {
             self.fill_instant(at);
@@ -318,7 +325,7 @@ impl<'a> Solver<'a> {
             }
             let change = self.geometry.update_heights(system, at);
             self.geometry.update_in_place(system, (at.t, &at.q), &at.force)?;
-            if change < 1e-13 {
+            if change < slack.max(1e-13) {
                 break;
             }
         }

@@ -21,6 +21,7 @@ use nalgebra::DVector;
 
 use super::{PASSES, Problem, RowKind, Solver};
 use crate::Error;
+use crate::contact::forces::ActingLaws;
 use crate::mechanics::state::{Known, State};
 use crate::numerics::dense::along;
 
@@ -34,8 +35,6 @@ const CHANGES: usize = 2;
 enum Pass {
     /// Largest changes of the degrees of freedom, relative to themselves and relative to their scales.
     Moved([f64; 2]),
-    /// Elements that had been treated as idle were found to touch.
-    Touched,
     /// The problem of the forces did not converge.
     Failed,
 }
@@ -129,17 +128,16 @@ impl Solver<'_> {
             }
             let mut corrected = None;
             if self.may_correct(g) {
-                corrected = self.correct(g, known, at)?;
+                corrected = self.correct(g, known, at, pass == 0)?;
                 if corrected.is_none() {
                     self.factored_for = None;
                 }
             }
             let is_correction = corrected.is_some();
-            let ([moved, change], is_same) = match corrected {
+            let ([moved, change], laws) = match corrected {
                 Some(changes) => changes,
                 None => match self.pass(g, known, at, pass == 0)? {
-                    Pass::Moved(changes) => (changes, true),
-                    Pass::Touched => continue,
+                    Pass::Moved(changes) => (changes, ActingLaws::Same),
                     Pass::Failed => return Ok(false),
                 },
             };
@@ -150,10 +148,18 @@ impl Solver<'_> {
             // laws are not linear.
             let is_solved = !iterates && !is_correction;
             // After a change of the set of acting laws, it may change again.
-            if is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended)) {
+            let is_same = laws == ActingLaws::Same;
+            let ends = is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended));
+            // An element that touches is part of the problem from the next pass on.
+            if (ends || !is_correction) && self.find_touching(at) {
+                self.factored_for = None;
+                last = f64::INFINITY;
+                continue;
+            }
+            if ends {
                 return Ok(true);
             }
-            changes_of_set += usize::from(!is_same);
+            changes_of_set += usize::from(laws == ActingLaws::Changed);
             if verdict.is_poor || changes_of_set > CHANGES {
                 self.factored_for = None;
             }
@@ -175,10 +181,11 @@ impl Solver<'_> {
         if begins {
             self.find_idle(&at.force);
         }
-        let elements = (self.problem.candidates.list(), &self.problem.idle[..]);
+        self.problem.seek(system.verticals(), &at.force);
+        let elements = (&self.problem.sought[..], &self.problem.idle[..]);
         self.projection.fill(system, self.geometry.rows(), self.free.mobility(), elements);
-        for k in 0..self.problem.candidates.list().len() {
-            let i = self.problem.candidates.list()[k];
+        for k in 0..self.problem.sought.len() {
+            let i = self.problem.sought[k];
             self.fill_row(i, g, &known.p);
             if self.follows_motion(i) {
                 self.fill_passing(i, g, at);
@@ -190,9 +197,6 @@ impl Solver<'_> {
         let (local, active) = (self.geometry.local(), self.active.flags());
         if !self.problem.solve(system, local, active, &mut at.force) {
             return Ok(Pass::Failed);
-        }
-        if self.find_touching(&at.force) {
-            return Ok(Pass::Touched);
         }
         self.factored_for = Some(g);
         self.projection.add_forces(&self.free.a, -1.0, &at.force, &mut at.a);
@@ -210,13 +214,13 @@ impl Solver<'_> {
         }
     }
 
-    /// Removes the idle mark of elements that touch under `force`; returns whether there are any.
-    fn find_touching(&mut self, force: &[f64]) -> bool {
+    /// Removes the idle mark of elements that touch at `at`; returns whether there are any.
+    fn find_touching(&mut self, at: &State) -> bool {
         let mut is_found = false;
-        let Problem { effects, candidates, idle, .. } = &mut self.problem;
-        for &i in candidates.list() {
-            let touches = |p: f64| self.system.elements[i].touches(p);
-            if idle[i] && self.system.fixed[i].is_followed && touches(effects.penetration(i, force)) {
+        let Problem { candidates, idle, .. } = &mut self.problem;
+        for &i in candidates.list().iter().filter(|&&i| self.system.fixed[i].is_followed) {
+            let penetration = || self.geometry.approach(i, &at.q) - self.geometry.deflection(i, &at.force);
+            if idle[i] && self.system.elements[i].touches(penetration()) {
                 idle[i] = false;
                 is_found = true;
             }

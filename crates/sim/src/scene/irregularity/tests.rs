@@ -2,7 +2,7 @@
 
 use splines::Axis;
 
-use super::{Irregularity, Wave};
+use super::{Irregularity, LATERAL, ShapeCell, VERTICAL, Wave};
 
 #[test]
 fn pieces_are_linear_between_rows_and_constant_beyond() {
@@ -14,7 +14,7 @@ fn pieces_are_linear_between_rows_and_constant_beyond() {
     assert_eq!(at(2.5, -1.0), [3.0, 2.0]);
     assert_eq!((at(3.0, -1.0), at(3.0, 1.0)), ([4.0, 2.0], [1.0, 0.0]));
     assert_eq!(at(9.0, 1.0), [1.0, 0.0]);
-    assert_eq!(shape.lateral(0, 0.0), [5.0, 0.0]);
+    assert_eq!(shape.side(LATERAL, 0, 0.0), [5.0, 0.0]);
 }
 
 #[test]
@@ -48,7 +48,8 @@ fn sum_has_the_corners_and_the_values_of_both() {
     assert_eq!(sum.breaks(), [1.0, 2.0, 3.0, 7.0]);
     for x in [-4.0, 1.5, 2.5, 3.5, 6.9, 7.1] {
         let parts = [&step, &swell, &endless];
-        let value = |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.lateral(s.piece(x, 1.0, 0), x));
+        let value =
+            |s: &Irregularity| (s.vertical(s.piece(x, 1.0, 0), x), s.side(LATERAL, s.piece(x, 1.0, 0), x));
         let (vertical, lateral) = value(&sum);
         for k in 0..2 {
             let [a, b] = [0, 1].map(|side| {
@@ -84,4 +85,32 @@ fn average_over_points_is_the_mean_of_their_values() {
         }
     }
     assert!(Irregularity::new(&[[1.0, 0.0], [2.0, 1.0]], &[]).expect("rows").averaged(&ahead).is_none());
+}
+
+#[test]
+fn cells_have_values_and_slopes_of_the_shape_in_any_order_of_places() {
+    let wave = |length: f64, phase: f64| Wave {
+        amplitude: 2e-3,
+        length,
+        phase,
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+    };
+    let of = |length, phase| Irregularity::wave(Axis::Vertical, wave(length, phase)).expect("a sinusoid");
+    let table = Irregularity::new(&[[0.0, 1e-3], [8.0, 5e-3]], &[[0.0, 2.0], [8.0, 6.0]]).expect("rows");
+    let shape = of(3.0, 0.4).plus(&of(11.0, 2.0)).plus(&table);
+    let (mut one, mut other) = (ShapeCell::default(), ShapeCell::default());
+    let places = (0..400).map(|k| 0.017 * f64::from(k));
+    let forth: Vec<[f64; 2]> = places.clone().map(|x| one.at(&shape, VERTICAL, 1, x)).collect();
+    let mut back: Vec<[f64; 2]> = places.clone().rev().map(|x| other.at(&shape, VERTICAL, 1, x)).collect();
+    back.reverse();
+    assert_eq!(forth, back);
+    for (x, [value, slope]) in places.zip(forth) {
+        let [exact, exact_slope] = shape.vertical(1, x);
+        assert!((value - exact).abs() < 1e-14 && (slope - exact_slope).abs() < 1e-12, "{x}");
+    }
+    // Without sinusoids a single cell serves, and each piece has its own line.
+    let [mut first, mut second] = [ShapeCell::default(); 2];
+    assert_eq!(first.at(&table, LATERAL, 1, 3.0), [3.5, 0.5]);
+    assert_eq!(first.at(&table, LATERAL, 2, 9.0), [6.0, 0.0]);
+    assert_eq!(second.at(&table, LATERAL, 0, 9.0), [2.0, 0.0]);
 }
