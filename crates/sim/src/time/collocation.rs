@@ -98,6 +98,24 @@ impl Responses {
     }
 }
 
+impl Responses {
+    /// Displacements and speeds of all degrees of freedom at node `i` (the end for i = s) under the loads at the s nodes.
+    fn motion(&self, load: &[DVector<f64>], from: &State, i: usize, q: &mut [f64], v: &mut [f64]) {
+        let (s, n) = (load.len(), q.len());
+        let free = self.free[i * n..(i + 1) * n].iter().zip(from.q.iter().zip(from.v.iter()));
+        for ((q, v), ([qq, qv, vq, vv], (q0, v0))) in q.iter_mut().zip(v.iter_mut()).zip(free) {
+            (*q, *v) = (qq * q0 + qv * v0, vq * q0 + vv * v0);
+        }
+        for (forced, load) in self.forced[i * s * n..(i + 1) * s * n].chunks_exact(n.max(1)).zip(load) {
+            let terms = forced.iter().zip(load.iter());
+            for ((q, v), ([by_q, by_v], load)) in q.iter_mut().zip(v.iter_mut()).zip(terms) {
+                *q += by_q * load;
+                *v += by_v * load;
+            }
+        }
+    }
+}
+
 impl Collocation {
     pub fn new(system: &System, nodes: Nodes, start: &State) -> Self {
         let (n, m, s) = (system.mechanics.dofs, system.elements.len(), nodes.count());
@@ -210,28 +228,12 @@ impl Collocation {
         self.responses[0].fill(&self.nodes, &self.modes, h);
     }
 
-    /// Displacement and speed of degree of freedom `r` at node `i` (the end for i = s) under the loads at the nodes.
-    fn response(&self, load: &[DVector<f64>], from: &State, i: usize, r: usize) -> [f64; 2] {
-        let (s, n) = (self.count(), self.modes.len());
-        let responses = &self.responses[0];
-        let [qq, qv, vq, vv] = responses.free[i * n + r];
-        let mut out = [qq * from.q[r] + qv * from.v[r], vq * from.q[r] + vv * from.v[r]];
-        for (b, load) in load.iter().enumerate() {
-            let [q, v] = responses.forced[(i * s + b) * n + r];
-            out[0] += q * load[r];
-            out[1] += v * load[r];
-        }
-        out
-    }
-
     /// Fills the approaches at the nodes and their rates in the motion without contact forces.
     fn fill_approaches(&mut self, system: &System, from: &State) {
-        let (s, n, m) = (self.count(), self.modes.len(), system.elements.len());
+        let (s, m) = (self.count(), system.elements.len());
         for a in 0..s {
-            for r in 0..n {
-                let [q, v] = self.response(&self.loads.free, from, a, r);
-                (self.states[a].q[r], self.states[a].v[r]) = (q, v);
-            }
+            let State { q, v, .. } = &mut self.states[a];
+            self.responses[0].motion(&self.loads.free, from, a, q.as_mut_slice(), v.as_mut_slice());
             let (geometry, state) = (&self.geometries[a], &self.states[a]);
             for i in 0..m {
                 self.forces.approach[a * m + i] = geometry.approach(i, &state.q);
@@ -259,12 +261,10 @@ impl Collocation {
         }
         let h = self.responses[0].h;
         for a in 0..s {
-            for r in 0..n {
-                let [q, v] = self.response(&self.loads.whole, from, a, r);
-                let [omega, zeta] = self.modes[r];
-                let state = &mut self.states[a];
-                (state.q[r], state.v[r]) = (q, v);
-                state.a[r] = self.loads.whole[a][r] - omega * (2.0 * zeta * v + omega * q);
+            let State { q, v, a: accelerations, .. } = &mut self.states[a];
+            self.responses[0].motion(&self.loads.whole, from, a, q.as_mut_slice(), v.as_mut_slice());
+            for (r, &[omega, zeta]) in self.modes.iter().enumerate() {
+                accelerations[r] = self.loads.whole[a][r] - omega * (2.0 * zeta * v[r] + omega * q[r]);
             }
             self.forces.penetrate(a, &self.geometries[a], &mut self.states[a]);
         }
@@ -280,10 +280,8 @@ impl Collocation {
         to.copy_from(&self.states[s - 1]);
         if self.nodes.c[s - 1] < 1.0 {
             to.t = (from.t + h).min(limit.next_down());
-            for r in 0..n {
-                let [q, v] = self.response(&self.loads.whole, from, s, r);
-                (to.q[r], to.v[r]) = (q, v);
-            }
+            let State { q, v, .. } = &mut *to;
+            self.responses[0].motion(&self.loads.whole, from, s, q.as_mut_slice(), v.as_mut_slice());
             if !solver.instant(to)? {
                 return Ok(false);
             }

@@ -3,10 +3,14 @@
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::DMatrix;
+use pulp::{Arch, Simd, WithSimd};
 
 use crate::error::Error;
 use crate::probe::Probe;
 use crate::rail::{EndForm, LocalPlace, MemberMotion, Rails};
+
+/// Number of shapes from which wide vector registers are used.
+const WIDE: usize = 16;
 
 /// Motions of rails by the motions of their node states, phi_r(p) = N(p) s_r, and if given by motions of their members
 /// between the ends.
@@ -214,6 +218,23 @@ impl ElementShapes {
     fn fill(
         &self,
         count: usize,
+        weights: ([f64; 4], [f64; 4]),
+        of_quotients: impl FnOnce() -> [[f64; 2]; 5],
+        value: &mut [f64],
+        slope: &mut [f64],
+    ) {
+        if count >= WIDE {
+            Arch::new().dispatch(Fill { shapes: self, count, weights, of_quotients, value, slope });
+        } else {
+            self.sum(count, weights, of_quotients, value, slope);
+        }
+    }
+
+    /// The sums of [`ElementShapes::fill`], compiled for the vector registers of the caller.
+    #[inline(always)]
+    fn sum(
+        &self,
+        count: usize,
         ([p, q, r, s], [dp, dq, dr, ds]): ([f64; 4], [f64; 4]),
         weights: impl FnOnce() -> [[f64; 2]; 5],
         value: &mut [f64],
@@ -241,6 +262,25 @@ impl ElementShapes {
             *slope =
                 (dp * a + dq * b + dr * c + ds * d) + (t[1] * e + u[1] * f + v[1] * g + w[1] * h + x[1] * i);
         }
+    }
+}
+
+/// [`ElementShapes::fill`] for many shapes, compiled for several sets of vector registers.
+struct Fill<'a, W> {
+    shapes: &'a ElementShapes,
+    count: usize,
+    weights: ([f64; 4], [f64; 4]),
+    of_quotients: W,
+    value: &'a mut [f64],
+    slope: &'a mut [f64],
+}
+
+impl<W: FnOnce() -> [[f64; 2]; 5]> WithSimd for Fill<'_, W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        self.shapes.sum(self.count, self.weights, self.of_quotients, self.value, self.slope);
     }
 }
 
