@@ -13,7 +13,8 @@
 //!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
 //!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
 //!    the new run changes the quantities by its error there, whatever the wheels amplify. Errors of motions and wheel
-//!    forces that grow during the start are taken to grow on as long as the wheels remember their bounces ([`drift`]).
+//!    forces that grow during the start are taken to grow on as long as the wheels remember their bounces ([`drift`]); by
+//!    extremes in a long run they count as far as the end of the run cuts extremes off ([`share_at_end`]).
 //!    Where the error exceeds the tolerance and the steps cause more than half of it, the new run is repeated with that
 //!    finer accuracy.
 //! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
