@@ -1,7 +1,7 @@
 //! Lowest eigenpairs of K x = lambda M x: block Lanczos on K^-1 M.
 
 use faer::{Mat, Side};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, DVectorView};
 use sprs::CsMat;
 
 use crate::assembly::symmetric_product;
@@ -259,7 +259,7 @@ impl<'a> Lanczos<'a> {
         self.projection = projection;
         self.coupling = DMatrix::zeros(BLOCK, size);
         // vectors that are small beside K^-1 M x have lost digits of their orthogonality
-        if images.column_iter().any(|image| self.norm(&image.clone_owned()) < FEW_DIGITS * self.largest) {
+        if images.column_iter().any(|image| self.norm(image) < FEW_DIGITS * self.largest) {
             self.orthogonalise(&mut images, 1);
         }
         for (j, image) in images.column_iter().enumerate() {
@@ -274,9 +274,9 @@ impl<'a> Lanczos<'a> {
         let mut misses = 0;
         while self.next_block.len() < BLOCK && misses < 2 {
             let mut x = DVector::from_fn(n, |_, _| self.random_number());
-            let before = self.norm(&x);
+            let before = self.norm(x.as_view());
             self.project_out(&mut x);
-            let left = self.norm(&x);
+            let left = self.norm(x.as_view());
             misses += 1;
             if left <= DEPENDENT * before {
                 continue;
@@ -284,7 +284,7 @@ impl<'a> Lanczos<'a> {
             // Only the range of K^-1 M matters: all eigenvectors of finite lambda lie in it.
             let image = symmetric_product(self.pencil.mass, x.as_view());
             let mut x = self.pencil.solve(DMatrix::from_columns(&[image / left])).column(0).clone_owned();
-            let before = self.norm(&x);
+            let before = self.norm(x.as_view());
             x /= before;
             self.project_out(&mut x);
             if before > 0.0 && self.append(x, None) {
@@ -311,7 +311,7 @@ impl<'a> Lanczos<'a> {
     /// rounding is left of the vector.
     fn append(&mut self, mut x: DVector<f64>, column: Option<usize>) -> bool {
         let scale = if column.is_some() { self.largest } else { 1.0 };
-        let before = self.norm(&x);
+        let before = self.norm(x.as_view());
         for _ in 0..2 {
             for (i, (other, momentum)) in self.next_block.iter().zip(&self.next_momenta).enumerate() {
                 let coefficient = momentum.dot(&x);
@@ -357,8 +357,8 @@ impl<'a> Lanczos<'a> {
     }
 
     /// sqrt(x^T M x).
-    fn norm(&self, x: &DVector<f64>) -> f64 {
-        x.dot(&symmetric_product(self.pencil.mass, x.as_view())).max(0.0).sqrt()
+    fn norm(&self, x: DVectorView<'_, f64>) -> f64 {
+        x.dot(&symmetric_product(self.pencil.mass, x)).max(0.0).sqrt()
     }
 
     /// Computes the Ritz pairs of the basis, and how many have converged.

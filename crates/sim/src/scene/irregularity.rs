@@ -281,12 +281,8 @@ impl Irregularity {
     }
 
     fn side(&self, side: usize, piece: usize, x: f64) -> [f64; 2] {
-        let mut sum = self.pieces.get(piece).map_or([0.0; 2], |found| found.at(side, x));
-        for swell in self.waves.iter().filter(|swell| swell.side == side && swell.pieces.contains(&piece)) {
-            let [value, slope] = swell.wave.at(x);
-            sum = [sum[0] + value, sum[1] + slope];
-        }
-        sum
+        let [value, slope, ..] = self.expansion(side, piece, x);
+        [value, slope]
     }
 }
 

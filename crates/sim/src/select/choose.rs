@@ -14,7 +14,7 @@
 //!    than displacements and wheel forces, for which the steps are chosen. The start of the finer run in place of that of
 //!    the new run changes the quantities by its error there, whatever the wheels amplify. Errors of motions and wheel
 //!    forces that grow during the start are taken to grow on as long as the wheels remember their bounces ([`drift`]); by
-//!    extremes in a long run they count as far as the end of the run cuts extremes off ([`share_at_end`]).
+//!    extremes in a long run they count as far as the end of the run cuts extremes off.
 //!    Where the error exceeds the tolerance and the steps cause more than half of it, the new run is repeated with that
 //!    finer accuracy.
 //! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
@@ -33,7 +33,7 @@
 use std::ops::ControlFlow;
 
 use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, remembered_time, slowest_bounce};
-use super::measure::{Bounces, MANY, Measure, Record, difference, drift, share_at_end};
+use super::measure::{Bounces, MANY, Measure, Record, difference, drift};
 use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
 use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
@@ -516,14 +516,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let replaced = higher.record.with_start_of(&finer.record, finer.record.time.len());
         let apart = difference(&replaced, &higher.record, measure, bounces);
         let times = [start, remembered_time(&self.scene)];
-        // in a long run neither phases nor what they do to single bounces counts, but for the last one
-        let is_long = measure == Measure::Extremes && bounces.remembered > MANY;
-        let drift = if is_long {
-            let (moved, quantity) = drift(&replaced, &higher.record, Measure::History, bounces, times);
-            (share_at_end(&higher.record, bounces.slowest) * moved, quantity)
-        } else {
-            drift(&replaced, &higher.record, measure, bounces, times)
-        };
+        let drift = drift(&replaced, &higher.record, measure, bounces, times);
         let (apart, quantity) = if drift.0 > apart.largest { drift } else { (apart.largest, apart.quantity) };
         let error = TailError { kept: 0, error: apart / (1.0 - ratio), quantity };
         for own in open {

@@ -134,6 +134,11 @@ fn extremes<'a>(values: impl Iterator<Item = &'a f64>, start: f64) -> [f64; 2] {
     values.fold([start; 2], |[low, high], value| [low.min(*value), high.max(*value)])
 }
 
+/// Smallest and largest of `values`; zeros where there are none.
+fn own_extremes(values: &[f64]) -> [f64; 2] {
+    extremes(values.iter(), values.first().copied().unwrap_or_default())
+}
+
 /// Difference of two runs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Difference {
@@ -154,6 +159,13 @@ pub struct Bounces {
     pub remembered: f64,
 }
 
+impl Bounces {
+    /// Whether there are so many that their phases do not count.
+    fn are_many(&self) -> bool {
+        self.remembered > MANY
+    }
+}
+
 /// Difference of record `a` from record `b` of the same scene. Where the runs were ended by a rule at different times,
 /// the difference of these times, relative to the later one, counts as well, and values are compared as far as both
 /// runs reach.
@@ -170,7 +182,7 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
     if a.time.len() != b.time.len() && duration > 0.0 {
         found = Difference { largest: duration, quantity: "time of the end".to_owned(), effects: 0.0 };
     }
-    let is_long = bounces.remembered > MANY;
+    let is_long = bounces.are_many();
     let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
     for (index, scale) in b.scales().into_iter().enumerate() {
         let [one, other] = [a, b].map(|record| &record.quantities[index]);
@@ -206,6 +218,9 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
 /// ```
 ///
 /// Reactions and internal forces do not count: theirs are largest where a motion begins.
+///
+/// By extremes in a run of many bounces neither phases nor what they do to single bounces counts, but for the last one: D is then
+/// the difference at equal times, and counts by the [`share_at_end`] of `b`.
 pub(super) fn drift(
     a: &Record,
     b: &Record,
@@ -213,6 +228,10 @@ pub(super) fn drift(
     bounces: Bounces,
     [start, end]: [f64; 2],
 ) -> (f64, String) {
+    let (measure, share) = match measure {
+        Measure::Extremes if bounces.are_many() => (Measure::History, share_at_end(b, bounces.slowest)),
+        _ => (measure, 1.0),
+    };
     let motion = |record: &Record| {
         let own = record.quantities.iter().filter(|quantity| quantity.channel.is_some());
         Record { time: record.time.clone(), quantities: own.cloned().collect() }
@@ -224,21 +243,20 @@ pub(super) fn drift(
     };
     let [half, whole] = [0.5 * start, start].map(until);
     let growth = (whole.largest - half.largest).max(0.0) / (0.5 * start) * (end - start).max(0.0);
-    (whole.largest + growth, whole.quantity)
+    (share * (whole.largest + growth), whole.quantity)
 }
 
 /// Largest change of the extremes of a record that a shift of its motion in time may cause, relative to the largest change
 /// of its motion at equal times. A shift by less than a bounce moves an extreme in time and leaves its value, but for those
 /// that the end of the run cuts off: values that are reached within the last `period` change like all values there, in
 /// proportion to how far they move within it.
-pub(super) fn share_at_end(record: &Record, period: f64) -> f64 {
+fn share_at_end(record: &Record, period: f64) -> f64 {
     let Some(end) = record.time.last() else { return 0.0 };
     let last = record.time.partition_point(|t| *t < end - period);
     let scales = record.scales();
     let [mut cut_off, mut motion] = [0.0_f64; 2];
     for (quantity, scale) in record.quantities.iter().zip(scales).filter(|(_, scale)| *scale > 0.0) {
-        let over = |values: &[f64]| extremes(values.iter(), values.first().copied().unwrap_or_default());
-        let [whole, own] = [over(&quantity.values), over(&quantity.values[last..])];
+        let [whole, own] = [&quantity.values[..], &quantity.values[last..]].map(own_extremes);
         let swing = (own[1] - own[0]) / scale;
         if quantity.channel.is_some() && !quantity.is_position {
             motion = motion.max(swing);
@@ -253,7 +271,7 @@ pub(super) fn share_at_end(record: &Record, period: f64) -> f64 {
 /// Smallest and largest value of the quantities of a group in the first `count` samples.
 fn group_extremes(record: &Record, group: &str, count: usize) -> [f64; 2] {
     let own = record.quantities.iter().filter(|quantity| quantity.group == group);
-    let all = own.map(|quantity| extremes(quantity.values[..count].iter(), quantity.values[0]));
+    let all = own.map(|quantity| own_extremes(&quantity.values[..count]));
     all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
 }
 
@@ -294,10 +312,7 @@ impl Windows {
 
     /// Largest difference of extremes over the run, of the envelopes, and of the means.
     fn difference(&self, values: [&[f64]; 2]) -> f64 {
-        let over = |side: usize, range: std::ops::Range<usize>| {
-            let part = &values[side][range];
-            extremes(part.iter(), part.first().copied().unwrap_or_default())
-        };
+        let over = |side: usize, range: std::ops::Range<usize>| own_extremes(&values[side][range]);
         let whole = 0..values[0].len();
         let [a, b] = [over(0, whole.clone()), over(1, whole)];
         let mut most = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());

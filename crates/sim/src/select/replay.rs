@@ -252,8 +252,8 @@ impl<'a> Replay<'a> {
         let (mut ending, mut beginning) = (Loads::zeros(n), Loads::zeros(n));
         self.add_loads(&ends, Some(&begins), &mut ending, &mut beginning.rate)?;
         beginning.value.clone_from(&ending.value);
-        let flexibility: Vec<f64> = self.oscillators.iter().map(Oscillator::flexibility).collect();
-        let of_wheels = ending.clone();
+        let is_row = self.loaded.record.time.get(self.row) == Some(&sample[0]);
+        let of_wheels = if is_row { ending.clone() } else { Loads::default() };
         if i == 0 {
             self.add_carrier(i, 0.0, &mut beginning);
             self.oscillators.iter_mut().zip(&beginning.value).for_each(|(mode, load)| mode.begin(*load));
@@ -263,12 +263,12 @@ impl<'a> Replay<'a> {
             self.advance(i, &before, &ending)?;
         }
         self.last = beginning;
-        if self.loaded.record.time.get(self.row) != Some(&sample[0]) {
+        if !is_row {
             return Ok(());
         }
         let row = self.row;
         self.row += 1;
-        let modes = || self.oscillators.iter().zip(&flexibility);
+        let modes = || self.oscillators.iter().map(|mode| (mode, mode.flexibility()));
         let lag: Vec<f64> =
             modes().zip(&of_wheels.value).map(|((mode, by), load)| mode.state[0] - load * by).collect();
         let rates: Vec<f64> =

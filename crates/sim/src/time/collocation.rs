@@ -96,9 +96,7 @@ impl Responses {
             }
         }
     }
-}
 
-impl Responses {
     /// Displacements and speeds of all degrees of freedom at node `i` (the end for i = s) under the loads at the s nodes.
     fn motion(&self, load: &[DVector<f64>], from: &State, i: usize, q: &mut [f64], v: &mut [f64]) {
         let (s, n) = (load.len(), q.len());
