@@ -29,6 +29,9 @@ struct Beam {
     fidelity: Option<Fidelity>,
     /// Factor on the forces that are observed in runs with influence functions.
     exaggerated: Option<f64>,
+    /// Error of the displacements that are observed, relative to their size and by the accuracy of the run.
+    by_steps: f64,
+    accuracy: f64,
 }
 
 impl FoundationProvider for Beam {
@@ -68,6 +71,7 @@ impl FoundationProvider for Beam {
         foundations: &[Foundation],
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Run, Error> {
+        self.accuracy = scene.accuracy;
         if scene.end < self.end {
             self.starts.extend(self.fidelity);
         } else {
@@ -81,6 +85,9 @@ impl FoundationProvider for Beam {
         if let (Some(factor), Some(Fidelity::Influence)) = (self.exaggerated, self.fidelity) {
             let forces = record.quantities.iter_mut().filter(|quantity| quantity.kind == "force");
             forces.for_each(|quantity| quantity.values.iter_mut().for_each(|value| *value *= factor));
+        }
+        for quantity in record.quantities.iter_mut().filter(|quantity| quantity.kind == "displacement") {
+            quantity.values.iter_mut().for_each(|value| *value *= 1.0 + self.by_steps * self.accuracy);
         }
         Ok(record)
     }
@@ -128,6 +135,20 @@ fn runs_that_only_check_are_coarse_and_the_run_of_the_result_is_not() {
             provider.runs
         );
     }
+}
+
+/// A quantity that is much smaller than the penetrations at rest, to which the accuracy is relative, may change by more than
+/// the tolerance between the first run and its repetition. Here it does so by 0.98 of it, and then by 0.018.
+#[test]
+fn a_result_whose_steps_change_it_is_repeated_with_finer_ones() {
+    let mut provider = Beam { by_steps: 10.0, ..Beam::default() };
+    let choice = chosen(0.003, EXTREMES, &mut provider);
+    assert_eq!((choice.fidelity, choice.reason), (Fidelity::Influence, Reason::Sufficient));
+    let own = provider.runs.iter().filter(|(fidelity, _)| *fidelity == choice.fidelity);
+    let accuracies: Vec<f64> = own.map(|(_, accuracy)| *accuracy).collect();
+    let wanted = [0.1 * EXTREMES.value, EXTREMES.run_accuracy(), 0.1 * EXTREMES.run_accuracy()];
+    assert_eq!(accuracies.len(), wanted.len(), "{accuracies:?}");
+    assert!(accuracies.iter().zip(wanted).all(|(found, wanted)| (found / wanted - 1.0).abs() < 1e-12));
 }
 
 impl Beam {

@@ -26,7 +26,9 @@
 //!
 //! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
 //! where the estimate of step 2 leaves it open whether they suffice, have only the accuracy of a tenth of the tolerance;
-//! the one that becomes the result is repeated with the accuracy of the result.
+//! the one that becomes the result is repeated with the accuracy of the result, and with a tenth of it where its quantities
+//! have changed by more than half of the tolerance. `accuracy` is relative to the penetrations of the wheels at rest, and
+//! motions that are much smaller are quantities of the record as well.
 //!
 //! Every structure has its own modes and its own number of them, and all structures are raised in the same run.
 
@@ -67,8 +69,10 @@ const START: (f64, usize) = (0.125, 2);
 const START_RATIO: [f64; 2] = [0.3, 0.5];
 /// Accuracy of this repetition, relative to that of the run, and the error of its steps, relative to those of the run.
 const START_ACCURACY: (f64, f64) = (0.1, 0.2);
-/// Share of the error at the start by the steps from which the run is repeated with finer ones.
+/// Share of the error at the start, or of the tolerance, by the steps from which a run is repeated with finer ones.
 const BY_STEPS: f64 = 0.5;
+/// Largest number of repetitions of a run with finer steps.
+const REPETITIONS: usize = 3;
 /// The factor where there are no two runs to compare.
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
@@ -390,7 +394,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut lacking = largest(&open, &vec![0; open.len()]);
         for round in 1..=MODAL_RUNS {
             let Some(mut higher) = self.modal_trial(&open, &counts, accuracy) else {
-                return self.repeated(lower);
+                return self.repeated(&open, lower, bounces);
             };
             for (own, count) in open.iter_mut().zip(&counts) {
                 self.estimate(own, &higher, &compliances, *count, f64::INFINITY);
@@ -405,7 +409,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let is_safe = apart.effects + factor * lacking <= SAFE * strictest.value;
             if error <= strictest.value && is_safe {
                 let error = TailError { kept: 0, error, quantity: apart.quantity };
-                return self.choose_lower(&open, lower, higher, &error);
+                return self.choose_lower(&open, lower, higher, (&error, bounces));
             }
             let mut start = None;
             let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
@@ -419,7 +423,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             if raised == counts || round == MODAL_RUNS {
                 self.settle_higher(&open, &counts, factor, start, &higher, round == MODAL_RUNS);
-                return self.repeated(higher);
+                return self.repeated(&open, higher, bounces);
             }
             (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
@@ -541,7 +545,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         open: &[Open],
         lower: Trial,
         higher: Trial,
-        error: &TailError,
+        (error, bounces): (&TailError, Bounces),
     ) -> Result<Trial, L::Error> {
         let is_kept = higher.accuracy <= self.accuracy
             && lower.run.counts.stages as u64 > LONG
@@ -550,7 +554,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for own in open {
             self.settle(own, chosen.fidelities[own.structure], reason, error);
         }
-        self.repeated(chosen)
+        self.repeated(open, chosen, bounces)
     }
 
     /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`, or the error at its
@@ -614,12 +618,23 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         Ok(last)
     }
 
-    /// A trial, repeated with the accuracy of the result if it was made with a coarser one.
-    fn repeated(&mut self, trial: Trial) -> Result<Trial, L::Error> {
-        if trial.accuracy <= self.accuracy {
-            return Ok(trial);
+    /// A trial, repeated with the accuracy of the result if it was made with a coarser one. Where that changes its quantities
+    /// by more than [`BY_STEPS`] of the tolerance, it is repeated with finer steps, at most [`REPETITIONS`] times.
+    fn repeated(&mut self, open: &[Open], mut trial: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
+        let strictest = self.strictest(open, &vec![1; open.len()]);
+        for _ in 0..REPETITIONS {
+            if trial.accuracy <= self.accuracy {
+                break;
+            }
+            let finer = self.trial(&trial.fidelities, self.accuracy, true)?;
+            let is_complete = finer.run.status.is_complete();
+            let by_steps = difference(&trial.record, &finer.record, strictest.measure, bounces);
+            if is_complete && by_steps.largest > BY_STEPS * strictest.value {
+                self.accuracy *= START_ACCURACY.0;
+            }
+            trial = finer;
         }
-        self.trial(&trial.fidelities, self.accuracy, false)
+        Ok(trial)
     }
 
     /// The smallest tolerance of the structures that have modes, in the stricter measure.
@@ -733,15 +748,17 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             )
         };
         if open.len() < self.tolerances.len() || open.iter().any(moves) {
-            return self.repeated(first);
+            return self.repeated(open, first, bounces);
         }
         let rigid = vec![Fidelity::Rigid; self.tolerances.len()];
-        let Ok(trial) = self.trial(&rigid, self.accuracy, true) else { return self.repeated(first) };
+        let Ok(trial) = self.trial(&rigid, self.accuracy, true) else {
+            return self.repeated(open, first, bounces);
+        };
         let strictest = self.strictest(open, &vec![1; open.len()]);
         let apart = difference(&trial.record, &first.record, strictest.measure, bounces);
         self.note_runs(open, &trial, &first, apart.largest, &apart.quantity);
         if apart.largest > SAFE * strictest.value {
-            return self.repeated(first);
+            return self.repeated(open, first, bounces);
         }
         let error = TailError { kept: 0, error: apart.largest, quantity: apart.quantity };
         for own in open {
