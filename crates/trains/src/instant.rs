@@ -276,6 +276,27 @@ impl PassedLoads {
         out
     }
 
+    /// Writes quantity `k` of sections at these distances from the first end of the member into `out`: the numbers of
+    /// [`PassedLoads::quantities`] where no load stands at the sections.
+    pub fn fill(&self, k: usize, places: &[f64], out: &mut [f64]) {
+        if self.planes.is_some() {
+            out.iter_mut().zip(places).for_each(|(out, place)| *out = self.quantities(*place, None)[k]);
+            return;
+        }
+        let shear = slope_index(k);
+        let slope = |of: &[f64; QUANTITIES]| shear.map_or(0.0, |shear| of[shear]);
+        let of_lever = |slope: f64, lever: f64| if shear.is_some() { slope * lever } else { 0.0 };
+        let (own, by_place) = (self.base[k], slope(&self.base));
+        out.iter_mut().zip(places).for_each(|(out, place)| *out = own + of_lever(by_place, *place));
+        for load in &self.passed {
+            let (jump, by_place) = (load.jump[k], slope(&load.jump));
+            for (out, place) in out.iter_mut().zip(places) {
+                let behind = *out + (jump + of_lever(by_place, place - load.place));
+                *out = if load.place < *place { behind } else { *out };
+            }
+        }
+    }
+
     /// Quantities at a distance from where they are `from`, without loads between.
     fn moved(&self, from: &[f64; QUANTITIES], lever: f64) -> [f64; QUANTITIES] {
         let mut out = *from;

@@ -1,5 +1,10 @@
 //! Filled contours of values on a rectangular grid.
 
+use smallvec::SmallVec;
+
+/// The part of a cell at or above a level: at most all corners and two cuts, of a saddle four.
+type CellPart = SmallVec<[[f64; 2]; 8]>;
+
 /// Region of a grid where the values are at least a level, and the contour line of this level.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Region {
@@ -27,7 +32,10 @@ pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> R
                 continue;
             }
             let from = found.chords.len();
-            let part = clip(&corners, level, &mut found.chords);
+            let part = match corners.iter().all(|corner| corner.1 >= level) {
+                true => corners.iter().map(|corner| corner.0).collect(),
+                false => clip(&corners, level, &mut found.chords),
+            };
             if (row + column).is_multiple_of(2) {
                 found.dashes.extend_from_slice(&found.chords[from..]);
             }
@@ -99,10 +107,10 @@ fn push(side: &mut Vec<[f64; 2]>, point: [f64; 2]) {
 }
 
 /// The part of one cell at or above the level; its contour line is added to `chords`.
-fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 2]>) -> Vec<[f64; 2]> {
-    let mut polygon = Vec::with_capacity(6);
+fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 2]>) -> CellPart {
+    let mut polygon = CellPart::new();
     let mut leaving = None;
-    let mut entering = Vec::new();
+    let mut entering = None;
     for (i, (point, value)) in corners.iter().enumerate() {
         let (next, after) = corners[(i + 1) % 4];
         if *value >= level {
@@ -117,13 +125,13 @@ fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 
             } else {
                 match leaving.take() {
                     Some(from) => chords.push([from, cut]),
-                    None => entering.push(cut),
+                    None => entering = entering.or(Some(cut)),
                 }
             }
         }
     }
-    if let (Some(from), Some(to)) = (leaving, entering.first()) {
-        chords.push([from, *to]);
+    if let (Some(from), Some(to)) = (leaving, entering) {
+        chords.push([from, to]);
     }
     polygon
 }

@@ -7,13 +7,14 @@
 //! the penetrations g of the springs alone, (I + G K) g = e, whose rates are known exactly.
 
 use nalgebra::{DMatrix, DVector};
+use smallvec::SmallVec;
 
 use super::nodes::Nodes;
 use crate::Error;
 use crate::contact::solver::Solver;
 use crate::contact::solver::follow::Followed;
 use crate::mechanics::state::State;
-use crate::numerics::lu::LuFactors;
+use crate::numerics::lu::{Entries, LuFactors};
 
 /// Number of Newton iterations at most; linear laws need one or two.
 const ITERATIONS: usize = 12;
@@ -33,6 +34,9 @@ const MIDDLE: usize = 2;
 /// The start and the nodes.
 const PLACES: [f64; 4] = [0.0, Nodes::RADAU_3[0], Nodes::RADAU_3[1], Nodes::RADAU_3[2]];
 
+/// A value for each contact at each place, place by place; few of them need no allocation.
+type PlaceValues = SmallVec<[f64; 32]>;
+
 /// The penetrations of the active contacts in one step.
 pub(crate) struct Penetrations {
     h: f64,
@@ -40,11 +44,13 @@ pub(crate) struct Penetrations {
     contacts: Vec<usize>,
     stiffness: Vec<f64>,
     /// s at the start and at the nodes.
-    differences: Vec<DVector<f64>>,
+    differences: PlaceValues,
     /// Whether the equation holds at the start, instead of s there, for each contact.
     is_free: Vec<bool>,
     /// The contacts at the start and at the nodes.
     followed: Vec<Followed>,
+    /// Weights of the slopes at the start and at the nodes.
+    weights: [[f64; 4]; 4],
 }
 
 impl Penetrations {
@@ -58,8 +64,9 @@ impl Penetrations {
             is_free: Vec::new(),
             contacts: Vec::new(),
             stiffness: Vec::new(),
-            differences: Vec::new(),
+            differences: PlaceValues::new(),
             followed: Vec::new(),
+            weights: [[0.0; 4]; 4],
         };
         let contacts = solver.active_contacts();
         if !(is_suited(solver) && contacts.iter().any(|&i| solver.remembers(i))) {
@@ -71,11 +78,12 @@ impl Penetrations {
             return new;
         }
         if let Some(start) = solver.followed(from, &contacts, &stiffness) {
-            new.differences
-                .push(DVector::from_fn(contacts.len(), |r, _| from.p[contacts[r]] - start.value[r]));
+            new.differences.extend(contacts.iter().zip(&start.value).map(|(&i, value)| from.p[i] - value));
             let is_quick = |i: &usize| solver.delay(*i, from) < settled.min(QUICK * h);
             new.is_free = contacts.iter().map(is_quick).collect();
+            new.followed.reserve_exact(PLACES.len());
             new.followed.push(start);
+            new.weights = PLACES.map(slopes);
             (new.contacts, new.stiffness) = (contacts, stiffness);
         }
         new
@@ -97,7 +105,7 @@ impl Penetrations {
         solver.update(at)?;
         if let Some(node) = solver.followed(at, &self.contacts, &self.stiffness) {
             let guess = self.contacts.iter().zip(&node.value).map(|(&i, value)| at.p[i] - value);
-            self.differences.push(DVector::from_iterator(self.contacts.len(), guess));
+            self.differences.extend(guess);
             self.followed.push(node);
         }
         Ok(())
@@ -113,7 +121,6 @@ impl Penetrations {
     /// Newton's method; returns whether it has converged. Under linear laws the matrix stays, and further iterations refine
     /// what the first has rounded: short steps divide small differences by their length.
     fn converges(&mut self, solver: &Solver) -> bool {
-        let count = self.contacts.len();
         let is_linear = solver.system().traits.has_linear_laws;
         let mut factors: Option<Factors> = None;
         let mut last = f64::INFINITY;
@@ -123,18 +130,18 @@ impl Penetrations {
             if factors.is_none() || !is_linear {
                 factors = Some(self.factors(&laws));
             }
-            let change = factors.as_ref().and_then(|factors| factors.solve(&residual));
+            let change = factors.as_ref().and_then(|factors| factors.solve(residual));
             let Some(change) = change.filter(|change| change.iter().all(|x| x.is_finite())) else {
                 return false;
             };
-            let mut size = 0.0_f64;
-            for (a, own) in self.differences.iter_mut().enumerate() {
-                for r in 0..count {
-                    own[r] -= change[a * count + r];
-                    size = size.max(own[r].abs() + self.followed[a].value[r].abs());
-                }
+            let (mut size, mut largest) = (0.0_f64, 0.0_f64);
+            let values = self.followed.iter().flat_map(|node| &node.value);
+            for ((own, change), value) in self.differences.iter_mut().zip(&change).zip(values) {
+                *own -= change;
+                size = size.max(own.abs() + value.abs());
+                largest = largest.max(change.abs());
             }
-            last = change.amax() / size;
+            last = largest / size;
             if last <= ROUNDING {
                 break;
             }
@@ -143,22 +150,25 @@ impl Penetrations {
     }
 
     /// Force, stiffness and damping of every contact at the start and at the nodes, for the present differences.
-    fn laws(&self, solver: &Solver) -> Vec<[f64; 3]> {
-        let count = self.contacts.len();
-        let mut laws = Vec::with_capacity(PLACES.len() * count);
-        for (a, node) in self.followed.iter().enumerate() {
-            let weights = slopes(PLACES[a]);
-            for (c, &i) in self.contacts.iter().enumerate() {
+    fn laws(&self, solver: &Solver) -> SmallVec<[[f64; 3]; 32]> {
+        let mut laws = SmallVec::new();
+        for ((node, weights), own) in self.followed.iter().zip(self.weights).zip(self.at_places()) {
+            for (c, (&i, own)) in self.contacts.iter().zip(own).enumerate() {
                 let rate = node.rate[c] + self.slope(weights, c);
-                laws.push(solver.law_of(i, node.value[c] + self.differences[a][c], rate));
+                laws.push(solver.law_of(i, node.value[c] + own, rate));
             }
         }
         laws
     }
 
+    /// The differences, place by place.
+    fn at_places(&self) -> impl Iterator<Item = &[f64]> {
+        self.differences.chunks_exact(self.contacts.len())
+    }
+
     /// Rate of the difference of contact `r` where the slopes have these weights.
     fn slope(&self, weights: [f64; 4], r: usize) -> f64 {
-        self.differences.iter().zip(weights).map(|(own, weight)| weight * own[r]).sum::<f64>() / self.h
+        self.at_places().zip(weights).map(|(own, weight)| weight * own[r]).sum::<f64>() / self.h
     }
 
     /// Whether the equation holds for contact `r` at place `a`, instead of a difference that is known.
@@ -167,47 +177,49 @@ impl Penetrations {
     }
 
     /// p + G F - e by the forces of the `laws`; 0 for differences that are known.
-    fn residual(&self, laws: &[[f64; 3]]) -> DVector<f64> {
+    fn residual(&self, laws: &[[f64; 3]]) -> PlaceValues {
         let count = self.contacts.len();
-        DVector::from_fn(PLACES.len() * count, |row, _| {
+        let of = |row: usize| {
             let (a, r) = (row / count, row % count);
             if !self.is_solved(a, r) {
                 return 0.0;
             }
             let node = &self.followed[a];
             let forces = laws[a * count..(a + 1) * count].iter().enumerate();
-            let deflection: f64 = forces.map(|(c, [force, ..])| node.compliance[(r, c)] * force).sum();
-            node.value[r] + self.differences[a][r] - node.approach[r] + deflection
-        })
+            let deflection: f64 = forces.map(|(c, [force, ..])| node.compliance(r, c) * force).sum();
+            node.value[r] + self.differences[row] - node.approach[r] + deflection
+        };
+        (0..PLACES.len() * count).map(of).collect()
     }
 
     /// Factors of the derivatives of the residual; approximate ones for many contacts that are all free at the start.
     fn factors(&self, laws: &[[f64; 3]]) -> Factors {
         let count = self.contacts.len();
         if count < MANY || self.is_free.contains(&false) {
-            return Factors::Whole(LuFactors::new(self.matrix(laws)));
+            return Factors::Whole(LuFactors::of(self.matrix(laws), PLACES.len() * count));
         }
-        let compliance = &self.followed[MIDDLE].compliance;
+        let middle = &self.followed[MIDDLE];
         let laws = &laws[MIDDLE * count..(MIDDLE + 1) * count];
-        let scaled = |part: usize| DMatrix::from_fn(count, count, |r, c| compliance[(r, c)] * laws[c][part]);
+        let scaled =
+            |part: usize| DMatrix::from_fn(count, count, |r, c| middle.compliance(r, c) * laws[c][part]);
         let in_place = DMatrix::identity(count, count) + scaled(1);
         Factors::OfOnePlace { in_place: LuFactors::new(in_place), by_slope: scaled(2) / self.h }
     }
 
-    /// Derivatives of the residual by the differences.
-    fn matrix(&self, laws: &[[f64; 3]]) -> DMatrix<f64> {
+    /// Derivatives of the residual by the differences, column by column.
+    fn matrix(&self, laws: &[[f64; 3]]) -> Entries {
         let count = self.contacts.len();
         let size = PLACES.len() * count;
-        let mut matrix = DMatrix::identity(size, size);
-        for (a, node) in self.followed.iter().enumerate() {
-            let weights = slopes(PLACES[a]);
+        let mut matrix = Entries::from_elem(0.0, size * size);
+        matrix.iter_mut().step_by(size + 1).for_each(|own| *own = 1.0);
+        for (a, (node, weights)) in self.followed.iter().zip(self.weights).enumerate() {
             for r in (0..count).filter(|&r| self.is_solved(a, r)) {
                 let row = a * count + r;
                 for (c, [_, by_place, by_rate]) in laws[a * count..(a + 1) * count].iter().enumerate() {
-                    let compliance = node.compliance[(r, c)];
-                    matrix[(row, a * count + c)] += compliance * by_place;
+                    let compliance = node.compliance(r, c);
+                    matrix[(a * count + c) * size + row] += compliance * by_place;
                     for (b, weight) in weights.iter().enumerate() {
-                        matrix[(row, b * count + c)] += compliance * by_rate * weight / self.h;
+                        matrix[(b * count + c) * size + row] += compliance * by_rate * weight / self.h;
                     }
                 }
             }
@@ -254,14 +266,15 @@ enum Factors {
 
 impl Factors {
     /// The change of the differences that brings `residual` to zero; `None` where the factors are singular.
-    fn solve(&self, residual: &DVector<f64>) -> Option<DVector<f64>> {
+    fn solve(&self, mut residual: PlaceValues) -> Option<PlaceValues> {
         let (in_place, by_slope) = match self {
-            Factors::Whole(factors) => return factors.solve(residual),
+            Factors::Whole(factors) => return factors.solve(&mut residual).then_some(residual),
             Factors::OfOnePlace { in_place, by_slope } => (in_place, by_slope),
         };
+        let solve = |mut right: DVector<f64>| in_place.solve(right.as_mut_slice()).then_some(right);
         let count = by_slope.nrows();
         let mut term = (0..PLACES.len())
-            .map(|a| in_place.solve(&residual.rows(a * count, count).into_owned()))
+            .map(|a| solve(DVector::from_column_slice(&residual[a * count..(a + 1) * count])))
             .collect::<Option<Vec<_>>>()?;
         let mut sum = term.clone();
         for _ in 1..PLACES.len() {
@@ -269,12 +282,12 @@ impl Factors {
             let slope_at = |a: usize| {
                 let mut slope = DVector::zeros(count);
                 loads.iter().zip(slopes(PLACES[a])).for_each(|(load, weight)| slope.axpy(-weight, load, 1.0));
-                in_place.solve(&slope)
+                solve(slope)
             };
             term = (0..PLACES.len()).map(slope_at).collect::<Option<Vec<_>>>()?;
             sum.iter_mut().zip(&term).for_each(|(sum, term)| *sum += term);
         }
-        Some(DVector::from_iterator(PLACES.len() * count, sum.iter().flat_map(|own| own.iter().copied())))
+        Some(sum.iter().flat_map(|own| own.iter().copied()).collect())
     }
 }
 
@@ -327,9 +340,11 @@ mod tests {
             }
         }
         let residual = DVector::from_fn(size, |i, _| (1.0 + i as f64).sin());
-        let expected = LuFactors::new(whole).solve(&residual).expect("the matrix is regular");
+        let mut expected = residual.clone();
+        assert!(LuFactors::new(whole).solve(expected.as_mut_slice()), "the matrix is regular");
         let factors = Factors::OfOnePlace { in_place: LuFactors::new(in_place), by_slope };
-        let found = factors.solve(&residual).expect("I + G K is regular");
+        let found = factors.solve(residual.as_slice().into()).expect("I + G K is regular");
+        let found = DVector::from_column_slice(&found);
         assert!((&found - &expected).amax() < 1e-12 * expected.amax(), "{found} for {expected}");
     }
 }

@@ -1,19 +1,31 @@
 //! Wheels on rails without mass that follow their forces without delay: p + G K p = e.
 
 use nalgebra::{DMatrix, DVector};
+use smallvec::SmallVec;
 
 use super::Solver;
 use crate::mechanics::state::State;
 use crate::numerics::dense::along;
-use crate::numerics::lu::LuFactors;
+use crate::numerics::lu::{Entries, LuFactors};
+
+/// A value for each contact; few of them need no allocation.
+pub(crate) type ContactValues = SmallVec<[f64; 8]>;
 
 /// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
 /// their rates g'.
 pub(crate) struct Followed {
-    pub approach: DVector<f64>,
-    pub compliance: DMatrix<f64>,
-    pub value: DVector<f64>,
-    pub rate: DVector<f64>,
+    pub approach: ContactValues,
+    /// Row by row.
+    compliance: SmallVec<[f64; 16]>,
+    pub value: ContactValues,
+    pub rate: ContactValues,
+}
+
+impl Followed {
+    /// Compliance of contact `r` under the force of contact `c`.
+    pub fn compliance(&self, r: usize, c: usize) -> f64 {
+        self.compliance[r * self.approach.len() + c]
+    }
 }
 
 impl Solver<'_> {
@@ -56,16 +68,21 @@ impl Solver<'_> {
         if (0..m).filter(is_other).any(is_coupled) {
             return None;
         }
-        let speed: Vec<f64> = contacts.iter().map(|&i| self.system.contact_speed(i, at)).collect();
-        let approach = DVector::from_fn(count, |r, _| self.geometry.approach(contacts[r], &at.q));
-        let compliance = DMatrix::from_fn(count, count, |r, c| rails.value[contacts[r] * m + contacts[c]]);
-        let matrix = DMatrix::from_fn(count, count, |r, c| {
-            f64::from(u8::from(r == c)) + compliance[(r, c)] * stiffness[c]
-        });
-        let factors = LuFactors::new(matrix);
-        let value = factors.solve(&approach)?;
-        let rate = DVector::from_fn(count, |r, _| {
-            let i = contacts[r];
+        let speed: ContactValues = contacts.iter().map(|&i| self.system.contact_speed(i, at)).collect();
+        let approach: ContactValues = contacts.iter().map(|&i| self.geometry.approach(i, &at.q)).collect();
+        let rows_of = |&i: &usize| contacts.iter().map(move |&j| rails.value[i * m + j]);
+        let compliance: SmallVec<[f64; 16]> = contacts.iter().flat_map(rows_of).collect();
+        let mut matrix = Entries::new();
+        for c in 0..count {
+            let own = |r: usize| f64::from(u8::from(r == c)) + compliance[r * count + c] * stiffness[c];
+            matrix.extend((0..count).map(own));
+        }
+        let factors = LuFactors::of(matrix, count);
+        let mut value = approach.clone();
+        if !factors.solve(&mut value) {
+            return None;
+        }
+        let rate_of = |(r, &i): (usize, &usize)| {
             let slope = rows.rise[i] - self.geometry.shape_slope(i, &at.q);
             let mut rate = along(&rows.approach, i, at.v.as_slice()) + slope * speed[r];
             for (c, &j) in contacts.iter().enumerate() {
@@ -73,9 +90,9 @@ impl Solver<'_> {
                 rate -= passing * stiffness[c] * value[c];
             }
             rate
-        });
-        let rate = factors.solve(&rate)?;
-        Some(Followed { approach, compliance, value, rate })
+        };
+        let mut rate: ContactValues = contacts.iter().enumerate().map(rate_of).collect();
+        factors.solve(&mut rate).then_some(Followed { approach, compliance, value, rate })
     }
 
     /// Whether a damper acts between the wheel of active vertical contact `i` and a rail with mass, or a rigid one.
@@ -95,7 +112,7 @@ impl Solver<'_> {
             return false;
         }
         let (count, m, rails) = (contacts.len(), at.force.len(), self.geometry.rails());
-        let rates = DVector::from_fn(count, |r, _| {
+        let mut rates = DVector::from_fn(count, |r, _| {
             let i = contacts[r];
             let passing = contacts
                 .iter()
@@ -107,7 +124,9 @@ impl Solver<'_> {
             let own = f64::from(u8::from(r == c));
             own + rails.value[contacts[r] * m + contacts[c]] * stiffness(contacts[c])
         });
-        let Some(rates) = LuFactors::new(matrix).solve(&rates) else { return false };
+        if !LuFactors::new(matrix).solve(rates.as_mut_slice()) {
+            return false;
+        }
         for (&i, rate) in contacts.iter().zip(rates.iter()).filter(|(i, _)| self.is_damped_by_mass(**i)) {
             at.p_rate[i] = *rate;
         }
