@@ -20,29 +20,43 @@ pub(super) struct Region {
 ///
 /// `x` are the coordinates of the columns, `y` those of the rows, both increasing, and `values[row][column]` the values
 /// there. Each cell is clipped to the part at or above the level (marching squares). The parts in neighbouring cells of
-/// a row are joined to one polygon. A cell whose largest value equals the level is omitted.
+/// a row are joined to one polygon; neighbours that are whole are one rectangle. A cell whose largest value equals the level is omitted.
 pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> Region {
     let mut found = Region::default();
     for row in 1..y.len() {
         let mut strip = Strip::default();
-        for column in 1..x.len() {
-            let corners = [(row - 1, column - 1), (row - 1, column), (row, column), (row, column - 1)]
-                .map(|(i, j)| ([x[j], y[i]], values[i][j]));
-            if corners.iter().all(|corner| corner.1 <= level) {
+        let [lower, upper] = [&values[row - 1], &values[row]];
+        let corners_of = |column: usize| [lower[column - 1], lower[column], upper[column], upper[column - 1]];
+        let is_above = |column: usize| corners_of(column).iter().any(|value| *value > level);
+        let is_whole = |column: usize| corners_of(column).iter().all(|value| *value >= level);
+        let mut column = 1;
+        while column < x.len() {
+            if !is_above(column) {
+                column += 1;
                 continue;
             }
-            let from = found.chords.len();
-            let part = match corners.iter().all(|corner| corner.1 >= level) {
-                true => corners.iter().map(|corner| corner.0).collect(),
-                false => clip(&corners, level, &mut found.chords),
-            };
-            if (row + column).is_multiple_of(2) {
-                found.dashes.extend_from_slice(&found.chords[from..]);
+            let first = column;
+            while is_whole(column) && column + 1 < x.len() && is_whole(column + 1) && is_above(column + 1) {
+                column += 1;
             }
-            if !strip.ends_at(x[column - 1]) {
+            if !strip.ends_at(x[first - 1]) {
                 found.polygons.extend(std::mem::take(&mut strip).polygon());
             }
-            strip.join(&part);
+            let places = [[first - 1, row - 1], [column, row - 1], [column, row], [first - 1, row]];
+            let places = places.map(|[j, i]| [x[j], y[i]]);
+            if is_whole(column) {
+                strip.join(&places);
+            } else {
+                let values = corners_of(column);
+                let from = found.chords.len();
+                let corners = std::array::from_fn(|k| (places[k], values[k]));
+                let part = clip(&corners, level, &mut found.chords);
+                if (row + column).is_multiple_of(2) {
+                    found.dashes.extend_from_slice(&found.chords[from..]);
+                }
+                strip.join(&part);
+            }
+            column += 1;
         }
         found.polygons.extend(strip.polygon());
     }

@@ -4,68 +4,62 @@
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{MatMut, MatRef};
 use nalgebra::DMatrix;
-use smallvec::SmallVec;
 
 use super::dense::BLOCKED;
 
-/// Entries of a matrix, column by column; up to an order of 8 they need no allocation.
-pub(crate) type Entries = SmallVec<[f64; 64]>;
-
-/// The factors of a matrix.
-pub(crate) enum LuFactors {
-    Small(SmallFactors),
-    Large(PartialPivLu<f64>),
-}
-
-/// P A = L U, L below the diagonal without its unit diagonal.
-pub(crate) struct SmallFactors {
-    columns: Entries,
+/// The factors of a matrix, P A = L U. Their memory serves for one matrix after the other.
+#[derive(Default)]
+pub(crate) struct LuFactors {
+    /// Entries of the matrix, column by column; once it is factored those of U, and of L below the diagonal without its
+    /// unit diagonal.
+    columns: Vec<f64>,
     /// The row with which each row was exchanged.
-    pivots: SmallVec<[usize; 8]>,
+    pivots: Vec<usize>,
+    large: Option<PartialPivLu<f64>>,
 }
 
 impl LuFactors {
     /// Factors `matrix`.
     pub fn new(matrix: DMatrix<f64>) -> Self {
         let order = matrix.nrows();
-        LuFactors::of(SmallVec::from_vec(matrix.data.into()), order)
+        let mut factors = LuFactors { columns: matrix.data.into(), ..LuFactors::default() };
+        factors.factor(order);
+        factors
     }
 
-    /// Factors the matrix with these entries and this order.
-    pub fn of(columns: Entries, order: usize) -> Self {
-        if order < BLOCKED {
-            return LuFactors::Small(SmallFactors::new(columns, order));
+    /// Replaces the matrix by one of this order, whose columns `fill` adds one after the other.
+    pub fn replace(&mut self, order: usize, fill: impl FnOnce(&mut Vec<f64>)) {
+        self.columns.clear();
+        fill(&mut self.columns);
+        self.factor(order);
+    }
+
+    fn factor(&mut self, order: usize) {
+        self.pivots.clear();
+        if order >= BLOCKED {
+            let matrix = MatRef::from_column_major_slice(&self.columns, order, order);
+            self.large = Some(matrix.partial_piv_lu());
+            return;
         }
-        LuFactors::Large(MatRef::from_column_major_slice(&columns, order, order).partial_piv_lu())
-    }
-
-    /// Replaces b by the solution of A x = b; false where A is singular.
-    pub fn solve(&self, b: &mut [f64]) -> bool {
-        match self {
-            LuFactors::Small(factors) => factors.solve(b),
-            LuFactors::Large(factors) => {
-                let n = b.len();
-                factors.solve_in_place(MatMut::from_column_major_slice_mut(b, n, 1));
-                b.iter().all(|x| x.is_finite())
-            }
-        }
-    }
-}
-
-impl SmallFactors {
-    fn new(mut columns: Entries, order: usize) -> Self {
-        let mut pivots: SmallVec<[usize; 8]> = (0..order).collect();
+        self.large = None;
         for i in 0..order {
-            let own = &columns[i * order..(i + 1) * order];
-            let larger = |most: usize, row: usize| if own[row].abs() > own[most].abs() { row } else { most };
-            let pivot = (i + 1..order).fold(i, larger);
+            let own = &self.columns[i * order..(i + 1) * order];
+            let mut pivot = i;
+            for row in i + 1..order {
+                if own[row].abs() > own[pivot].abs() {
+                    pivot = row;
+                }
+            }
             let diagonal = own[pivot];
             if diagonal == 0.0 {
+                self.pivots.push(i);
                 continue;
             }
-            pivots[i] = pivot;
-            columns.chunks_exact_mut(order).for_each(|column| column.swap(i, pivot));
-            let (before, behind) = columns.split_at_mut((i + 1) * order);
+            self.pivots.push(pivot);
+            if pivot != i {
+                self.columns.chunks_exact_mut(order).for_each(|column| column.swap(i, pivot));
+            }
+            let (before, behind) = self.columns.split_at_mut((i + 1) * order);
             let factors = &mut before[i * order + i + 1..];
             let scale = 1.0 / diagonal;
             factors.iter_mut().for_each(|factor| *factor *= scale);
@@ -74,20 +68,22 @@ impl SmallFactors {
                 below.iter_mut().zip(&*factors).for_each(|(x, factor)| *x -= own[0] * factor);
             }
         }
-        SmallFactors { columns, pivots }
     }
 
-    fn solve(&self, b: &mut [f64]) -> bool {
+    /// Replaces b by the solution of A x = b; false where A is singular.
+    pub fn solve(&self, b: &mut [f64]) -> bool {
         let order = b.len();
-        let column = |i: usize| &self.columns[i * order..(i + 1) * order];
-        self.pivots.iter().enumerate().for_each(|(i, pivot)| b.swap(i, *pivot));
-        for i in 0..order {
-            let (own, below) = b[i..].split_at_mut(1);
-            below.iter_mut().zip(&column(i)[i + 1..]).for_each(|(x, factor)| *x -= own[0] * factor);
+        if let Some(factors) = &self.large {
+            factors.solve_in_place(MatMut::from_column_major_slice_mut(b, order, 1));
+            return b.iter().all(|x| x.is_finite());
         }
-        for i in (0..order).rev() {
+        self.pivots.iter().enumerate().for_each(|(i, pivot)| b.swap(i, *pivot));
+        for (i, column) in self.columns.chunks_exact(order.max(1)).enumerate() {
+            let (own, below) = b[i..].split_at_mut(1);
+            below.iter_mut().zip(&column[i + 1..]).for_each(|(x, factor)| *x -= own[0] * factor);
+        }
+        for (i, column) in self.columns.chunks_exact(order.max(1)).enumerate().rev() {
             let (above, own) = b.split_at_mut(i);
-            let column = column(i);
             if column[i] == 0.0 {
                 return false;
             }

@@ -203,9 +203,8 @@ impl InfluenceLines {
         let entries = row.indices().iter().zip(row.values());
         // Zero times an infinite effect would not be a number.
         for (&index, &shape) in entries.filter(|(_, shape)| **shape != 0.0) {
-            for (sum, entry) in out.iter_mut().zip(self.rows.column(index)) {
-                *sum += shape * entry;
-            }
+            let column = &self.rows.as_slice()[index * n..(index + 1) * n];
+            out.iter_mut().zip(column).for_each(|(sum, entry)| *sum += shape * entry);
         }
         let element = &self.rails.elements()[row.element];
         if let Some(carrier) = element.member.filter(|_| !element.is_rigid_arm()) {
