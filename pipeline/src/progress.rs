@@ -29,6 +29,12 @@ impl Progress {
         Progress { speaks, draws: speaks && std::io::stderr().is_terminal() }
     }
 
+    /// Whether lines are written.
+    #[must_use]
+    pub const fn speaks(&self) -> bool {
+        self.speaks
+    }
+
     /// Writes a line.
     pub fn say(&self, message: &str) {
         if self.speaks {

@@ -311,3 +311,40 @@ impl PassedLoads {
         out
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fea::Girder;
+
+    /// Identity: one quantity of many sections is that of each section, without and with an axial force.
+    #[test]
+    fn a_quantity_of_many_sections_is_that_of_each() {
+        let girder = Girder {
+            spans: vec![6.0, 5.0],
+            e: 7.0,
+            i_vertical: 0.4,
+            i_lateral: Some(0.3),
+            area: Some(2.0),
+            ..Girder::default()
+        };
+        let (mut model, rail) = girder.model_and_rail().expect("the girder is valid");
+        let loads = [(1.3, [0.5, -3.0, 0.2]), (4.0, [0.0, -2.0, 0.0]), (7.5, [0.1, -1.0, -0.4])];
+        let loads = loads.map(|(x, force)| RailLoad { rail: 0, x, force });
+        for tension in [0.0, 0.05] {
+            model.members.iter_mut().for_each(|member| member.tension = tension);
+            let members = MemberForces::new(&model, std::slice::from_ref(&rail)).expect("it is stable");
+            let mut at = PassedLoads::default();
+            for (index, member) in members.members().enumerate() {
+                members.load(index, &loads, &mut at);
+                let places: Vec<f64> = (0..=20).map(|k| f64::from(k) / 20.0 * member.length).collect();
+                let mut found = vec![f64::NAN; places.len()];
+                for k in 0..QUANTITIES {
+                    at.fill(k, &places, &mut found);
+                    let each = places.iter().map(|place| at.quantities(*place, None)[k]);
+                    assert!(found.iter().copied().eq(each), "quantity {k} of member {index}");
+                }
+            }
+        }
+    }
+}

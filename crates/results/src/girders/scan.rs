@@ -42,8 +42,8 @@ pub(super) struct Scan {
     pub stresses: StressRows,
     /// Largest magnitude of each quantity, and of both deflections.
     pub sizes: [f64; FORCES + 2],
-    /// Quantities that are not zero throughout.
-    acting: Vec<usize>,
+    /// Whether each quantity is not zero throughout.
+    acting: [bool; FORCES],
     /// The peaks so far: of the sections of each member, by quantity, and of the points of each block.
     of_members: Vec<[PeakRows; FORCES]>,
     of_blocks: Vec<PeakRows>,
@@ -111,9 +111,8 @@ impl Scan {
         let loads = if is_counted { girders.states.loads(0).len() } else { 0 };
         let spans = first_span[first_span.len() - 1];
         let acting = girders.acting();
-        let of_member = |own: &Vec<usize>| {
-            std::array::from_fn(|k| PeakRows::new(if acting.contains(&k) { own.len() } else { 0 }))
-        };
+        let of_member =
+            |own: &Vec<usize>| std::array::from_fn(|k| PeakRows::new(if acting[k] { own.len() } else { 0 }));
         Scan {
             of_members: sections.of_member.iter().map(of_member).collect(),
             of_blocks: girders
@@ -283,14 +282,14 @@ fn add_sections(
     }
     values.resize(places.len(), 0.0);
     for k in 0..FORCES {
-        if !targets.iter().any(|target| target.scan.acting.contains(&k)) {
+        if !targets.iter().any(|target| target.scan.acting[k]) {
             continue;
         }
         match is_whole {
             true => values.iter_mut().zip(&*all).for_each(|(value, all)| *value = all[k]),
             false => passed.fill(k, places, values),
         }
-        for Target { scan, row, .. } in targets.iter_mut().filter(|target| target.scan.acting.contains(&k)) {
+        for Target { scan, row, .. } in targets.iter_mut().filter(|target| target.scan.acting[k]) {
             scan.add_size(k, values);
             scan.of_members[member][k].add(*row, values);
         }
@@ -332,8 +331,13 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
 }
 
 /// Adds the quantities that are not zero throughout.
-fn add(peaks: &mut ForcePeaks, (acting, sizes): (&[usize], &mut [f64]), row: usize, values: &[f64; FORCES]) {
-    for &k in acting {
+fn add(
+    peaks: &mut ForcePeaks,
+    (acting, sizes): (&[bool; FORCES], &mut [f64]),
+    row: usize,
+    values: &[f64; FORCES],
+) {
+    for k in (0..FORCES).filter(|k| acting[*k]) {
         sizes[k] = sizes[k].max(values[k].abs());
         peaks[k].add(row, values[k]);
     }

@@ -11,13 +11,19 @@ use crate::numerics::dense::dot;
 use crate::record::energy::{motion_force, spin_moment};
 use crate::record::history::History;
 use crate::scene::dof::arm_rows;
-use crate::{Analysis, BodyDof, Channel, Error, Gauge};
+use crate::{Analysis, BodyDof, Channel, Error, Gauge, Scene};
 
 /// Structures whose degrees of freedom are recorded, with the numbers of these degrees of freedom.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
     let all = system.mechanics.structures.iter().zip(system.foundations).enumerate();
     all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
 }
+
+/// Largest number of values for which memory is reserved.
+const MOST_RESERVED: usize = 4_000_000;
+
+/// Number of channels of a body: six displacements, six speeds, drive and brake.
+const OF_BODY: usize = 14;
 
 /// Recorder of samples.
 pub(crate) struct Recorder {
@@ -67,9 +73,11 @@ impl Recorder {
         self.history
     }
 
-    /// Reserves memory for `samples` more samples.
-    pub fn reserve(&mut self, samples: usize) {
-        self.history.reserve(samples);
+    /// Reserves memory for the samples of a whole run, as far as they are not too many: it may end early.
+    pub fn reserve_for(&mut self, scene: &Scene) {
+        let intervals = (scene.end / scene.output_dt).min(MOST_RESERVED as f64) as usize;
+        let samples = intervals.saturating_mul(scene.output_parts.max(1)).saturating_add(2);
+        self.history.reserve(samples.min(MOST_RESERVED / self.history.channels().len()));
     }
 
     /// Adds a sample; `geometry` must be current for `at`.
@@ -99,14 +107,18 @@ impl Recorder {
         values.push(at.t);
         for (b, body) in system.scene.bodies.iter().enumerate() {
             let (displacement, speed) = mechanics.body(b, at.t, &at.q, &at.v);
-            values.extend(displacement);
-            values.extend(speed);
             // The sum of no forces is -0.0, the sum of an empty iterator.
             let drive = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
-            values.extend([drive, -0.0]);
+            let mut own = [-0.0; OF_BODY];
+            own[..6].copy_from_slice(&displacement);
+            own[6..12].copy_from_slice(&speed);
+            own[12] = drive;
+            values.extend_from_slice(&own);
         }
-        for w in 0..mechanics.wheels.len() {
-            values.extend(wheel_values(system, geometry, at, w));
+        for (w, wheel) in mechanics.wheels.iter().enumerate() {
+            let displacement = &values[first + 1 + OF_BODY * wheel.body..][..6];
+            let own = wheel_values(system, geometry, at, w, displacement);
+            values.extend_from_slice(&own);
         }
         values.extend(std::iter::repeat_n(0.0, self.own_columns));
         let own = &mut values[first..];
@@ -166,7 +178,7 @@ impl Recorder {
 fn channels_of(system: &System) -> Vec<Channel> {
     let (bodies, wheels) = (system.scene.bodies.len(), system.mechanics.wheels.len());
     let others = 2 * system.elements.len() + system.scene.gauges.len();
-    let mut channels = Vec::with_capacity(1 + 14 * bodies + 9 * wheels + others);
+    let mut channels = Vec::with_capacity(1 + OF_BODY * bodies + 9 * wheels + others);
     channels.push(Channel::Time);
     for b in 0..bodies {
         channels.extend(BodyDof::ALL.map(|freedom| Channel::Displacement(b, freedom)));
@@ -195,16 +207,22 @@ fn channels_of(system: &System) -> Vec<Channel> {
     channels
 }
 
-/// The nine values of wheel `w`. The forces are zero here and are added by the elements.
-fn wheel_values(system: &System, geometry: &Geometry, at: &State, w: usize) -> [f64; 9] {
+/// The nine values of wheel `w`, whose body has this `displacement`. The forces are zero here and are added by the
+/// elements.
+fn wheel_values(
+    system: &System,
+    geometry: &Geometry,
+    at: &State,
+    w: usize,
+    displacement: &[f64],
+) -> [f64; 9] {
     let (mechanics, places) = (&system.mechanics, geometry.places());
     let wheel = &mechanics.wheels[w];
     let pressed = mechanics.groups_of(w).filter(|&i| geometry.fraction(i) > 0.0);
     let deepest = pressed.map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
-    let (displacement, _) = mechanics.body(wheel.body, at.t, &at.q, &at.v);
     let shape = mechanics.irregularity(w);
     let own = shape.map_or(0.0, |shape| shape.vertical(places.piece[w], places.x[w])[0]);
-    let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
+    let down = own - dot(&arm_rows(wheel.hub)[1], displacement);
     let (angle, speed) = match (wheel.spin, mechanics.turn(w, at.t)) {
         (Some(number), _) => (at.q[number], at.v[number]),
         (None, Some(turn)) => (turn.x, turn.v),

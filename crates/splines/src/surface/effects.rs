@@ -198,7 +198,8 @@ impl InfluenceLines {
         if out.len() != n {
             return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [n, 1] });
         }
-        let row = self.rails.row(at)?;
+        let mut row = ShapeRow::EMPTY;
+        self.rails.row_into(at, &mut row)?;
         out.fill(0.0);
         let entries = row.indices().iter().zip(row.values());
         // Zero times an infinite effect would not be a number.
