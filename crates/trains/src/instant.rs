@@ -68,11 +68,12 @@ struct LoadedElement {
     jumps: [[f64; QUANTITIES]; 3],
 }
 
-/// A stretch of rail with the cubics of six quantities for forces in each direction, by the distance from its first end.
+/// A stretch of rail with the cubics of six quantities for forces in each direction, by the distance from its first end:
+/// coefficient by coefficient.
 #[derive(Debug)]
 struct ForceCell {
     x: [f64; 2],
-    cubics: [[[f64; 4]; QUANTITIES]; 3],
+    cubics: [[[f64; QUANTITIES]; 4]; 3],
 }
 
 /// A member that carries a rail.
@@ -116,7 +117,10 @@ impl MemberForces {
         for carriers in all.chunks(BATCH) {
             let cell = |cell: LineCell<QUANTITIES>| {
                 let [along, up, across, ..] = cell.cubics;
-                ForceCell { x: cell.x, cubics: [along, up, across] }
+                let by_power = |cubics: [[f64; 4]; QUANTITIES]| {
+                    std::array::from_fn(|power| cubics.map(|cubic| cubic[power]))
+                };
+                ForceCell { x: cell.x, cubics: [along, up, across].map(by_power) }
             };
             let of_rail = |cells: Vec<LineCell<QUANTITIES>>| cells.into_iter().map(cell).collect();
             let solved = structure.end_lines(carriers, [true, true, true, false, false])?;
@@ -179,7 +183,9 @@ impl MemberForces {
         let mut out = [false; QUANTITIES];
         for k in (0..3).filter(|k| directions[*k]) {
             for cell in self.lines.iter().flatten().flatten() {
-                out.iter_mut().zip(&cell.cubics[k]).for_each(|(out, cubic)| *out |= *cubic != [0.0; 4]);
+                for coefficients in &cell.cubics[k] {
+                    out.iter_mut().zip(coefficients).for_each(|(out, own)| *out |= *own != 0.0);
+                }
             }
             for element in self.elements.iter().flatten() {
                 out.iter_mut().zip(&element.jumps[k]).for_each(|(out, jump)| *out |= *jump != 0.0);
@@ -210,11 +216,12 @@ impl MemberForces {
             let mut is_felt = false;
             for k in (0..3).filter(felt) {
                 is_felt = true;
-                for (sum, cubic) in own.iter_mut().zip(&cell.cubics[k]) {
-                    *sum += load.force[k] * value_of_cubic(cubic, t);
+                let (force, [a, b, c, d]) = (load.force[k], &cell.cubics[k]);
+                for (n, sum) in own.iter_mut().enumerate() {
+                    *sum += force * value_of_cubic(&[a[n], b[n], c[n], d[n]], t);
                 }
                 if let Some(element) = element {
-                    jump.iter_mut().zip(element.jumps[k]).for_each(|(sum, a)| *sum += load.force[k] * a);
+                    jump.iter_mut().zip(&element.jumps[k]).for_each(|(sum, a)| *sum += force * a);
                 }
             }
             if let (Some(element), true) = (element, is_felt) {
