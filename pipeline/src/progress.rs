@@ -4,7 +4,7 @@ use std::io::{IsTerminal, Write};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{HumanDuration, ProgressBar, ProgressState, ProgressStyle};
 
 use formats::text::inputs::Inputs;
 use study::{Observer, Steps};
@@ -29,6 +29,12 @@ impl Progress {
         Progress { speaks, draws: speaks && std::io::stderr().is_terminal() }
     }
 
+    /// Whether lines are written.
+    #[must_use]
+    pub const fn speaks(&self) -> bool {
+        self.speaks
+    }
+
     /// Writes a line.
     pub fn say(&self, message: &str) {
         if self.speaks {
@@ -47,33 +53,29 @@ impl Progress {
     /// Shows a stage on a terminal until the returned value is dropped.
     #[must_use]
     pub fn stage(&self, message: &str) -> Bar {
-        let bar = Bar::new(self.hidden_or(ProgressBar::new_spinner()));
+        let bar = self.shown(ProgressBar::new_spinner);
         bar.without_end("");
         bar.name(message);
-        if self.draws {
-            bar.bar.enable_steady_tick(TICK);
-        }
         bar
     }
 
     /// Shows a bar of `length` steps on a terminal until the returned value is dropped.
     #[must_use]
     pub fn bar(&self, message: &str, length: u64) -> Bar {
-        let bar = Bar::new(self.hidden_or(ProgressBar::new(length)));
-        bar.with_end();
+        let bar = self.shown(|| ProgressBar::new(length));
+        bar.set_style_with_end();
         bar.name(message);
-        if self.draws {
-            // the times go on between two steps
-            bar.bar.enable_steady_tick(TICK);
-        }
         bar
     }
 
-    fn hidden_or(&self, bar: ProgressBar) -> ProgressBar {
-        if !self.draws {
-            bar.set_draw_target(ProgressDrawTarget::hidden());
+    /// A bar on a terminal; elsewhere one that shows nothing.
+    fn shown(&self, make: impl FnOnce() -> ProgressBar) -> Bar {
+        let bar = self.draws.then(make);
+        if let Some(bar) = &bar {
+            // the times go on between two steps
+            bar.enable_steady_tick(TICK);
         }
-        bar
+        Bar { bar, has_end: AtomicBool::new(true) }
     }
 }
 
@@ -88,50 +90,54 @@ fn left(state: &ProgressState, out: &mut dyn std::fmt::Write) {
 /// A progress bar or a stage on the terminal.
 #[derive(Debug)]
 pub struct Bar {
-    bar: ProgressBar,
+    /// Nothing where nothing is drawn: a run tells its progress many thousand times.
+    bar: Option<ProgressBar>,
     /// Whether it shows how far the work is.
     has_end: AtomicBool,
 }
 
 impl Bar {
-    fn new(bar: ProgressBar) -> Bar {
-        Bar { bar, has_end: AtomicBool::new(false) }
-    }
-
     /// Shows a bar with the fraction that is done.
-    fn with_end(&self) {
+    fn set_style_with_end(&self) {
+        let Some(bar) = &self.bar else { return };
         if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:40}] {percent}%, {elapsed} gone{left}") {
-            self.bar.set_style(style.progress_chars("=> ").with_key("left", left));
+            bar.set_style(style.progress_chars("=> ").with_key("left", left));
         }
-        self.has_end.store(true, Ordering::Relaxed);
     }
 
     /// Shows that the work goes on, without a fraction, until the bar is moved again; `what` follows the message.
     pub fn without_end(&self, what: &str) {
+        let Some(bar) = self.bar.as_ref().filter(|_| self.has_end.swap(false, Ordering::Relaxed)) else {
+            return;
+        };
         let template = format!("{{spinner}} {{msg}}{what}, {{elapsed}} gone");
         if let Ok(style) = ProgressStyle::with_template(&template) {
-            self.bar.set_style(style);
+            bar.set_style(style);
         }
-        self.has_end.store(false, Ordering::Relaxed);
     }
 
     /// Moves a bar to `position`.
     pub fn set(&self, position: u64) {
-        if !self.has_end.load(Ordering::Relaxed) {
-            self.with_end();
+        let Some(bar) = &self.bar else { return };
+        if !self.has_end.swap(true, Ordering::Relaxed) {
+            self.set_style_with_end();
         }
-        self.bar.set_position(position);
+        bar.set_position(position);
     }
 
     /// Moves a bar to `position` of `length`.
     pub fn set_of(&self, position: u64, length: u64) {
-        self.bar.set_length(length);
+        if let Some(bar) = &self.bar {
+            bar.set_length(length);
+        }
         self.set(position);
     }
 
     /// Changes the message of a bar.
     pub fn name(&self, message: &str) {
-        self.bar.set_message(message.to_owned());
+        if let Some(bar) = &self.bar {
+            bar.set_message(message.to_owned());
+        }
     }
 }
 
@@ -153,6 +159,8 @@ impl Steps for Bar {
 
 impl Drop for Bar {
     fn drop(&mut self) {
-        self.bar.finish_and_clear();
+        if let Some(bar) = &self.bar {
+            bar.finish_and_clear();
+        }
     }
 }

@@ -222,7 +222,9 @@ fn is_full(error: &io::Error) -> bool {
 /// Formats JSON for files and standard output: indented, with a newline at the end.
 #[must_use]
 pub fn json(value: &Value) -> String {
-    format!("{value:#}\n")
+    let mut text = serde_json::to_string_pretty(value).expect("the keys of JSON values are text");
+    text.push('\n');
+    text
 }
 
 #[cfg(test)]

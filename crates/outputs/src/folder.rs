@@ -15,6 +15,9 @@ use crate::manifest::{MANIFEST, Manifest, OutputEntry, listed_files};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::sha256;
 
+/// Number of files that are written before the first of them is flushed to the disk.
+const OPEN: usize = 64;
+
 /// Folder of the pictures in an output folder.
 const PLOTS: &str = "plots";
 
@@ -63,17 +66,17 @@ impl FileContents {
         }
     }
 
-    /// Puts them on the disk under a path of the same file system.
-    fn put_at(&self, path: &Path) -> io::Result<()> {
+    /// Writes them under a path of the same file system; returns the file, which is not on the disk yet.
+    fn put_at(&self, path: &Path) -> io::Result<fs::File> {
         match self {
             FileContents::Fixed(bytes) | FileContents::Varying(bytes) => {
                 let mut file = fs::File::create(path)?;
                 file.write_all(bytes)?;
-                file.sync_all()
+                Ok(file)
             }
             FileContents::Written(file, ..) => {
-                file.as_file().sync_all()?;
-                fs::rename(file.path(), path)
+                fs::rename(file.path(), path)?;
+                file.as_file().try_clone()
             }
         }
     }
@@ -281,11 +284,24 @@ impl OutputFolder {
             tempfile::Builder::new().prefix(TEMPORARY).tempdir_in(&self.path).map_err(at(&self.path))?;
         let new = staging.path().join("new");
         let manifest = [(MANIFEST.to_owned(), FileContents::Fixed(manifest.text().into_bytes()))];
-        for (name, contents) in self.files.iter().chain(&manifest) {
-            let target = self.path.join(name);
-            let staged = new.join(name);
-            fs::create_dir_all(folder_of(&staged)).map_err(at(&target))?;
-            contents.put_at(&staged).map_err(at(&target))?;
+        let files: Vec<&(String, FileContents)> = self.files.iter().chain(&manifest).collect();
+        let mut folders: Vec<PathBuf> = Vec::new();
+        for some in files.chunks(OPEN) {
+            // the system writes files to the disk together while one of them is waited for
+            let mut open = Vec::with_capacity(some.len());
+            for (name, contents) in some {
+                let target = self.path.join(name);
+                let staged = new.join(name);
+                let folder = folder_of(&staged);
+                if !folders.contains(&folder) {
+                    fs::create_dir_all(&folder).map_err(at(&target))?;
+                    folders.push(folder);
+                }
+                open.push((contents.put_at(&staged).map_err(at(&target))?, target));
+            }
+            for (file, target) in open {
+                file.sync_all().map_err(at(&target))?;
+            }
         }
         Ok(staging)
     }

@@ -383,6 +383,7 @@ fn sweep(
         return Err(Error::NotPrescribed { body });
     }
     let mut recorder = Recorder::new(system);
+    recorder.reserve_for(scene);
     let mut counts = Counts::default();
     let mut status = Status::Done;
     let last = (scene.end / scene.output_dt * (1.0 + 1e-12)).floor();

@@ -68,11 +68,12 @@ struct LoadedElement {
     jumps: [[f64; QUANTITIES]; 3],
 }
 
-/// A stretch of rail with the cubics of six quantities for forces in each direction, by the distance from its first end.
+/// A stretch of rail with the cubics of six quantities for forces in each direction, by the distance from its first end:
+/// coefficient by coefficient.
 #[derive(Debug)]
 struct ForceCell {
     x: [f64; 2],
-    cubics: [[[f64; 4]; QUANTITIES]; 3],
+    cubics: [[[f64; QUANTITIES]; 4]; 3],
 }
 
 /// A member that carries a rail.
@@ -116,7 +117,10 @@ impl MemberForces {
         for carriers in all.chunks(BATCH) {
             let cell = |cell: LineCell<QUANTITIES>| {
                 let [along, up, across, ..] = cell.cubics;
-                ForceCell { x: cell.x, cubics: [along, up, across] }
+                let by_power = |cubics: [[f64; 4]; QUANTITIES]| {
+                    std::array::from_fn(|power| cubics.map(|cubic| cubic[power]))
+                };
+                ForceCell { x: cell.x, cubics: [along, up, across].map(by_power) }
             };
             let of_rail = |cells: Vec<LineCell<QUANTITIES>>| cells.into_iter().map(cell).collect();
             let solved = structure.end_lines(carriers, [true, true, true, false, false])?;
@@ -179,7 +183,9 @@ impl MemberForces {
         let mut out = [false; QUANTITIES];
         for k in (0..3).filter(|k| directions[*k]) {
             for cell in self.lines.iter().flatten().flatten() {
-                out.iter_mut().zip(&cell.cubics[k]).for_each(|(out, cubic)| *out |= *cubic != [0.0; 4]);
+                for coefficients in &cell.cubics[k] {
+                    out.iter_mut().zip(coefficients).for_each(|(out, own)| *out |= *own != 0.0);
+                }
             }
             for element in self.elements.iter().flatten() {
                 out.iter_mut().zip(&element.jumps[k]).for_each(|(out, jump)| *out |= *jump != 0.0);
@@ -210,11 +216,12 @@ impl MemberForces {
             let mut is_felt = false;
             for k in (0..3).filter(felt) {
                 is_felt = true;
-                for (sum, cubic) in own.iter_mut().zip(&cell.cubics[k]) {
-                    *sum += load.force[k] * value_of_cubic(cubic, t);
+                let (force, [a, b, c, d]) = (load.force[k], &cell.cubics[k]);
+                for (n, sum) in own.iter_mut().enumerate() {
+                    *sum += force * value_of_cubic(&[a[n], b[n], c[n], d[n]], t);
                 }
                 if let Some(element) = element {
-                    jump.iter_mut().zip(element.jumps[k]).for_each(|(sum, a)| *sum += load.force[k] * a);
+                    jump.iter_mut().zip(&element.jumps[k]).for_each(|(sum, a)| *sum += force * a);
                 }
             }
             if let (Some(element), true) = (element, is_felt) {
@@ -276,6 +283,27 @@ impl PassedLoads {
         out
     }
 
+    /// Writes quantity `k` of sections at these distances from the first end of the member into `out`: the numbers of
+    /// [`PassedLoads::quantities`] where no load stands at the sections.
+    pub fn fill(&self, k: usize, places: &[f64], out: &mut [f64]) {
+        if self.planes.is_some() {
+            out.iter_mut().zip(places).for_each(|(out, place)| *out = self.quantities(*place, None)[k]);
+            return;
+        }
+        let shear = slope_index(k);
+        let slope = |of: &[f64; QUANTITIES]| shear.map_or(0.0, |shear| of[shear]);
+        let of_lever = |slope: f64, lever: f64| if shear.is_some() { slope * lever } else { 0.0 };
+        let (own, by_place) = (self.base[k], slope(&self.base));
+        out.iter_mut().zip(places).for_each(|(out, place)| *out = own + of_lever(by_place, *place));
+        for load in &self.passed {
+            let (jump, by_place) = (load.jump[k], slope(&load.jump));
+            for (out, place) in out.iter_mut().zip(places) {
+                let behind = *out + (jump + of_lever(by_place, place - load.place));
+                *out = if load.place < *place { behind } else { *out };
+            }
+        }
+    }
+
     /// Quantities at a distance from where they are `from`, without loads between.
     fn moved(&self, from: &[f64; QUANTITIES], lever: f64) -> [f64; QUANTITIES] {
         let mut out = *from;
@@ -288,5 +316,42 @@ impl PassedLoads {
             *value += slope_index(k).map_or(0.0, |shear| from[shear] * lever);
         }
         out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use fea::Girder;
+
+    /// Identity: one quantity of many sections is that of each section, without and with an axial force.
+    #[test]
+    fn a_quantity_of_many_sections_is_that_of_each() {
+        let girder = Girder {
+            spans: vec![6.0, 5.0],
+            e: 7.0,
+            i_vertical: 0.4,
+            i_lateral: Some(0.3),
+            area: Some(2.0),
+            ..Girder::default()
+        };
+        let (mut model, rail) = girder.model_and_rail().expect("the girder is valid");
+        let loads = [(1.3, [0.5, -3.0, 0.2]), (4.0, [0.0, -2.0, 0.0]), (7.5, [0.1, -1.0, -0.4])];
+        let loads = loads.map(|(x, force)| RailLoad { rail: 0, x, force });
+        for tension in [0.0, 0.05] {
+            model.members.iter_mut().for_each(|member| member.tension = tension);
+            let members = MemberForces::new(&model, std::slice::from_ref(&rail)).expect("it is stable");
+            let mut at = PassedLoads::default();
+            for (index, member) in members.members().enumerate() {
+                members.load(index, &loads, &mut at);
+                let places: Vec<f64> = (0..=20).map(|k| f64::from(k) / 20.0 * member.length).collect();
+                let mut found = vec![f64::NAN; places.len()];
+                for k in 0..QUANTITIES {
+                    at.fill(k, &places, &mut found);
+                    let each = places.iter().map(|place| at.quantities(*place, None)[k]);
+                    assert!(found.iter().copied().eq(each), "quantity {k} of member {index}");
+                }
+            }
+        }
     }
 }

@@ -103,6 +103,20 @@ fn finish(
     global: Global,
     progress: &Progress,
 ) -> Result<Exit, Failure> {
+    // the warnings are computed anew
+    if progress.speaks() {
+        tell(run, progress);
+    }
+    progress.say(&format!("wrote {}", written.folder.display()));
+    if global.json {
+        let result = json!({ "output": written.folder.display().to_string(), "summary": written.summary });
+        output::print(&json_text(&result))?;
+    }
+    run.reason_incomplete().map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
+}
+
+/// Writes what the user should know of the results.
+fn tell(run: &SceneRun, progress: &Progress) {
     let scene = run.document.scene();
     let unit = scene.units.length.word();
     for outcome in &run.cases {
@@ -120,12 +134,6 @@ fn finish(
     for message in warning::messages(&run.cases, &run.document) {
         progress.say(&message.to_string());
     }
-    progress.say(&format!("wrote {}", written.folder.display()));
-    if global.json {
-        let result = json!({ "output": written.folder.display().to_string(), "summary": written.summary });
-        output::print(&json_text(&result))?;
-    }
-    run.reason_incomplete().map_or(Ok(Exit::Done), |why| Err(Failure::Untrusted(why)))
 }
 
 /// Solves each distinct spec of the document once.

@@ -1,5 +1,6 @@
 //! The dominant frequency of a history.
 
+use std::cell::RefCell;
 use std::f64::consts::PI;
 
 use realfft::RealFftPlanner;
@@ -81,6 +82,11 @@ pub fn dominant(values: &[f64], step: f64, band: [f64; 2]) -> Result<Option<Sine
     }))
 }
 
+thread_local! {
+    /// The plans of the lengths transformed so far: a plan costs many times a transform.
+    static PLANNER: RefCell<RealFftPlanner<f64>> = RefCell::new(RealFftPlanner::new());
+}
+
 /// The Fourier transform of the history without its mean, under Hann's window.
 fn transform(values: &[f64]) -> Vec<Complex<f64>> {
     let n = values.len() as f64;
@@ -88,7 +94,7 @@ fn transform(values: &[f64]) -> Vec<Complex<f64>> {
     let window = |k: usize| 0.5 - 0.5 * (2.0 * PI * k as f64 / n).cos();
     let mut input: Vec<f64> =
         values.iter().enumerate().map(|(k, value)| (value - mean) * window(k)).collect();
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(values.len());
+    let plan = PLANNER.with_borrow_mut(|planner| planner.plan_fft_forward(values.len()));
     let mut output = plan.make_output_vec();
     plan.process(&mut input, &mut output).expect("lengths are those of the plan");
     output

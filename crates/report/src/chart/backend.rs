@@ -5,6 +5,7 @@
 //! adjacent polygons in one path, and opens and closes groups, by which a page switches series on and off.
 
 use std::convert::Infallible;
+use std::fmt::Write;
 
 use plotters::prelude::DrawingBackend;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -38,13 +39,18 @@ impl<'s> SvgBackend<'s> {
 
     /// Writes polygons as one filled path.
     pub fn fill_polygons<S: BackendStyle>(&mut self, polygons: &[Vec<BackendCoord>], style: &S) {
-        let data: String = polygons.iter().map(|one| path_data(one.iter().copied()) + "Z").collect();
+        let mut data = String::new();
+        for one in polygons {
+            add_path(&mut data, one.iter().copied());
+            data.push('Z');
+        }
         self.tag(&format!("<path fill=\"{}\" d=\"{data}\"/>", colour(style.color())));
     }
 
     /// Writes polylines as one stroked path.
     pub fn draw_paths<S: BackendStyle>(&mut self, paths: &[Vec<BackendCoord>], style: &S) {
-        let data: String = paths.iter().map(|one| path_data(one.iter().copied())).collect();
+        let mut data = String::new();
+        paths.iter().for_each(|one| add_path(&mut data, one.iter().copied()));
         // a straight line has no area
         let fill = if matches!(paths, [line] if line.len() == 2) { "" } else { "fill=\"none\" " };
         self.tag(&format!("<path {fill}{} d=\"{data}\"/>", stroke(style)));
@@ -194,12 +200,12 @@ pub(super) fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
-/// Path data of an open polyline: absolute to the first corner, relative from there on, with one number for each
+/// Adds the path data of an open polyline: absolute to the first corner, relative from there on, with one number for each
 /// horizontal or vertical step.
-fn path_data(corners: impl IntoIterator<Item = BackendCoord>) -> String {
+fn add_path(data: &mut String, corners: impl IntoIterator<Item = BackendCoord>) {
     let mut corners = corners.into_iter();
-    let Some(first) = corners.next() else { return String::new() };
-    let mut data = format!("M{} {}", first.0, first.1);
+    let Some(first) = corners.next() else { return };
+    write!(data, "M{} {}", first.0, first.1).expect("a string takes all text");
     let (mut last, mut letter) = (first, ' ');
     for here in corners {
         let (own, steps) = match (here.0 - last.0, here.1 - last.1) {
@@ -215,11 +221,10 @@ fn path_data(corners: impl IntoIterator<Item = BackendCoord>) -> String {
             if step >= 0 && data.ends_with(|last: char| last.is_ascii_digit()) {
                 data.push(' ');
             }
-            data.push_str(&step.to_string());
+            write!(data, "{step}").expect("a string takes all text");
         }
         (last, letter) = (here, own);
     }
-    data
 }
 
 #[cfg(test)]
@@ -246,8 +251,11 @@ mod tests {
     #[test]
     fn a_path_has_one_number_for_a_horizontal_or_vertical_step() {
         let points = [(10, 20), (30, 20), (30, 15), (30, 10), (20, 5), (10, 7), (10, 7)];
-        assert_eq!(path_data(points), "M10 20h20v-5-5l-10-5-10 2h0");
-        assert_eq!(path_data([]), "");
+        let mut data = String::new();
+        add_path(&mut data, []);
+        assert_eq!(data, "");
+        add_path(&mut data, points);
+        assert_eq!(data, "M10 20h20v-5-5l-10-5-10 2h0");
     }
 
     #[test]

@@ -1,5 +1,10 @@
 //! Filled contours of values on a rectangular grid.
 
+use smallvec::SmallVec;
+
+/// The part of a cell at or above a level: at most all corners and two cuts, of a saddle four.
+type CellPart = SmallVec<[[f64; 2]; 8]>;
+
 /// Region of a grid where the values are at least a level, and the contour line of this level.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Region {
@@ -15,26 +20,43 @@ pub(super) struct Region {
 ///
 /// `x` are the coordinates of the columns, `y` those of the rows, both increasing, and `values[row][column]` the values
 /// there. Each cell is clipped to the part at or above the level (marching squares). The parts in neighbouring cells of
-/// a row are joined to one polygon. A cell whose largest value equals the level is omitted.
+/// a row are joined to one polygon; neighbours that are whole are one rectangle. A cell whose largest value equals the level is omitted.
 pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> Region {
     let mut found = Region::default();
     for row in 1..y.len() {
         let mut strip = Strip::default();
-        for column in 1..x.len() {
-            let corners = [(row - 1, column - 1), (row - 1, column), (row, column), (row, column - 1)]
-                .map(|(i, j)| ([x[j], y[i]], values[i][j]));
-            if corners.iter().all(|corner| corner.1 <= level) {
+        let [lower, upper] = [&values[row - 1], &values[row]];
+        let corners_of = |column: usize| [lower[column - 1], lower[column], upper[column], upper[column - 1]];
+        let is_above = |column: usize| corners_of(column).iter().any(|value| *value > level);
+        let is_whole = |column: usize| corners_of(column).iter().all(|value| *value >= level);
+        let mut column = 1;
+        while column < x.len() {
+            if !is_above(column) {
+                column += 1;
                 continue;
             }
-            let from = found.chords.len();
-            let part = clip(&corners, level, &mut found.chords);
-            if (row + column).is_multiple_of(2) {
-                found.dashes.extend_from_slice(&found.chords[from..]);
+            let first = column;
+            while is_whole(column) && column + 1 < x.len() && is_whole(column + 1) && is_above(column + 1) {
+                column += 1;
             }
-            if !strip.ends_at(x[column - 1]) {
+            if !strip.ends_at(x[first - 1]) {
                 found.polygons.extend(std::mem::take(&mut strip).polygon());
             }
-            strip.join(&part);
+            let places = [[first - 1, row - 1], [column, row - 1], [column, row], [first - 1, row]];
+            let places = places.map(|[j, i]| [x[j], y[i]]);
+            if is_whole(column) {
+                strip.join(&places);
+            } else {
+                let values = corners_of(column);
+                let from = found.chords.len();
+                let corners = std::array::from_fn(|k| (places[k], values[k]));
+                let part = clip(&corners, level, &mut found.chords);
+                if (row + column).is_multiple_of(2) {
+                    found.dashes.extend_from_slice(&found.chords[from..]);
+                }
+                strip.join(&part);
+            }
+            column += 1;
         }
         found.polygons.extend(strip.polygon());
     }
@@ -99,10 +121,10 @@ fn push(side: &mut Vec<[f64; 2]>, point: [f64; 2]) {
 }
 
 /// The part of one cell at or above the level; its contour line is added to `chords`.
-fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 2]>) -> Vec<[f64; 2]> {
-    let mut polygon = Vec::with_capacity(6);
+fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 2]>) -> CellPart {
+    let mut polygon = CellPart::new();
     let mut leaving = None;
-    let mut entering = Vec::new();
+    let mut entering = None;
     for (i, (point, value)) in corners.iter().enumerate() {
         let (next, after) = corners[(i + 1) % 4];
         if *value >= level {
@@ -117,13 +139,13 @@ fn clip(corners: &[([f64; 2], f64); 4], level: f64, chords: &mut Vec<[[f64; 2]; 
             } else {
                 match leaving.take() {
                     Some(from) => chords.push([from, cut]),
-                    None => entering.push(cut),
+                    None => entering = entering.or(Some(cut)),
                 }
             }
         }
     }
-    if let (Some(from), Some(to)) = (leaving, entering.first()) {
-        chords.push([from, *to]);
+    if let (Some(from), Some(to)) = (leaving, entering) {
+        chords.push([from, to]);
     }
     polygon
 }

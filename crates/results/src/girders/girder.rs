@@ -48,11 +48,11 @@ impl LoadedGirders<'_> {
         (0..self.states.len()).take_while(|row| !row.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
     }
 
-    /// The quantities that are not zero throughout, as indices in [`trains::GirderResponse::ALL`].
-    pub fn acting(&self) -> Vec<usize> {
+    /// Whether each quantity, in the order of [`trains::GirderResponse::ALL`], is not zero throughout.
+    pub fn acting(&self) -> [bool; FORCES] {
         let of_loads = self.members.acting(self.states.directions());
         let distributed = self.distributed.acting();
-        (0..FORCES).filter(|k| of_loads[*k] || distributed[*k]).collect()
+        std::array::from_fn(|k| of_loads[k] || distributed[k])
     }
 
     /// The quantities of a section at a distance from the first end of a member.

@@ -97,14 +97,16 @@ impl LoadStates {
         let first = |wanted| history.position(wanted);
         let motion = first(Channel::Coordinate(s, 0)).zip(first(Channel::Acceleration(s, 0)));
         channels.extend(motion.iter().flat_map(|(q, a)| (*q..q + dofs).chain(*a..a + dofs)));
-        let mut values = Vec::with_capacity(rows.len() * channels.len());
+        let width = channels.len();
+        let mut values = Vec::with_capacity(rows.len() * width);
+        let mut loads = Vec::with_capacity(rows.len() * sources.len());
         for row in rows {
             let sample = history.sample(*row);
+            let first = values.len();
             values.extend(channels.iter().map(|c| sample[*c]));
+            let own = &values[first..];
+            loads.extend(sources.iter().map(|source| load(source, &|c| own[c])));
         }
-        let width = channels.len();
-        let read = |row: &[f64]| sources.iter().map(|source| load(source, &|c| row[c])).collect::<Vec<_>>();
-        let loads = values.chunks(width).flat_map(read).collect();
         let mut out = LoadStates { sources, motions, width, values, loads, corners: Vec::new() };
         out.corners = out.all_corners(ends);
         out

@@ -49,6 +49,8 @@ pub use reactions::GirderReaction;
 pub(crate) use solved::SolvedMembers;
 pub use stresses::{GirderStress, GirderStresses};
 
+use std::fmt::Write;
+
 use design::{plane_word, quantity_word, side_word};
 use formats::scene::Scene;
 use serde_json::{Value, json};
@@ -163,23 +165,27 @@ impl GirderExtremes {
             "shear",
             "deflection",
         ])?;
-        let text = |value: f64| format!("{}", value + 0.0);
+        let (number, mut text) = (number.to_string(), String::new());
         for row in &self.envelope {
-            let [moment, shear, deflection] = row.coincident.map(text);
-            writer.write_record([
-                number.to_string(),
-                scene.rails[row.rail].name.clone(),
-                plane_word(row.quantity).to_owned(),
-                text(row.x),
-                quantity_word(row.quantity).to_owned(),
-                kind_word(row.is_max).to_owned(),
-                text(row.value),
-                text(row.time),
-                moment,
-                shear,
-                deflection,
-            ])?;
+            let [value, time] = [row.value, row.time];
+            writer.write_field(&number)?;
+            writer.write_field(&scene.rails[row.rail].name)?;
+            writer.write_field(plane_word(row.quantity))?;
+            write_number(&mut writer, row.x, &mut text)?;
+            writer.write_field(quantity_word(row.quantity))?;
+            writer.write_field(kind_word(row.is_max))?;
+            for value in [value, time].into_iter().chain(row.coincident) {
+                write_number(&mut writer, value, &mut text)?;
+            }
+            writer.write_record(None::<&[u8]>)?;
         }
         bytes(writer).map(Some)
     }
+}
+
+/// Writes a number as a field; `text` is memory.
+fn write_number(writer: &mut csv::Writer<Vec<u8>>, value: f64, text: &mut String) -> Result<(), csv::Error> {
+    text.clear();
+    write!(text, "{}", value + 0.0).expect("a string takes all text");
+    writer.write_field(&*text)
 }

@@ -20,7 +20,7 @@ pub(super) struct Peaks {
 }
 
 /// A peak: height of its vertex, its row, and the value there, times the sign for which it is a peak.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Peak {
     pub height: f64,
     pub row: usize,
@@ -38,6 +38,12 @@ impl Index<usize> for Peaks {
 
     fn index(&self, kind: usize) -> &Peak {
         &self.found[kind]
+    }
+}
+
+impl From<[Peak; 2]> for Peaks {
+    fn from(found: [Peak; 2]) -> Peaks {
+        Peaks { found, ..Peaks::default() }
     }
 }
 
@@ -74,22 +80,88 @@ impl Peaks {
     fn offer(&mut self, next: Option<f64>) {
         let [before, own] = self.values;
         let rise = (self.count > 1).then_some(own - before);
-        let fall = next.map(|next| own - next);
-        for (peak, sign) in self.found.iter_mut().zip(SIGNS) {
-            let is_beyond = |change: Option<f64>| change.is_none_or(|change| sign * change >= 0.0);
-            if !(is_beyond(rise) && is_beyond(fall)) {
-                continue;
+        offer(&mut self.found, (self.last, own), rise, next.map(|next| own - next));
+    }
+}
+
+/// Considers the value of a row, by how much it is above the value before and above the next one, where there are such.
+fn offer(found: &mut [Peak; 2], (row, own): (usize, f64), rise: Option<f64>, fall: Option<f64>) {
+    for (peak, sign) in found.iter_mut().zip(SIGNS) {
+        let is_beyond = |change: Option<f64>| change.is_none_or(|change| sign * change >= 0.0);
+        if !(is_beyond(rise) && is_beyond(fall)) {
+            continue;
+        }
+        let bulge = match (rise, fall) {
+            (Some(rise), Some(fall)) if rise + fall != 0.0 => {
+                (rise - fall).powi(2) / (8.0 * (rise + fall).abs())
             }
-            let bulge = match (rise, fall) {
-                (Some(rise), Some(fall)) if rise + fall != 0.0 => {
-                    (rise - fall).powi(2) / (8.0 * (rise + fall).abs())
+            _ => 0.0,
+        };
+        if sign * own + bulge > peak.height {
+            *peak = Peak { height: sign * own + bulge, row, value: sign * own };
+        }
+    }
+}
+
+/// The highest and the lowest peaks of many sequences that have values at the same rows: those of [`Peaks`].
+#[derive(Clone, Debug, Default)]
+pub(super) struct PeakRows {
+    /// Row of the last values, and how many of the last two are known.
+    last: usize,
+    count: usize,
+    /// The last values but one, and the last ones.
+    before: Vec<f64>,
+    own: Vec<f64>,
+    found: Vec<[Peak; 2]>,
+}
+
+impl PeakRows {
+    /// Peaks of a number of sequences.
+    pub fn new(sequences: usize) -> PeakRows {
+        let (before, own) = (vec![0.0; sequences], vec![0.0; sequences]);
+        PeakRows { last: 0, count: 0, before, own, found: vec![Default::default(); sequences] }
+    }
+
+    /// Adds the values of a row; rows that are left out separate sequences.
+    pub fn add(&mut self, row: usize, values: &[f64]) {
+        if self.count > 0 && row != self.last + 1 {
+            self.finish();
+        }
+        if self.count > 1 {
+            // a value between its neighbours is no peak
+            let is_turn = |(before, own, next): (f64, f64, f64)| (own - before) * (next - own) <= 0.0;
+            let rows = || self.before.iter().zip(&self.own).zip(values).map(|((a, b), c)| (*a, *b, *c));
+            if rows().fold(false, |any, three| any | is_turn(three)) {
+                for (found, (before, own, next)) in self.found.iter_mut().zip(rows()) {
+                    if is_turn((before, own, next)) {
+                        offer(found, (self.last, own), Some(own - before), Some(own - next));
+                    }
                 }
-                _ => 0.0,
-            };
-            if sign * own + bulge > peak.height {
-                *peak = Peak { height: sign * own + bulge, row: self.last, value: sign * own };
+            }
+        } else if self.count == 1 {
+            for ((found, own), next) in self.found.iter_mut().zip(&self.own).zip(values) {
+                offer(found, (self.last, *own), None, Some(own - next));
             }
         }
+        std::mem::swap(&mut self.before, &mut self.own);
+        self.own.copy_from_slice(values);
+        (self.last, self.count) = (row, 2.min(self.count + 1));
+    }
+
+    /// Ends the sequences.
+    pub fn finish(&mut self) {
+        if self.count > 0 {
+            for ((found, own), before) in self.found.iter_mut().zip(&self.own).zip(&self.before) {
+                let rise = (self.count > 1).then_some(own - before);
+                offer(found, (self.last, *own), rise, None);
+            }
+        }
+        self.count = 0;
+    }
+
+    /// The highest and the lowest peak of each sequence.
+    pub fn found(&self) -> &[[Peak; 2]] {
+        &self.found
     }
 }
 
@@ -201,6 +273,23 @@ mod tests {
             "{highest:?}"
         );
         assert!((lowest.value + wave(1.5, 1.1)).abs() < 1e-12 && lowest.row == 3, "{lowest:?}");
+    }
+
+    /// Identity: many sequences have the peaks of each of them alone, also where rows are left out.
+    #[test]
+    fn sequences_together_have_the_peaks_of_each_alone() {
+        let value = |row: usize, k: usize| (0.7 * row as f64 + k as f64).sin() + 0.1 * (row % (k + 2)) as f64;
+        let (mut together, mut alone) = (PeakRows::new(5), [Peaks::default(); 5]);
+        for row in (0..90).filter(|row| row % 31 != 7) {
+            let values: [f64; 5] = std::array::from_fn(|k| value(row, k));
+            together.add(row, &values);
+            alone.iter_mut().zip(values).for_each(|(one, value)| one.add(row, value));
+        }
+        together.finish();
+        for (mut alone, found) in alone.into_iter().zip(together.found()) {
+            alone.finish();
+            assert_eq!(&alone.found, found);
+        }
     }
 
     /// Analytic: the vertex of a parabola.

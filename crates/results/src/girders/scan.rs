@@ -7,7 +7,7 @@ use super::distributed::{FORCES, Quantities};
 use super::fibres::StressRows;
 use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
-use super::peaks::Peaks;
+use super::peaks::{PeakRows, Peaks};
 use super::points::{PointBlock, probe};
 
 /// Peaks of the largest and of the smallest values of each quantity.
@@ -42,8 +42,20 @@ pub(super) struct Scan {
     pub stresses: StressRows,
     /// Largest magnitude of each quantity, and of both deflections.
     pub sizes: [f64; FORCES + 2],
-    /// Quantities that are not zero throughout.
-    acting: Vec<usize>,
+    /// Whether each quantity is not zero throughout.
+    acting: [bool; FORCES],
+    /// The peaks so far: of the sections of each member, by quantity, and of the points of each block.
+    of_members: Vec<[PeakRows; FORCES]>,
+    of_blocks: Vec<PeakRows>,
+}
+
+/// Memory for the rows of a scan.
+#[derive(Default)]
+struct Workspace {
+    passed: PassedLoads,
+    /// Values of one quantity at the sections of a member, or of all of them section by section.
+    values: Vec<f64>,
+    all: Vec<Quantities>,
 }
 
 /// A row of girders as a row of a scan.
@@ -65,15 +77,15 @@ impl Scan {
     /// Scans all rows of `fine`, and those of `coarse`, which are the rows `chosen` of `fine`.
     pub fn both(fine: &LoadedGirders<'_>, coarse: &LoadedGirders<'_>, chosen: &[usize]) -> [Scan; 2] {
         let [mut all, mut few] = [Scan::empty(fine, true), Scan::empty(coarse, true)];
-        let mut next = 0;
+        let (mut next, mut memory) = (0, Workspace::default());
         for row in fine.rows() {
             let state = fine.states.at_row(row);
             let own = Target::new(&mut all, fine, row);
             if chosen.get(next) == Some(&row) {
-                add_row(&mut [own, Target::new(&mut few, coarse, next)], fine, &state);
+                add_row(&mut [own, Target::new(&mut few, coarse, next)], fine, &state, &mut memory);
                 next += 1;
             } else {
-                add_row(&mut [own], fine, &state);
+                add_row(&mut [own], fine, &state, &mut memory);
             }
         }
         [all.finished(fine), few.finished(coarse)]
@@ -81,9 +93,10 @@ impl Scan {
 
     /// Scans all rows for the sections and points alone: without the places of loads.
     pub fn of_sections(girders: &LoadedGirders<'_>) -> Scan {
-        let mut scan = Scan::empty(girders, false);
+        let (mut scan, mut memory) = (Scan::empty(girders, false), Workspace::default());
         for row in girders.rows() {
-            add_row(&mut [Target::new(&mut scan, girders, row)], girders, &girders.states.at_row(row));
+            let own = Target::new(&mut scan, girders, row);
+            add_row(&mut [own], girders, &girders.states.at_row(row), &mut memory);
         }
         scan.finished(girders)
     }
@@ -97,7 +110,17 @@ impl Scan {
         let is_counted = has_loads && girders.states.len() > 0;
         let loads = if is_counted { girders.states.loads(0).len() } else { 0 };
         let spans = first_span[first_span.len() - 1];
+        let acting = girders.acting();
+        let of_member =
+            |own: &Vec<usize>| std::array::from_fn(|k| PeakRows::new(if acting[k] { own.len() } else { 0 }));
         Scan {
+            of_members: sections.of_member.iter().map(of_member).collect(),
+            of_blocks: girders
+                .points
+                .blocks()
+                .iter()
+                .map(|block| PeakRows::new(block.points.len()))
+                .collect(),
             sections: vec![ForcePeaks::default(); sections.sections.len()],
             points: vec![Default::default(); sections.points.len()],
             wheels: vec![ForcePeaks::default(); 2 * loads * spans],
@@ -106,7 +129,7 @@ impl Scan {
             passages: Vec::new(),
             stresses: StressRows::new(&sections.stressed, sections.sections.len(), loads),
             sizes: [0.0; FORCES + 2],
-            acting: girders.acting(),
+            acting,
         }
     }
 
@@ -115,9 +138,24 @@ impl Scan {
         for row in girders.rows().skip(1) {
             self.add_passages(girders, row - 1);
         }
-        let forces = self.sections.iter_mut().chain(&mut self.wheels).flatten();
-        let deflections = self.points.iter_mut().chain(&mut self.under).flatten();
-        forces.chain(deflections).for_each(Peaks::finish);
+        self.wheels.iter_mut().flatten().for_each(Peaks::finish);
+        self.under.iter_mut().flatten().for_each(Peaks::finish);
+        for (peaks, sections) in self.of_members.iter_mut().zip(&girders.sections.of_member) {
+            for (k, peaks) in peaks.iter_mut().enumerate() {
+                peaks.finish();
+                sections
+                    .iter()
+                    .zip(peaks.found())
+                    .for_each(|(at, found)| self.sections[*at][k] = (*found).into());
+            }
+        }
+        for (peaks, PointBlock { plane, points, .. }) in
+            self.of_blocks.iter_mut().zip(girders.points.blocks())
+        {
+            peaks.finish();
+            let own = self.points[points.clone()].iter_mut().zip(peaks.found());
+            own.for_each(|(point, found)| point[*plane] = (*found).into());
+        }
         self
     }
 
@@ -134,7 +172,7 @@ impl Scan {
 
     fn add_size(&mut self, quantity: usize, values: &[f64]) {
         let size = &mut self.sizes[quantity];
-        *size = values.iter().fold(*size, |most, value| most.max(value.abs()));
+        *size = values.iter().fold(*size, |most, value| if value.abs() > most { value.abs() } else { most });
     }
 
     /// Adds the sections that loads pass between a row and the next.
@@ -167,18 +205,27 @@ impl Scan {
 }
 
 /// Adds the values of a row to one or two scans.
-fn add_row(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &LoadState<'_>) {
-    add_forces(targets, girders, state);
+fn add_row(
+    targets: &mut [Target<'_>],
+    girders: &LoadedGirders<'_>,
+    state: &LoadState<'_>,
+    memory: &mut Workspace,
+) {
+    add_forces(targets, girders, state, memory);
     if targets.iter().any(|target| target.deflections.is_some()) {
         add_deflections(targets, girders, state);
     }
 }
 
 /// Adds the forces of all sections at a row, and of those just before and just behind each load.
-fn add_forces(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &LoadState<'_>) {
+fn add_forces(
+    targets: &mut [Target<'_>],
+    girders: &LoadedGirders<'_>,
+    state: &LoadState<'_>,
+    memory: &mut Workspace,
+) {
     let sections = girders.sections;
     let has_loads = targets.iter().any(|target| !target.scan.wheels.is_empty());
-    let mut passed = PassedLoads::default();
     for (index, member) in girders.members.members().enumerate() {
         let Some(rail) = sections.rails.iter().position(|rail| rail.rail == member.rail) else {
             continue;
@@ -186,16 +233,10 @@ fn add_forces(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &L
         if !has_loads && sections.of_member[index].is_empty() {
             continue;
         }
-        girders.members.load(index, &state.loads, &mut passed);
+        girders.members.load(index, &state.loads, &mut memory.passed);
         let fibres = sections.stressed.of(index);
-        for &section in &sections.of_member[index] {
-            let place = sections.sections[section].place;
-            let values = girders.sum(index, place, state, &passed, None);
-            for Target { scan, row, .. } in targets.iter_mut() {
-                add(&mut scan.sections[section], (&scan.acting, &mut scan.sizes), *row, &values);
-                scan.stresses.add_section(section, fibres, *row, &values);
-            }
-        }
+        add_sections(targets, girders, index, state, memory);
+        let passed = &memory.passed;
         if !has_loads {
             continue;
         }
@@ -206,13 +247,51 @@ fn add_forces(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, state: &L
             let side = if is_first { SectionSide::Behind } else { SectionSide::Before };
             let span = sections.rails[rail].span(x, side);
             for is_behind in [false, true] {
-                let values = girders.sum(index, place, state, &passed, Some((load, is_behind)));
+                let values = girders.sum(index, place, state, passed, Some((load, is_behind)));
                 for Target { scan, row, .. } in targets.iter_mut() {
                     let at = scan.wheel(load, is_behind, rail, span);
                     add(&mut scan.wheels[at], (&scan.acting, &mut scan.sizes), *row, &values);
                     scan.stresses.add_wheel((load, is_behind), fibres, *row, &values);
                 }
             }
+        }
+    }
+}
+
+/// Adds the forces of the sections of a member at a row, quantity by quantity.
+fn add_sections(
+    targets: &mut [Target<'_>],
+    girders: &LoadedGirders<'_>,
+    member: usize,
+    state: &LoadState<'_>,
+    Workspace { passed, values, all }: &mut Workspace,
+) {
+    let sections = girders.sections;
+    let (own, places) = (&sections.of_member[member], &sections.places[member]);
+    let fibres = sections.stressed.of(member);
+    let is_whole = fibres.is_some() || !girders.distributed.is_empty();
+    if is_whole {
+        all.clear();
+        all.extend(places.iter().map(|place| girders.sum(member, *place, state, passed, None)));
+    }
+    if fibres.is_some() {
+        for Target { scan, row, .. } in targets.iter_mut() {
+            let each = own.iter().zip(&*all);
+            each.for_each(|(section, values)| scan.stresses.add_section(*section, fibres, *row, values));
+        }
+    }
+    values.resize(places.len(), 0.0);
+    for k in 0..FORCES {
+        if !targets.iter().any(|target| target.scan.acting[k]) {
+            continue;
+        }
+        match is_whole {
+            true => values.iter_mut().zip(&*all).for_each(|(value, all)| *value = all[k]),
+            false => passed.fill(k, places, values),
+        }
+        for Target { scan, row, .. } in targets.iter_mut().filter(|target| target.scan.acting[k]) {
+            scan.add_size(k, values);
+            scan.of_members[member][k].add(*row, values);
         }
     }
 }
@@ -236,11 +315,9 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
     let plane_of = |index: usize| usize::from(probes[index].axis == Axis::Lateral);
     for Target { scan, deflections, .. } in targets.iter_mut() {
         let Some(row) = *deflections else { continue };
-        for PointBlock { plane, points, values, .. } in girders.points.blocks() {
+        for (block, PointBlock { plane, values, .. }) in girders.points.blocks().iter().enumerate() {
             let own = &fixed[values.clone()];
-            for (peaks, value) in scan.points[points.clone()].iter_mut().zip(own) {
-                peaks[*plane].add(row, *value);
-            }
+            scan.of_blocks[block].add(row, own);
             scan.add_size(FORCES + plane, own);
         }
         for (index, value) in moving.iter().enumerate() {
@@ -254,8 +331,13 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
 }
 
 /// Adds the quantities that are not zero throughout.
-fn add(peaks: &mut ForcePeaks, (acting, sizes): (&[usize], &mut [f64]), row: usize, values: &[f64; FORCES]) {
-    for &k in acting {
+fn add(
+    peaks: &mut ForcePeaks,
+    (acting, sizes): (&[bool; FORCES], &mut [f64]),
+    row: usize,
+    values: &[f64; FORCES],
+) {
+    for k in (0..FORCES).filter(|k| acting[*k]) {
         sizes[k] = sizes[k].max(values[k].abs());
         peaks[k].add(row, values[k]);
     }

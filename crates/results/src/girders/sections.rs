@@ -96,6 +96,8 @@ pub(super) struct Sections {
     pub sections: Vec<MemberSection>,
     /// Indices of the sections of each member.
     pub of_member: Vec<Vec<usize>>,
+    /// Their distances from the first end of the member.
+    pub places: Vec<Vec<f64>>,
     /// What stresses need; empty where they are not wanted.
     pub stressed: StressedSections,
 }
@@ -119,6 +121,7 @@ impl Sections {
     pub fn of(rails: Vec<RailSpans>, members: &MemberForces) -> Sections {
         let (mut points, mut sections) = (Vec::new(), Vec::new());
         let mut of_member = vec![Vec::new(); members.members().len()];
+        let mut distances = vec![Vec::new(); of_member.len()];
         for (number, rail) in rails.iter().enumerate() {
             let near = rail.slack();
             for &x in &rail.places {
@@ -141,6 +144,7 @@ impl Sections {
                         SectionSide::At => members.place(index, x),
                     };
                     of_member[index].push(sections.len());
+                    distances[index].push(place);
                     sections.push(MemberSection {
                         point,
                         member: index,
@@ -151,7 +155,14 @@ impl Sections {
                 }
             }
         }
-        Sections { rails, points, sections, of_member, stressed: StressedSections::default() }
+        Sections {
+            rails,
+            points,
+            sections,
+            of_member,
+            places: distances,
+            stressed: StressedSections::default(),
+        }
     }
 
     /// The sections of a rail of the structure between two coordinates, both included.

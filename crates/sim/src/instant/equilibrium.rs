@@ -1,11 +1,13 @@
 //! Static equilibrium of weights, loads and contact forces on wheels, with the deflection of the rails.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DMatrixView, DVector};
+use smallvec::SmallVec;
 
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::numerics::dense::dot;
+use crate::numerics::lu::LuFactors;
 use crate::{BodyDof, Error};
 
 /// Largest number of sweeps of the active set.
@@ -108,7 +110,7 @@ fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
 }
 
 /// Degrees of freedom of the bodies for which equilibrium is solved: y, roll and pitch, if a wheel resists them.
-fn balancing(solver: &Solver) -> Vec<usize> {
+fn balancing(solver: &Solver) -> Numbers {
     let (rows, count) = (solver.geometry().rows(), solver.system().verticals());
     let numbers = solver.system().mechanics.kinematics.numbers.iter();
     numbers
@@ -196,52 +198,87 @@ impl Relaxation {
 struct Balance<'a> {
     system: &'a System<'a>,
     /// Active fraction of the law of each contact, times its number of wheels.
-    share: Vec<f64>,
+    share: Values,
     /// Numbers of the unknown degrees of freedom q.
-    moving: Vec<usize>,
-    /// Compliance matrix A, contacts x contacts.
+    moving: Numbers,
+    /// Compliance matrix A of the contacts, in its first rows and columns.
     compliance: DMatrix<f64>,
-    /// Contacts x degrees of freedom.
-    rows: DMatrix<f64>,
-    constant: Vec<f64>,
-    weight: DVector<f64>,
-    active: Vec<usize>,
-    q: DVector<f64>,
-    p: Vec<f64>,
-    force: Vec<f64>,
+    /// Contacts x degrees of freedom, column by column.
+    rows: Entries,
+    constant: Values,
+    weight: Values,
+    active: Numbers,
+    q: Values,
+    p: Values,
+    force: Values,
+    /// Memory of the factors of the contacts and of the degrees of freedom.
+    factors: [LuFactors; 2],
+}
+
+/// Numbers of contacts or of degrees of freedom, a value for each of them, and for each of both; few of them need no
+/// allocation.
+type Numbers = SmallVec<[usize; 8]>;
+type Values = SmallVec<[f64; 8]>;
+type Entries = SmallVec<[f64; 16]>;
+
+/// The largest absolute value.
+fn largest(values: &[f64]) -> f64 {
+    values.iter().fold(0.0, |most, value| most.max(value.abs()))
+}
+
+/// Number of rows and columns up to which products are sums of columns.
+const FEW: usize = 5;
+
+/// A^T B for matrices with a number of rows, column by column.
+fn transposed_product(a: &[f64], b: &[f64], rows: usize) -> Entries {
+    let counts = [a, b].map(|own| own.len() / rows);
+    if rows > FEW && counts.iter().all(|count| *count > FEW) {
+        let [a, b] = [(a, counts[0]), (b, counts[1])].map(|(of, n)| DMatrixView::from_slice(of, rows, n));
+        return SmallVec::from_vec((a.transpose() * b).data.into());
+    }
+    let mut out = Entries::new();
+    for own in b.chunks_exact(rows) {
+        out.extend(a.chunks_exact(rows).map(|other| sum_of_products(other, own)));
+    }
+    out
+}
+
+/// The sum of products in their order, without a zero in front.
+fn sum_of_products(a: &[f64], b: &[f64]) -> f64 {
+    let products = a.iter().zip(b).map(|(a, b)| a * b);
+    products.reduce(|sum, product| sum + product).unwrap_or(0.0)
 }
 
 impl<'a> Balance<'a> {
     /// Sets up the equilibrium of the degrees of freedom `moving` for the current geometry of the solver. As a first
     /// estimate, all wheels that may act carry the same force. If no degree of freedom is unknown, the wheels with
     /// positive penetration carry.
-    fn new(solver: &Solver<'a>, moving: Vec<usize>, at: &State) -> Result<Self, Error> {
+    fn new(solver: &Solver<'a>, moving: Numbers, at: &State) -> Result<Self, Error> {
         let (system, geometry) = (solver.system(), solver.geometry());
         let rows = geometry.rows();
         let (n, count) = (system.mechanics.dofs, system.verticals());
         let stays = |k: usize| {
             !moving.contains(&k) && !system.mechanics.structures.iter().any(|range| range.contains(&k))
         };
-        let staying: Vec<usize> = (0..n).filter(|&k| stays(k)).collect();
+        let staying: Numbers = (0..n).filter(|&k| stays(k)).collect();
         let all = static_compliance(solver)?;
         let guides = || system.guides().iter().enumerate().map(|(k, &l)| (system.verticals() + k, l));
-        let constant: Vec<f64> = (0..count)
+        let constant: Values = (0..count)
             .map(|i| {
                 let staid = staying.iter().map(|&k| rows.approach_row(i)[k] * at.q[k]).sum::<f64>();
                 let taken = guides().map(|(place, l)| all[(i, place)] * at.force[l]).sum::<f64>();
                 rows.approach_offset[i] + staid - taken
             })
             .collect();
-        let share: Vec<f64> =
+        let share: Values =
             (0..count).map(|i| system.mechanics.groups[i].count() * geometry.fraction(i)).collect();
         let reach = |i: usize| if moving.is_empty() { Some(constant[i]) } else { None };
-        let active: Vec<usize> =
+        let active: Numbers =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
         let mut gravity = system.mechanics.gravity.clone();
         system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), &mut gravity);
-        let mut weight = DVector::from_fn(moving.len(), |j, _| {
-            gravity[moving[j]] + pull_of_springs(solver, moving[j], at)
-        });
+        let mut weight: Values =
+            moving.iter().map(|&k| gravity[k] + pull_of_springs(solver, k, at)).collect();
         for load in &system.scene.actuators.loads {
             if let Some(j) = moving.iter().position(|&k| system.mechanics.loaded(load) == Some(k)) {
                 weight[j] += load.value.at(at.t);
@@ -253,13 +290,15 @@ impl<'a> Balance<'a> {
             weight[j] -= (0..count).map(|i| tilted(i, k)).sum::<f64>();
             weight[j] -= guides().map(|(_, l)| rows.force_row(l)[k] * at.force[l]).sum::<f64>();
         }
-        let each = weight.amax() / active.len().max(1) as f64;
+        let each = largest(&weight) / active.len().max(1) as f64;
+        let column = |&k: &usize| (0..count).map(move |i| rows.approach_row(i)[k]);
         Ok(Balance {
-            compliance: all.view((0, 0), (count, count)).into_owned(),
-            rows: DMatrix::from_fn(count, moving.len(), |i, j| rows.approach_row(i)[moving[j]]),
+            compliance: all,
+            rows: moving.iter().flat_map(column).collect(),
             p: (0..count).map(|i| reach(i).unwrap_or_else(|| system.law(i).penetration(each))).collect(),
-            q: DVector::zeros(moving.len()),
-            force: vec![0.0; count],
+            q: SmallVec::from_elem(0.0, moving.len()),
+            force: SmallVec::from_elem(0.0, count),
+            factors: Default::default(),
             system,
             share,
             moving,
@@ -289,16 +328,18 @@ impl<'a> Balance<'a> {
     /// The forces F minimise |R^T F - weight| by least squares. Each degree of freedom counts relative to its weight
     /// and to the largest weight times its levers.
     fn least_balanced(&self) -> Option<usize> {
-        let lever = self.rows.select_rows(&self.active).transpose();
+        let rows = DMatrix::from_column_slice(self.share.len(), self.moving.len(), &self.rows);
+        let weight = DVector::from_column_slice(&self.weight);
+        let lever = rows.select_rows(&self.active).transpose();
         let by_contacts = || {
-            let forces = lever.clone().svd(true, true).solve(&self.weight, BALANCE).ok()?;
+            let forces = lever.clone().svd(true, true).solve(&weight, BALANCE).ok()?;
             Some(&lever * forces)
         };
         let none = || DVector::zeros(self.moving.len());
         let carried = if lever.is_empty() { none() } else { by_contacts().unwrap_or_else(none) };
-        let largest = self.weight.amax();
+        let largest = weight.amax();
         let relative = |j: usize| {
-            let size = self.weight[j].abs() + largest * self.rows.column(j).amax();
+            let size = self.weight[j].abs() + largest * rows.column(j).amax();
             (self.weight[j] - carried[j]).abs() / size.max(f64::MIN_POSITIVE)
         };
         let worst = (0..self.moving.len()).max_by(|&i, &j| relative(i).total_cmp(&relative(j)))?;
@@ -327,38 +368,62 @@ impl<'a> Balance<'a> {
 
     /// Newton's linear system: the forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k and R^T
     /// F = weight, where f and k are force and stiffness of the laws at p. Sets q.
-    fn linearised(&mut self) -> Option<DVector<f64>> {
-        let size = self.active.len();
-        let mut matrix =
-            DMatrix::from_fn(size, size, |r, c| self.compliance[(self.active[r], self.active[c])]);
-        let mut free = DVector::zeros(size);
-        for (r, &i) in self.active.iter().enumerate() {
+    fn linearised(&mut self) -> Option<Values> {
+        let (size, count) = (self.active.len(), self.share.len());
+        let Balance { active, compliance, factors: [factors, of_dofs], .. } = self;
+        let mut free = Values::new();
+        let mut own = Values::new();
+        for &i in active.iter() {
             let point = self.system.law(i).at(self.p[i], 0.0);
-            matrix[(r, r)] += 1.0 / (self.share[i] * point.by_penetration);
-            free[r] = self.constant[i] - self.p[i] + point.force / point.by_penetration;
+            own.push(1.0 / (self.share[i] * point.by_penetration));
+            free.push(self.constant[i] - self.p[i] + point.force / point.by_penetration);
         }
-        let lever = DMatrix::from_fn(size, self.moving.len(), |r, j| self.rows[(self.active[r], j)]);
-        let lu = matrix.lu();
+        factors.replace(size, |matrix| {
+            for (c, (&column, own)) in active.iter().zip(own).enumerate() {
+                matrix.extend(active.iter().map(|&row| compliance[(row, column)]));
+                matrix[c * (size + 1)] += own;
+            }
+        });
         if self.moving.is_empty() {
-            return lu.solve(&free);
+            return factors.solve(&mut free).then_some(free);
         }
-        let (by_lever, by_free) = (lu.solve(&lever)?, lu.solve(&free)?);
-        let stiffness = lever.transpose() * &by_lever;
-        let balance = &self.weight - lever.transpose() * &by_free;
-        let next = stiffness.clone().lu().solve(&balance)?;
-        let scale = self.weight.amax().max(f64::MIN_POSITIVE);
-        let balanced = (&stiffness * &next - &balance).amax() <= BALANCE * scale;
+        let mut lever = Entries::new();
+        for rows in self.rows.chunks_exact(count) {
+            lever.extend(active.iter().map(|&i| rows[i]));
+        }
+        let mut by_lever = lever.clone();
+        if !by_lever.chunks_exact_mut(size).all(|column| factors.solve(column)) || !factors.solve(&mut free) {
+            return None;
+        }
+        let by_free = free;
+        let stiffness = transposed_product(&lever, &by_lever, size);
+        let carried = lever.chunks_exact(size).map(|lever| sum_of_products(lever, &by_free));
+        let balance: Values =
+            self.weight.iter().zip(carried).map(|(weight, carried)| weight - carried).collect();
+        let moving = self.moving.len();
+        let mut next = balance.clone();
+        of_dofs.replace(moving, |matrix| matrix.extend_from_slice(&stiffness));
+        if !of_dofs.solve(&mut next) {
+            return None;
+        }
+        let scale = largest(&self.weight).max(f64::MIN_POSITIVE);
+        let product = |columns: &[f64], r: usize, rows: usize| {
+            let terms = columns[r..].iter().step_by(rows).zip(&next).map(|(entry, q)| entry * q);
+            terms.reduce(|sum, term| sum + term).unwrap_or(0.0)
+        };
+        let residual = |j: usize| (product(&stiffness, j, moving) - balance[j]).abs();
+        let balanced = (0..moving).map(residual).fold(0.0, f64::max) <= BALANCE * scale;
         if !(balanced && next.iter().all(|q| q.is_finite())) {
             return None;
         }
-        let solved = by_lever * &next + by_free;
+        let solved = (0..size).map(|r| product(&by_lever, r, size) + by_free[r]).collect();
         self.q = next;
         Some(solved)
     }
 
     /// Updates the penetrations to those for the forces `solved` by the linearised laws, keeping them positive for
     /// nonlinear laws; returns the largest change.
-    fn advance(&mut self, solved: &DVector<f64>) -> f64 {
+    fn advance(&mut self, solved: &[f64]) -> f64 {
         let mut change = 0.0_f64;
         self.force.fill(0.0);
         for (r, &i) in self.active.iter().enumerate() {
@@ -380,9 +445,10 @@ impl<'a> Balance<'a> {
         let before = self.active.clone();
         let system = self.system;
         let force = &self.force;
-        self.active.retain(|&i| force[i] >= 0.0 || system.law(i).bilateral);
+        self.active.retain(|i| force[*i] >= 0.0 || system.law(*i).bilateral);
         for i in (0..self.share.len()).filter(|i| !before.contains(i) && self.share[*i] > 0.0) {
-            let reach: f64 = self.rows.row(i).iter().zip(self.q.iter()).map(|(r, q)| r * q).sum();
+            let row = self.rows[i..].iter().step_by(self.share.len());
+            let reach: f64 = row.zip(&self.q).map(|(r, q)| r * q).sum();
             let give: f64 = self.compliance.row(i).iter().zip(&self.force).map(|(g, f)| g * f).sum();
             self.p[i] = self.constant[i] + reach - give;
             if self.p[i] > 1e-13 * deepest {

@@ -11,13 +11,20 @@ use crate::numerics::dense::dot;
 use crate::record::energy::{motion_force, spin_moment};
 use crate::record::history::History;
 use crate::scene::dof::arm_rows;
-use crate::{Analysis, BodyDof, Channel, Error, Gauge};
+use crate::{Analysis, BodyDof, Channel, Error, Gauge, Scene};
 
 /// Structures whose degrees of freedom are recorded, with the numbers of these degrees of freedom.
 fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>)> + 'a {
     let all = system.mechanics.structures.iter().zip(system.foundations).enumerate();
     all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
 }
+
+/// Largest number of values for which memory is reserved.
+const MOST_RESERVED: usize = 4_000_000;
+
+/// Number of channels of a body: six displacements, six speeds, drive and brake; and of a wheel.
+const OF_BODY: usize = 14;
+const OF_WHEEL: usize = 9;
 
 /// Recorder of samples.
 pub(crate) struct Recorder {
@@ -28,7 +35,10 @@ pub(crate) struct Recorder {
     lengths: Vec<(usize, usize)>,
     /// Number of columns for channels of the elements' own.
     own_columns: usize,
+    /// Height of the hub of each wheel by the displacements of its body.
+    arms: Vec<[f64; 6]>,
     /// Working memory for the gauges.
+    gauges: Vec<f64>,
     probes: Vec<Probe>,
     shape: Vec<f64>,
 }
@@ -53,8 +63,18 @@ impl Recorder {
             lengths.extend(length.and_then(|channel| column(&channel)).map(|column| (i, column)));
         }
         let own_columns = system.elements.iter().map(|element| element.own_channels().len()).sum();
-        let (probes, shape) = (Vec::new(), vec![0.0; 2 * system.mechanics.dofs]);
-        Recorder { history: History::new(channels), forces, lengths, own_columns, probes, shape }
+        let arms = system.mechanics.wheels.iter().map(|wheel| arm_rows(wheel.hub)[1]).collect();
+        let shape = vec![0.0; 2 * system.mechanics.dofs];
+        Recorder {
+            history: History::new(channels),
+            forces,
+            lengths,
+            own_columns,
+            arms,
+            gauges: Vec::new(),
+            probes: Vec::new(),
+            shape,
+        }
     }
 
     /// The samples recorded so far.
@@ -67,9 +87,11 @@ impl Recorder {
         self.history
     }
 
-    /// Reserves memory for `samples` more samples.
-    pub fn reserve(&mut self, samples: usize) {
-        self.history.reserve(samples);
+    /// Reserves memory for the samples of a whole run, as far as they are not too many: it may end early.
+    pub fn reserve_for(&mut self, scene: &Scene) {
+        let intervals = (scene.end / scene.output_dt).min(MOST_RESERVED as f64) as usize;
+        let samples = intervals.saturating_mul(scene.output_parts.max(1)).saturating_add(2);
+        self.history.reserve(samples.min(MOST_RESERVED / self.history.channels().len()));
     }
 
     /// Adds a sample; `geometry` must be current for `at`.
@@ -95,35 +117,49 @@ impl Recorder {
         values: &mut Vec<f64>,
     ) -> Result<(), Error> {
         let (first, mechanics) = (values.len(), &system.mechanics);
+        let (bodies, wheels) = (OF_BODY * system.scene.bodies.len(), OF_WHEEL * mechanics.wheels.len());
+        let mut moved = std::mem::take(&mut self.gauges);
+        moved.clear();
+        for gauge in &system.scene.gauges {
+            moved.push(self.displacement(system, geometry, at, gauge)?);
+        }
         let frame = geometry.frame(system, at);
-        values.push(at.t);
-        for (b, body) in system.scene.bodies.iter().enumerate() {
+        values.resize(first + self.history.channels().len(), 0.0);
+        let row = &mut values[first..];
+        row[0] = at.t;
+        let (of_bodies, others) = row[1..].split_at_mut(bodies);
+        for ((b, body), own) in
+            system.scene.bodies.iter().enumerate().zip(of_bodies.chunks_exact_mut(OF_BODY))
+        {
             let (displacement, speed) = mechanics.body(b, at.t, &at.q, &at.v);
-            values.extend(displacement);
-            values.extend(speed);
+            own[..6].copy_from_slice(&displacement);
+            own[6..12].copy_from_slice(&speed);
             // The sum of no forces is -0.0, the sum of an empty iterator.
-            let drive = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
-            values.extend([drive, -0.0]);
+            own[12] = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
+            own[13] = -0.0;
         }
-        for w in 0..mechanics.wheels.len() {
-            values.extend(wheel_values(system, geometry, at, w));
+        for (w, own) in others[..wheels].chunks_exact_mut(OF_WHEEL).enumerate() {
+            let displacement = &of_bodies[OF_BODY * mechanics.wheels[w].body..][..6];
+            own.copy_from_slice(&wheel_values(system, geometry, at, w, (displacement, &self.arms[w])));
         }
-        values.extend(std::iter::repeat_n(0.0, self.own_columns));
-        let own = &mut values[first..];
         for &ForceColumn { element, column, divisor } in &self.forces {
-            own[column] += 0.0 + at.force[element] / divisor;
+            row[column] += 0.0 + at.force[element] / divisor;
         }
         for &(element, column) in &self.lengths {
-            own[column] = geometry.local()[element].spring.length;
+            row[column] = geometry.local()[element].spring.length;
         }
-        for gauge in &system.scene.gauges {
-            let displacement = self.displacement(system, geometry, at, gauge)?;
-            values.push(displacement);
-        }
-        let moves = system.scene.analysis == Analysis::Dynamic;
+        let (gauges, structures) =
+            row[1 + bodies + wheels + self.own_columns..].split_at_mut(system.scene.gauges.len());
+        gauges.copy_from_slice(&moved);
+        self.gauges = moved;
+        let (moves, mut next) = (system.scene.analysis == Analysis::Dynamic, 0);
         for (_, range) in recorded(system) {
-            values.extend(range.clone().map(|k| at.q[k]));
-            values.extend(range.map(|k| if moves { at.a[k] } else { 0.0 }));
+            let (q, a) = structures[next..next + 2 * range.len()].split_at_mut(range.len());
+            next += 2 * range.len();
+            q.copy_from_slice(&at.q.as_slice()[range.clone()]);
+            if moves {
+                a.copy_from_slice(&at.a.as_slice()[range]);
+            }
         }
         Ok(())
     }
@@ -166,7 +202,7 @@ impl Recorder {
 fn channels_of(system: &System) -> Vec<Channel> {
     let (bodies, wheels) = (system.scene.bodies.len(), system.mechanics.wheels.len());
     let others = 2 * system.elements.len() + system.scene.gauges.len();
-    let mut channels = Vec::with_capacity(1 + 14 * bodies + 9 * wheels + others);
+    let mut channels = Vec::with_capacity(1 + OF_BODY * bodies + OF_WHEEL * wheels + others);
     channels.push(Channel::Time);
     for b in 0..bodies {
         channels.extend(BodyDof::ALL.map(|freedom| Channel::Displacement(b, freedom)));
@@ -195,21 +231,27 @@ fn channels_of(system: &System) -> Vec<Channel> {
     channels
 }
 
-/// The nine values of wheel `w`. The forces are zero here and are added by the elements.
-fn wheel_values(system: &System, geometry: &Geometry, at: &State, w: usize) -> [f64; 9] {
+/// The values of wheel `w`, whose body has a displacement by which its hub rises with the given arms. The forces are zero
+/// here and are added by the elements.
+fn wheel_values(
+    system: &System,
+    geometry: &Geometry,
+    at: &State,
+    w: usize,
+    (displacement, arms): (&[f64], &[f64; 6]),
+) -> [f64; OF_WHEEL] {
     let (mechanics, places) = (&system.mechanics, geometry.places());
     let wheel = &mechanics.wheels[w];
     let pressed = mechanics.groups_of(w).filter(|&i| geometry.fraction(i) > 0.0);
     let deepest = pressed.map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
-    let (displacement, _) = mechanics.body(wheel.body, at.t, &at.q, &at.v);
-    let shape = mechanics.irregularity(w);
+    let shape = if system.traits.is_uneven { mechanics.irregularity(w) } else { None };
     let own = shape.map_or(0.0, |shape| shape.vertical(places.piece[w], places.x[w])[0]);
-    let down = own - dot(&arm_rows(wheel.hub)[1], &displacement);
+    let down = own - dot(arms, displacement);
     let (angle, speed) = match (wheel.spin, mechanics.turn(w, at.t)) {
         (Some(number), _) => (at.q[number], at.v[number]),
         (None, Some(turn)) => (turn.x, turn.v),
         (None, None) => (0.0, 0.0),
     };
-    let moment = spin_moment(system, geometry, at, w);
+    let moment = if wheel.turn.is_some() { spin_moment(system, geometry, at, w) } else { 0.0 };
     [places.x[w], 0.0, 0.0, 0.0, deepest, down - deepest, angle, speed, moment]
 }

@@ -118,7 +118,7 @@ impl NodeForces {
 
     /// Solves for the forces of the active contacts in `motion`. Returns false if none are found.
     pub fn solve(&mut self, solver: &Solver, motion: &NodeMotion) -> bool {
-        let active = solver.active_contacts();
+        let active = solver.active_contacts().collect::<Vec<_>>();
         let (s, m, n) = (motion.nodes.count(), active.len(), motion.dofs());
         let [contacts, freedoms] = [m, n].map(|count| (s * count) as f64);
         let in_forces = 2.0 / 3.0 * contacts.powi(3) + contacts * contacts * n as f64;

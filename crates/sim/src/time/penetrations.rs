@@ -33,52 +33,71 @@ const MIDDLE: usize = 2;
 /// The start and the nodes.
 const PLACES: [f64; 4] = [0.0, Nodes::RADAU_3[0], Nodes::RADAU_3[1], Nodes::RADAU_3[2]];
 
-/// The penetrations of the active contacts in one step.
+/// The penetrations of the active contacts in one step. Their memory serves for one step after the other.
+#[derive(Default)]
 pub(crate) struct Penetrations {
+    /// Whether they are those of the present step.
+    is_known: bool,
     h: f64,
     /// The active vertical contacts; none if no equation is solved.
     contacts: Vec<usize>,
     stiffness: Vec<f64>,
-    /// s at the start and at the nodes.
-    differences: Vec<DVector<f64>>,
+    /// s at the start and at the nodes, place by place.
+    differences: Vec<f64>,
     /// Whether the equation holds at the start, instead of s there, for each contact.
     is_free: Vec<bool>,
-    /// The contacts at the start and at the nodes.
-    followed: Vec<Followed>,
+    /// The contacts at the start and at the nodes, and the number of places at which they are known.
+    followed: [Followed; 4],
+    places: usize,
+    /// The contacts at a sample.
+    at_sample: Followed,
+    newton: Newton,
+}
+
+/// Memory of Newton's method.
+#[derive(Default)]
+struct Newton {
+    /// Force, stiffness and damping of every contact at the start and at the nodes.
+    laws: Vec<[f64; 3]>,
+    /// The residual, then the change.
+    residual: Vec<f64>,
+    factors: Factors,
 }
 
 impl Penetrations {
+    /// Whether they are those of the present step.
+    pub fn is_known(&self) -> bool {
+        self.is_known
+    }
+
+    /// Forgets them: another step is taken.
+    pub fn forget(&mut self) {
+        self.is_known = false;
+    }
+
     /// Begins a step of length `h` from `from`, with the active contacts of the solver. A penetration that follows its
     /// force within a fraction of the step, and in at most the time `settled`, is independent of its value at the start,
     /// whose error is then of no effect. This time is infinite in the course of a motion without a jump; after a jump it is
     /// that below which the transient is not resolved.
-    pub fn new(solver: &mut Solver, from: &State, h: f64, settled: f64) -> Self {
-        let mut new = Penetrations {
-            h,
-            is_free: Vec::new(),
-            contacts: Vec::new(),
-            stiffness: Vec::new(),
-            differences: Vec::new(),
-            followed: Vec::new(),
-        };
-        let contacts = solver.active_contacts();
-        if !(is_suited(solver) && contacts.iter().any(|&i| solver.remembers(i))) {
-            return new;
+    pub fn begin(&mut self, solver: &mut Solver, from: &State, h: f64, settled: f64) {
+        (self.is_known, self.h, self.places) = (true, h, 0);
+        self.contacts.clear();
+        self.differences.clear();
+        if !(is_suited(solver) && solver.active_contacts().any(|i| solver.remembers(i))) {
+            return;
         }
-        let stiffness: Vec<f64> =
-            contacts.iter().map(|&i| solver.law_of(i, from.p[i], from.p_rate[i])[1].max(0.0)).collect();
-        if solver.update(from).is_err() {
-            return new;
+        let Penetrations { contacts, stiffness, differences, is_free, followed, .. } = self;
+        contacts.extend(solver.active_contacts());
+        stiffness.clear();
+        stiffness.extend(contacts.iter().map(|&i| solver.law_of(i, from.p[i], from.p_rate[i])[1].max(0.0)));
+        if solver.update(from).is_err() || !solver.follow(from, contacts, stiffness, &mut followed[0]) {
+            contacts.clear();
+            return;
         }
-        if let Some(start) = solver.followed(from, &contacts, &stiffness) {
-            new.differences
-                .push(DVector::from_fn(contacts.len(), |r, _| from.p[contacts[r]] - start.value[r]));
-            let is_quick = |i: &usize| solver.delay(*i, from) < settled.min(QUICK * h);
-            new.is_free = contacts.iter().map(is_quick).collect();
-            new.followed.push(start);
-            (new.contacts, new.stiffness) = (contacts, stiffness);
-        }
-        new
+        differences.extend(contacts.iter().zip(&followed[0].value).map(|(&i, value)| from.p[i] - value));
+        is_free.clear();
+        is_free.extend(contacts.iter().map(|&i| solver.delay(i, from) < settled.min(QUICK * h)));
+        self.places = 1;
     }
 
     /// Fractions of the step at which states must be [added](Self::add), in this order.
@@ -95,17 +114,17 @@ impl Penetrations {
     /// Any error from evaluating the rails.
     pub fn add(&mut self, solver: &mut Solver, at: &State) -> Result<(), Error> {
         solver.update(at)?;
-        if let Some(node) = solver.followed(at, &self.contacts, &self.stiffness) {
-            let guess = self.contacts.iter().zip(&node.value).map(|(&i, value)| at.p[i] - value);
-            self.differences.push(DVector::from_iterator(self.contacts.len(), guess));
-            self.followed.push(node);
+        let node = &mut self.followed[self.places];
+        if solver.follow(at, &self.contacts, &self.stiffness, node) {
+            self.differences.extend(self.contacts.iter().zip(&node.value).map(|(&i, value)| at.p[i] - value));
+            self.places += 1;
         }
         Ok(())
     }
 
     /// Solves the equation at all nodes, from the interpolated penetrations. Without a solution the rates stay interpolated.
     pub fn solve(&mut self, solver: &Solver) {
-        if self.followed.len() < PLACES.len() || !self.converges(solver) {
+        if self.places < PLACES.len() || !self.converges(solver) {
             self.contacts.clear();
         }
     }
@@ -113,52 +132,57 @@ impl Penetrations {
     /// Newton's method; returns whether it has converged. Under linear laws the matrix stays, and further iterations refine
     /// what the first has rounded: short steps divide small differences by their length.
     fn converges(&mut self, solver: &Solver) -> bool {
-        let count = self.contacts.len();
         let is_linear = solver.system().traits.has_linear_laws;
-        let mut factors: Option<Factors> = None;
+        let weights = PLACES.map(slopes);
+        let mut newton = std::mem::take(&mut self.newton);
         let mut last = f64::INFINITY;
-        for _ in 0..ITERATIONS {
-            let laws = self.laws(solver);
-            let residual = self.residual(&laws);
-            if factors.is_none() || !is_linear {
-                factors = Some(self.factors(&laws));
+        for iteration in 0..ITERATIONS {
+            let Newton { laws, residual, factors } = &mut newton;
+            self.set_laws(solver, &weights, laws);
+            self.set_residual(laws, residual);
+            if iteration == 0 || !is_linear {
+                self.factor(laws, &weights, factors);
             }
-            let change = factors.as_ref().and_then(|factors| factors.solve(&residual));
-            let Some(change) = change.filter(|change| change.iter().all(|x| x.is_finite())) else {
-                return false;
-            };
-            let mut size = 0.0_f64;
-            for (a, own) in self.differences.iter_mut().enumerate() {
-                for r in 0..count {
-                    own[r] -= change[a * count + r];
-                    size = size.max(own[r].abs() + self.followed[a].value[r].abs());
-                }
+            if !factors.solve(residual) || !residual.iter().all(|x| x.is_finite()) {
+                last = f64::INFINITY;
+                break;
             }
-            last = change.amax() / size;
+            let (mut size, mut largest) = (0.0_f64, 0.0_f64);
+            let values = self.followed.iter().flat_map(|node| &node.value);
+            for ((own, change), value) in self.differences.iter_mut().zip(residual).zip(values) {
+                *own -= *change;
+                size = size.max(own.abs() + value.abs());
+                largest = largest.max(change.abs());
+            }
+            last = largest / size;
             if last <= ROUNDING {
                 break;
             }
         }
+        self.newton = newton;
         last <= CONVERGED
     }
 
-    /// Force, stiffness and damping of every contact at the start and at the nodes, for the present differences.
-    fn laws(&self, solver: &Solver) -> Vec<[f64; 3]> {
-        let count = self.contacts.len();
-        let mut laws = Vec::with_capacity(PLACES.len() * count);
-        for (a, node) in self.followed.iter().enumerate() {
-            let weights = slopes(PLACES[a]);
-            for (c, &i) in self.contacts.iter().enumerate() {
-                let rate = node.rate[c] + self.slope(weights, c);
-                laws.push(solver.law_of(i, node.value[c] + self.differences[a][c], rate));
+    /// Sets `laws` to force, stiffness and damping of every contact at the start and at the nodes, for the present
+    /// differences.
+    fn set_laws(&self, solver: &Solver, weights: &[[f64; 4]; 4], laws: &mut Vec<[f64; 3]>) {
+        laws.clear();
+        for ((node, weights), own) in self.followed.iter().zip(weights).zip(self.at_places()) {
+            for (c, (&i, own)) in self.contacts.iter().zip(own).enumerate() {
+                let rate = node.rate[c] + self.slope(*weights, c);
+                laws.push(solver.law_of(i, node.value[c] + own, rate));
             }
         }
-        laws
+    }
+
+    /// The differences, place by place.
+    fn at_places(&self) -> impl Iterator<Item = &[f64]> {
+        self.differences.chunks_exact(self.contacts.len())
     }
 
     /// Rate of the difference of contact `r` where the slopes have these weights.
     fn slope(&self, weights: [f64; 4], r: usize) -> f64 {
-        self.differences.iter().zip(weights).map(|(own, weight)| weight * own[r]).sum::<f64>() / self.h
+        self.at_places().zip(weights).map(|(own, weight)| weight * own[r]).sum::<f64>() / self.h
     }
 
     /// Whether the equation holds for contact `r` at place `a`, instead of a difference that is known.
@@ -166,66 +190,73 @@ impl Penetrations {
         a > 0 || self.is_free[r]
     }
 
-    /// p + G F - e by the forces of the `laws`; 0 for differences that are known.
-    fn residual(&self, laws: &[[f64; 3]]) -> DVector<f64> {
+    /// Sets `out` to p + G F - e by the forces of the `laws`; 0 for differences that are known.
+    fn set_residual(&self, laws: &[[f64; 3]], out: &mut Vec<f64>) {
         let count = self.contacts.len();
-        DVector::from_fn(PLACES.len() * count, |row, _| {
-            let (a, r) = (row / count, row % count);
-            if !self.is_solved(a, r) {
-                return 0.0;
+        out.clear();
+        for ((a, node), laws) in self.followed.iter().enumerate().zip(laws.chunks_exact(count)) {
+            for r in 0..count {
+                if !self.is_solved(a, r) {
+                    out.push(0.0);
+                    continue;
+                }
+                let forces = laws.iter().enumerate();
+                let deflection: f64 = forces.map(|(c, [force, ..])| node.compliance(r, c) * force).sum();
+                out.push(node.value[r] + self.differences[a * count + r] - node.approach[r] + deflection);
             }
-            let node = &self.followed[a];
-            let forces = laws[a * count..(a + 1) * count].iter().enumerate();
-            let deflection: f64 = forces.map(|(c, [force, ..])| node.compliance[(r, c)] * force).sum();
-            node.value[r] + self.differences[a][r] - node.approach[r] + deflection
-        })
+        }
     }
 
-    /// Factors of the derivatives of the residual; approximate ones for many contacts that are all free at the start.
-    fn factors(&self, laws: &[[f64; 3]]) -> Factors {
+    /// Sets the factors of the derivatives of the residual; approximate ones for many contacts that are all free at the
+    /// start.
+    fn factor(&self, laws: &[[f64; 3]], weights: &[[f64; 4]; 4], factors: &mut Factors) {
         let count = self.contacts.len();
         if count < MANY || self.is_free.contains(&false) {
-            return Factors::Whole(LuFactors::new(self.matrix(laws)));
+            factors.by_slope = None;
+            let size = PLACES.len() * count;
+            return factors.own.replace(size, |matrix| self.fill_matrix(laws, weights, matrix));
         }
-        let compliance = &self.followed[MIDDLE].compliance;
+        let middle = &self.followed[MIDDLE];
         let laws = &laws[MIDDLE * count..(MIDDLE + 1) * count];
-        let scaled = |part: usize| DMatrix::from_fn(count, count, |r, c| compliance[(r, c)] * laws[c][part]);
+        let scaled =
+            |part: usize| DMatrix::from_fn(count, count, |r, c| middle.compliance(r, c) * laws[c][part]);
         let in_place = DMatrix::identity(count, count) + scaled(1);
-        Factors::OfOnePlace { in_place: LuFactors::new(in_place), by_slope: scaled(2) / self.h }
+        *factors = Factors { own: LuFactors::new(in_place), by_slope: Some(scaled(2) / self.h) };
     }
 
-    /// Derivatives of the residual by the differences.
-    fn matrix(&self, laws: &[[f64; 3]]) -> DMatrix<f64> {
+    /// Adds the derivatives of the residual by the differences, column by column.
+    fn fill_matrix(&self, laws: &[[f64; 3]], weights: &[[f64; 4]; 4], matrix: &mut Vec<f64>) {
         let count = self.contacts.len();
         let size = PLACES.len() * count;
-        let mut matrix = DMatrix::identity(size, size);
-        for (a, node) in self.followed.iter().enumerate() {
-            let weights = slopes(PLACES[a]);
+        matrix.resize(size * size, 0.0);
+        matrix.iter_mut().step_by(size + 1).for_each(|own| *own = 1.0);
+        for (a, (node, weights)) in self.followed.iter().zip(weights).enumerate() {
             for r in (0..count).filter(|&r| self.is_solved(a, r)) {
                 let row = a * count + r;
                 for (c, [_, by_place, by_rate]) in laws[a * count..(a + 1) * count].iter().enumerate() {
-                    let compliance = node.compliance[(r, c)];
-                    matrix[(row, a * count + c)] += compliance * by_place;
+                    let compliance = node.compliance(r, c);
+                    matrix[(a * count + c) * size + row] += compliance * by_place;
                     for (b, weight) in weights.iter().enumerate() {
-                        matrix[(row, b * count + c)] += compliance * by_rate * weight / self.h;
+                        matrix[(b * count + c) * size + row] += compliance * by_rate * weight / self.h;
                     }
                 }
             }
         }
-        matrix
     }
 
     /// Sets the penetration rates of the interpolated state `at`, at the fraction `share` of the step.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
-    pub fn set_rates(&self, solver: &mut Solver, share: f64, at: &mut State) -> Result<(), Error> {
+    pub fn set_rates(&mut self, solver: &mut Solver, share: f64, at: &mut State) -> Result<(), Error> {
         if self.contacts.is_empty() {
             return Ok(());
         }
         solver.update(at)?;
-        let Some(followed) = solver.followed(at, &self.contacts, &self.stiffness) else { return Ok(()) };
-        let weights = slopes(share);
+        if !solver.follow(at, &self.contacts, &self.stiffness, &mut self.at_sample) {
+            return Ok(());
+        }
+        let (followed, weights) = (&self.at_sample, slopes(share));
         for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
             at.p_rate[i] = followed.rate[r] + self.slope(weights, r);
         }
@@ -242,26 +273,32 @@ impl Penetrations {
 /// x = sum over j from 0 to 3 of (-1)^j d^j B^j (I + G K)^-1 r,
 ///
 /// which takes factors of the order of the contacts in place of four times that.
-enum Factors {
-    Whole(LuFactors),
-    OfOnePlace {
-        /// I + G K.
-        in_place: LuFactors,
-        /// G C/h.
-        by_slope: DMatrix<f64>,
-    },
+#[derive(Default)]
+struct Factors {
+    /// Of the whole matrix; where the compliance is that of one place, of I + G K.
+    own: LuFactors,
+    /// G C/h of the one place.
+    by_slope: Option<DMatrix<f64>>,
 }
 
 impl Factors {
-    /// The change of the differences that brings `residual` to zero; `None` where the factors are singular.
-    fn solve(&self, residual: &DVector<f64>) -> Option<DVector<f64>> {
-        let (in_place, by_slope) = match self {
-            Factors::Whole(factors) => return factors.solve(residual),
-            Factors::OfOnePlace { in_place, by_slope } => (in_place, by_slope),
-        };
+    /// Replaces the `residual` by the change of the differences that brings it to zero; false where the factors are
+    /// singular.
+    fn solve(&self, residual: &mut [f64]) -> bool {
+        let Some(by_slope) = &self.by_slope else { return self.own.solve(residual) };
+        let solved = self.solve_by_series(by_slope, residual);
+        if let Some(solved) = &solved {
+            let solved = solved.iter().flat_map(|own| own.iter());
+            residual.iter_mut().zip(solved).for_each(|(change, own)| *change = *own);
+        }
+        solved.is_some()
+    }
+
+    fn solve_by_series(&self, by_slope: &DMatrix<f64>, residual: &[f64]) -> Option<Vec<DVector<f64>>> {
+        let solve = |mut right: DVector<f64>| self.own.solve(right.as_mut_slice()).then_some(right);
         let count = by_slope.nrows();
         let mut term = (0..PLACES.len())
-            .map(|a| in_place.solve(&residual.rows(a * count, count).into_owned()))
+            .map(|a| solve(DVector::from_column_slice(&residual[a * count..(a + 1) * count])))
             .collect::<Option<Vec<_>>>()?;
         let mut sum = term.clone();
         for _ in 1..PLACES.len() {
@@ -269,12 +306,12 @@ impl Factors {
             let slope_at = |a: usize| {
                 let mut slope = DVector::zeros(count);
                 loads.iter().zip(slopes(PLACES[a])).for_each(|(load, weight)| slope.axpy(-weight, load, 1.0));
-                in_place.solve(&slope)
+                solve(slope)
             };
             term = (0..PLACES.len()).map(slope_at).collect::<Option<Vec<_>>>()?;
             sum.iter_mut().zip(&term).for_each(|(sum, term)| *sum += term);
         }
-        Some(DVector::from_iterator(PLACES.len() * count, sum.iter().flat_map(|own| own.iter().copied())))
+        Some(sum)
     }
 }
 
@@ -327,9 +364,11 @@ mod tests {
             }
         }
         let residual = DVector::from_fn(size, |i, _| (1.0 + i as f64).sin());
-        let expected = LuFactors::new(whole).solve(&residual).expect("the matrix is regular");
-        let factors = Factors::OfOnePlace { in_place: LuFactors::new(in_place), by_slope };
-        let found = factors.solve(&residual).expect("I + G K is regular");
+        let mut expected = residual.clone();
+        assert!(LuFactors::new(whole).solve(expected.as_mut_slice()), "the matrix is regular");
+        let factors = Factors { own: LuFactors::new(in_place), by_slope: Some(by_slope) };
+        let mut found = residual.clone();
+        assert!(factors.solve(found.as_mut_slice()), "I + G K is regular");
         assert!((&found - &expected).amax() < 1e-12 * expected.amax(), "{found} for {expected}");
     }
 }

@@ -57,6 +57,7 @@ impl Samples {
     /// Any error from evaluating the rails at the gauges.
     pub fn new(solver: &Solver, start: &State, wanted: bool) -> Result<Self, Error> {
         let mut recorder = Recorder::new(solver.system());
+        recorder.reserve_for(solver.system().scene);
         recorder.record(solver.system(), solver.geometry(), start)?;
         let steps = wanted.then(|| recorder.history().clone());
         let (begun, inside) = (Acting::of(solver), Vec::new());

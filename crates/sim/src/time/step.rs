@@ -53,8 +53,8 @@ pub(crate) struct Step<'a, 'b> {
     pub shortest_delay: f64,
     /// Whether the step just taken begins neither at a break nor at an event.
     pub begins_smoothly: bool,
-    /// Penetrations in the step just taken, from its first sample on.
-    penetrations: Option<Penetrations>,
+    /// Penetrations in the step just taken, known from its first sample on.
+    penetrations: Penetrations,
 }
 
 /// Working memory for the errors of a step: of displacements, speeds, penetration rates and forces.
@@ -92,7 +92,7 @@ impl<'a, 'b> Step<'a, 'b> {
             last_jump: start.t,
             shortest_delay: 0.0,
             begins_smoothly: false,
-            penetrations: None,
+            penetrations: Penetrations::default(),
             from: start.clone(),
             arrived: start.clone(),
             probe: start.clone(),
@@ -131,7 +131,7 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Starts the next step at the end of this one.
     pub fn begin(&mut self) {
-        self.penetrations = None;
+        self.penetrations.forget();
         self.from.copy_from(&self.to);
     }
 
@@ -248,26 +248,24 @@ impl<'a, 'b> Step<'a, 'b> {
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn sample(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
-        if self.penetrations.is_none() {
-            self.penetrations = Some(self.find_penetrations(at)?);
+        if !self.penetrations.is_known() {
+            self.find_penetrations(at)?;
         }
         self.interpolate(fraction, at)?;
-        match &self.penetrations {
-            Some(penetrations) => penetrations.set_rates(self.solver, fraction, at),
-            None => Ok(()),
-        }
+        self.penetrations.set_rates(self.solver, fraction, at)
     }
 
     /// Finds the penetrations in the step just taken; `at` is overwritten.
-    fn find_penetrations(&mut self, at: &mut State) -> Result<Penetrations, Error> {
+    fn find_penetrations(&mut self, at: &mut State) -> Result<(), Error> {
         let settled = if self.begins_smoothly { f64::INFINITY } else { self.shortest_delay };
-        let mut penetrations = Penetrations::new(self.solver, &self.from, self.length(), settled);
-        for fraction in penetrations.fractions() {
+        let h = self.length();
+        self.penetrations.begin(self.solver, &self.from, h, settled);
+        for fraction in self.penetrations.fractions() {
             self.interpolate(fraction, at)?;
-            penetrations.add(self.solver, at)?;
+            self.penetrations.add(self.solver, at)?;
         }
-        penetrations.solve(self.solver);
-        Ok(penetrations)
+        self.penetrations.solve(self.solver);
+        Ok(())
     }
 
     /// Sets `at` to the interpolating polynomials of the step just taken; collocation has its own for the motion.

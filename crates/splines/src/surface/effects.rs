@@ -198,14 +198,14 @@ impl InfluenceLines {
         if out.len() != n {
             return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [n, 1] });
         }
-        let row = self.rails.row(at)?;
+        let mut row = ShapeRow::EMPTY;
+        self.rails.row_into(at, &mut row)?;
         out.fill(0.0);
         let entries = row.indices().iter().zip(row.values());
         // Zero times an infinite effect would not be a number.
         for (&index, &shape) in entries.filter(|(_, shape)| **shape != 0.0) {
-            for (sum, entry) in out.iter_mut().zip(self.rows.column(index)) {
-                *sum += shape * entry;
-            }
+            let column = &self.rows.as_slice()[index * n..(index + 1) * n];
+            out.iter_mut().zip(column).for_each(|(sum, entry)| *sum += shape * entry);
         }
         let element = &self.rails.elements()[row.element];
         if let Some(carrier) = element.member.filter(|_| !element.is_rigid_arm()) {

@@ -41,12 +41,23 @@ struct OnMember {
 /// The shape row of a probe in whose direction the structure has stiffness.
 pub(super) fn restrained_row(rails: &Rails, nodal: &DMatrix<f64>, at: Probe) -> Result<ShapeRow, Error> {
     let mut row = ShapeRow::EMPTY;
-    rails.row_into(at, &mut row)?;
+    restrained_row_into(rails, nodal, at, &mut row)?;
+    Ok(row)
+}
+
+/// [`restrained_row`] into memory that the caller has.
+fn restrained_row_into(
+    rails: &Rails,
+    nodal: &DMatrix<f64>,
+    at: Probe,
+    row: &mut ShapeRow,
+) -> Result<(), Error> {
+    rails.row_into(at, row)?;
     let is_free = |(&dof, value): (&usize, &f64)| *value != 0.0 && nodal[(dof, dof)] == f64::INFINITY;
     if row.indices().iter().zip(row.values()).any(is_free) {
         return Err(Error::NoStiffness { rail: at.rail, x: at.x, axis: at.axis });
     }
-    Ok(row)
+    Ok(())
 }
 
 impl<'s> SurfacePlaces<'s> {
@@ -100,13 +111,14 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
         if out.len() != rows {
             return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [rows, 1] });
         }
-        let mut forces = vec![0.0; self.nodal.nrows()];
-        let mut moved = vec![0.0; self.nodal.nrows()];
+        let mut states = vec![0.0; 2 * self.nodal.nrows()];
+        let (forces, moved) = states.split_at_mut(self.nodal.nrows());
+        let mut row = ShapeRow::EMPTY;
         let (out, others) = out.split_at_mut(self.places.len());
         out.fill(0.0);
         let mut loaded = Vec::with_capacity(loads.len());
         for (probe, force) in loads {
-            let row = restrained_row(self.rails, self.nodal, *probe)?;
+            restrained_row_into(self.rails, self.nodal, *probe, &mut row)?;
             let entries = row.indices().iter().zip(row.values());
             entries.for_each(|(&dof, shape)| forces[dof] += shape * force);
             let own = self.members[row.element][row.axis].get_or_init(|| self.on_member(&row));
@@ -132,7 +144,7 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
             first = *end;
         }
         for (probe, out) in also.iter().zip(others) {
-            let row = restrained_row(self.rails, self.nodal, *probe)?;
+            restrained_row_into(self.rails, self.nodal, *probe, &mut row)?;
             let entries = row.indices().iter().zip(row.values()).filter(|(_, shape)| **shape != 0.0);
             *out = entries.map(|(&dof, shape)| shape * moved[dof]).sum();
             for (element, axis, place, force) in &loaded {

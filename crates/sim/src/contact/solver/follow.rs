@@ -8,18 +8,35 @@ use crate::numerics::dense::along;
 use crate::numerics::lu::LuFactors;
 
 /// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
-/// their rates g'.
+/// their rates g'. Its memory serves for one state after the other.
+#[derive(Default)]
 pub(crate) struct Followed {
-    pub approach: DVector<f64>,
-    pub compliance: DMatrix<f64>,
-    pub value: DVector<f64>,
-    pub rate: DVector<f64>,
+    pub approach: Vec<f64>,
+    /// Row by row.
+    compliance: Vec<f64>,
+    pub value: Vec<f64>,
+    pub rate: Vec<f64>,
+    speed: Vec<f64>,
+    factors: LuFactors,
+}
+
+impl Followed {
+    /// Compliance of contact `r` under the force of contact `c`.
+    pub fn compliance(&self, r: usize, c: usize) -> f64 {
+        self.compliance[r * self.approach.len() + c]
+    }
+}
+
+/// Replaces the contents of a vector.
+fn set<T>(out: &mut Vec<T>, values: impl Iterator<Item = T>) {
+    out.clear();
+    out.extend(values);
 }
 
 impl Solver<'_> {
     /// The active vertical contacts.
-    pub fn active_contacts(&self) -> Vec<usize> {
-        (0..self.system.verticals()).filter(|&i| self.active.has(i)).collect()
+    pub fn active_contacts(&self) -> impl Iterator<Item = usize> {
+        (0..self.system.verticals()).filter(|&i| self.active.has(i))
     }
 
     /// Derivative of the force of vertical contact `i` by its penetration and by its rate, preceded by the force, at
@@ -43,29 +60,37 @@ impl Solver<'_> {
         }
     }
 
-    /// The `contacts` with springs of the given `stiffness` at `at`, for which the geometry must be current. The rate of
-    /// e contains the motion of the wheels along the rail, and the rate of G that of all wheels: dG_ij/dt = x_i'
-    /// dG_ij/dx_i + x_j' dG_ji/dx_j, for a symmetric compliance. `None` if the matrix is singular, or if forces of other
-    /// elements deflect the rails below these wheels.
-    pub fn followed(&self, at: &State, contacts: &[usize], stiffness: &[f64]) -> Option<Followed> {
+    /// Sets `out` to the `contacts` with springs of the given `stiffness` at `at`, for which the geometry must be current.
+    /// The rate of e contains the motion of the wheels along the rail, and the rate of G that of all wheels: dG_ij/dt = x_i'
+    /// dG_ij/dx_i + x_j' dG_ji/dx_j, for a symmetric compliance. Returns false if the matrix is singular, or if forces of
+    /// other elements deflect the rails below these wheels.
+    pub fn follow(&self, at: &State, contacts: &[usize], stiffness: &[f64], out: &mut Followed) -> bool {
         let (count, m) = (contacts.len(), at.force.len());
         let (rows, rails) = (self.geometry.rows(), self.geometry.rails());
         // Forces of other elements that deflect the rails below these wheels are not included.
         let is_other = |j: &usize| at.force[*j] != 0.0 && !contacts.contains(j);
         let is_coupled = |j: usize| contacts.iter().any(|&i| rails.value[i * m + j] != 0.0);
         if (0..m).filter(is_other).any(is_coupled) {
-            return None;
+            return false;
         }
-        let speed: Vec<f64> = contacts.iter().map(|&i| self.system.contact_speed(i, at)).collect();
-        let approach = DVector::from_fn(count, |r, _| self.geometry.approach(contacts[r], &at.q));
-        let compliance = DMatrix::from_fn(count, count, |r, c| rails.value[contacts[r] * m + contacts[c]]);
-        let matrix = DMatrix::from_fn(count, count, |r, c| {
-            f64::from(u8::from(r == c)) + compliance[(r, c)] * stiffness[c]
+        let Followed { approach, compliance, value, rate, speed, factors } = out;
+        set(speed, contacts.iter().map(|&i| self.system.contact_speed(i, at)));
+        set(approach, contacts.iter().map(|&i| self.geometry.approach(i, &at.q)));
+        compliance.clear();
+        for &i in contacts {
+            compliance.extend(contacts.iter().map(|&j| rails.value[i * m + j]));
+        }
+        factors.replace(count, |matrix| {
+            for (c, stiffness) in stiffness.iter().enumerate() {
+                let own = |r: usize| f64::from(u8::from(r == c)) + compliance[r * count + c] * stiffness;
+                matrix.extend((0..count).map(own));
+            }
         });
-        let factors = LuFactors::new(matrix);
-        let value = factors.solve(&approach)?;
-        let rate = DVector::from_fn(count, |r, _| {
-            let i = contacts[r];
+        value.clone_from(approach);
+        if !factors.solve(value) {
+            return false;
+        }
+        let rate_of = |(r, &i): (usize, &usize)| {
             let slope = rows.rise[i] - self.geometry.shape_slope(i, &at.q);
             let mut rate = along(&rows.approach, i, at.v.as_slice()) + slope * speed[r];
             for (c, &j) in contacts.iter().enumerate() {
@@ -73,9 +98,9 @@ impl Solver<'_> {
                 rate -= passing * stiffness[c] * value[c];
             }
             rate
-        });
-        let rate = factors.solve(&rate)?;
-        Some(Followed { approach, compliance, value, rate })
+        };
+        set(rate, contacts.iter().enumerate().map(rate_of));
+        factors.solve(rate)
     }
 
     /// Whether a damper acts between the wheel of active vertical contact `i` and a rail with mass, or a rigid one.
@@ -90,12 +115,12 @@ impl Solver<'_> {
     /// (I + G K) r = e' - G' F, with the stiffnesses K of the laws. The geometry must belong to `at`. Returns false if
     /// there are no such contacts.
     pub fn follow_rails(&self, at: &mut State) -> bool {
-        let contacts = self.active_contacts();
+        let contacts: Vec<usize> = self.active_contacts().collect();
         if !contacts.iter().any(|&i| self.is_damped_by_mass(i)) {
             return false;
         }
         let (count, m, rails) = (contacts.len(), at.force.len(), self.geometry.rails());
-        let rates = DVector::from_fn(count, |r, _| {
+        let mut rates = DVector::from_fn(count, |r, _| {
             let i = contacts[r];
             let passing = contacts
                 .iter()
@@ -107,7 +132,9 @@ impl Solver<'_> {
             let own = f64::from(u8::from(r == c));
             own + rails.value[contacts[r] * m + contacts[c]] * stiffness(contacts[c])
         });
-        let Some(rates) = LuFactors::new(matrix).solve(&rates) else { return false };
+        if !LuFactors::new(matrix).solve(rates.as_mut_slice()) {
+            return false;
+        }
         for (&i, rate) in contacts.iter().zip(rates.iter()).filter(|(i, _)| self.is_damped_by_mass(**i)) {
             at.p_rate[i] = *rate;
         }

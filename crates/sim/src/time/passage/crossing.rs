@@ -244,7 +244,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let softness =
             self.contacts.softness.iter().take(system.elements.len()).fold(0.0_f64, |max, s| max.max(*s));
         let mut recorder = Recorder::new(system);
-        recorder.reserve((scene.end / scene.output_dt).min(1e6) as usize);
+        recorder.reserve_for(scene);
         let mut counts = Counts::default();
         let quick = |i: usize| self.contacts.softness[i] / self.contacts.mobile[i][i];
         let quickest = (0..system.elements.len()).map(quick).fold(f64::INFINITY, f64::min);
