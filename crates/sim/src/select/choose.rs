@@ -118,8 +118,9 @@ struct Trial {
     run: Run,
     /// The history at the output times.
     record: Record,
-    /// The accuracy of the run.
+    /// The accuracy of the run, and its number of samples in each output interval.
     accuracy: f64,
+    parts: usize,
     /// Its number, from 1.
     number: usize,
 }
@@ -224,8 +225,9 @@ impl Open {
 struct Search<'a, L: FoundationProvider> {
     /// The scene with the sampling of the trials.
     scene: Scene,
-    /// Accuracy of the result.
+    /// Accuracy of the result, and whether it records the ends of its steps.
     accuracy: f64,
+    records_steps: bool,
     tolerances: &'a [Option<Tolerance>],
     provider: &'a mut L,
     watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -250,7 +252,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let most = SAMPLES[1] * scene.output_dt / scene.end;
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
-        Search { scene, accuracy, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
+        let records_steps = scene.records_steps;
+        Search { scene, accuracy, records_steps, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
     }
 
     /// The structures whose choice depends on runs. The choices of the others are made.
@@ -310,6 +313,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             })
             .collect::<Result<Vec<_>, _>>()?;
         self.scene.accuracy = accuracy;
+        // only a run with the accuracy of the result may become the result
+        self.scene.records_steps = self.records_steps && accuracy <= self.accuracy;
         let run = self.provider.run(&self.scene, &foundations, self.watch)?;
         self.runs += 1;
         let mut record = Record::default();
@@ -318,7 +323,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let history = run.history.clone().every(self.scene.output_parts, is_ended);
             record = self.provider.observe(&history)?;
         }
-        Ok(Trial { fidelities: fidelities.to_vec(), foundations, run, record, accuracy, number: self.runs })
+        let (fidelities, parts, number) = (fidelities.to_vec(), self.scene.output_parts, self.runs);
+        Ok(Trial { fidelities, foundations, run, record, accuracy, parts, number })
     }
 
     /// The bounces of the wheels in a run.
@@ -622,6 +628,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     /// by more than [`BY_STEPS`] of the tolerance, it is repeated with finer steps, at most [`REPETITIONS`] times.
     fn repeated(&mut self, open: &[Open], mut trial: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
         let strictest = self.strictest(open, &vec![1; open.len()]);
+        // the forces of a result do not act on the modes: the times of the record suffice
+        self.scene.output_parts = 1;
         for _ in 0..REPETITIONS {
             if trial.accuracy <= self.accuracy {
                 break;
@@ -770,7 +778,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     fn finish(mut self, chosen: Trial) -> Selection {
         let mut run = chosen.run;
         let is_ended = matches!(run.status, Status::Ended(_));
-        run.history = run.history.every(self.scene.output_parts, is_ended);
+        run.history = run.history.every(chosen.parts, is_ended);
         let remembered = remembered_bounces(&self.scene);
         for choice in &mut self.choices {
             let asks_for_phases =
