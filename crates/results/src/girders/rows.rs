@@ -61,8 +61,6 @@ pub(super) enum Recorded<'a> {
     Rows(&'a History),
     /// The same, and the ends of its steps.
     Steps(&'a History),
-    /// The same, and times inside of its steps.
-    Inside(&'a History),
 }
 
 /// Repeats a run with a number of rows in each output interval; `None` if it cannot be repeated.
@@ -72,8 +70,7 @@ pub(super) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 ///
 /// Where the ends of steps were recorded, the extremes are those at the ends of steps and between them: those
 /// between which loads and motions are straight lines to 1e-5 of the largest. By how much they change from those of a tolerance
-/// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run. Where long steps were sampled
-/// inside, they are compared with those at every second one of these times.
+/// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run.
 ///
 /// Otherwise the extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
@@ -89,7 +86,7 @@ pub(super) fn of_run(
 ) -> GirderExtremes {
     let girders = &prepared.girders;
     let mut out = prepared.without_rows();
-    let (Recorded::Rows(history) | Recorded::Steps(history) | Recorded::Inside(history)) = recorded;
+    let (Recorded::Rows(history) | Recorded::Steps(history)) = recorded;
     let is_known = |girders: &&PreparedGirders<'_>| {
         let s = girders.structure();
         foundations[s].dofs() == 0 || history.position(Channel::Coordinate(s, 0)).is_some()
@@ -102,7 +99,6 @@ pub(super) fn of_run(
     let (found, finer) = match recorded {
         Recorded::Rows(rows) => all.by_repetition(rows, repeat),
         Recorded::Steps(steps) => (all.attempt(steps, RowChoice::Needed), None),
-        Recorded::Inside(steps) => (all.attempt(steps, RowChoice::Sampled), None),
     };
     let history = finer.as_ref().unwrap_or(history);
     let loads = WheelLoadReader::new(scene, input, history);

@@ -2,7 +2,7 @@
 
 use formats::scene::Scene;
 use sim::{Channel, Foundation, History};
-use trains::{GirderResponse, MemberForces, RailLoad};
+use trains::{GirderResponse, MemberForces};
 
 use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
@@ -27,12 +27,6 @@ const MAX_VALUES: usize = 2_000_000;
 /// Tolerances within which loads are straight lines between the rows that are needed, and the largest number of values of
 /// these rows, finer and coarser. Also where the number of values decides, the finer ones are more.
 const NEEDED: [(f64, usize); 2] = [(1e-5, 3 * MAX_VALUES), (1e-4, MAX_VALUES)];
-/// Largest number of values that a scan evaluates of the rows of long steps.
-const MAX_SAMPLED: usize = 3 * MAX_VALUES;
-/// Distance from an end of a member, relative to its coordinate, within which a load is at it.
-const AT_END: f64 = 1e-6;
-/// Number of rows beside such a row that are kept: cubic polynomials do not extend across it.
-const BESIDE: usize = 4;
 /// Number of rows above which deflections are evaluated at fewer rows.
 const MAX_DEFLECTIONS: usize = 500;
 /// The same for the ends of steps, between which deflections are less even.
@@ -67,10 +61,6 @@ pub(super) enum RowChoice {
     /// Those between which loads differ from straight lines by more than the tolerances [`NEEDED`], finer and coarser,
     /// relative to the largest load. They are raised until there are no more than [`MAX_VALUES`] of all rows.
     Needed,
-    /// Every row and every second one, at most [`MAX_SAMPLED`] values, and in both the rows at which a load is at an end of a
-    /// member, with those beside them: rows at the ends of long steps and inside of them, where steps end as wheels pass ends
-    /// of members.
-    Sampled,
 }
 
 /// Rows of a history that are evaluated.
@@ -150,14 +140,6 @@ impl<'a> PreparedGirders<'a> {
     fn chosen(&self, Rows { history, loads, foundations }: Rows<'_>, choice: RowChoice) -> ChosenRows {
         let width = self.width(history, loads).max(1);
         let all: Vec<usize> = (0..history.len()).collect();
-        if choice == RowChoice::Sampled {
-            let at_ends = self.rows_at_ends(history, loads);
-            let stride = (history.len() * width).div_ceil(MAX_SAMPLED).max(1);
-            let rows = with(every(&all, stride), &at_ends);
-            let kept = (0..rows.len()).filter(|index| at_ends.binary_search(&rows[*index]).is_ok());
-            let coarse = with(every(&(0..rows.len()).collect::<Vec<_>>(), 2), &kept.collect::<Vec<_>>());
-            return ChosenRows { rows, stride: 1, coarse, most_deflections: MAX_STEPS };
-        }
         if choice == RowChoice::Needed {
             // places, forces, displacements and accelerations
             let of_loads =
@@ -179,21 +161,6 @@ impl<'a> PreparedGirders<'a> {
         let rows = every(&all, stride);
         let coarse = every(&(0..rows.len()).collect::<Vec<_>>(), 2);
         ChosenRows { rows, stride, coarse, most_deflections: MAX_DEFLECTIONS }
-    }
-
-    /// Rows at which a load is at an end of a member of its rail, and the [`BESIDE`] rows on both sides of them.
-    fn rows_at_ends(&self, history: &History, loads: &WheelLoadReader) -> Vec<usize> {
-        let is_at_end = |load: &RailLoad| {
-            let own = self.members.members().filter(|member| member.rail == load.rail);
-            own.flat_map(|member| member.x).any(|x| (load.x - x).abs() <= AT_END * x.abs().max(1.0))
-        };
-        let at_end = |row: &usize| {
-            let sample = history.sample(*row);
-            loads.on(self.s).any(|source| is_at_end(&source.load_in(sample)))
-        };
-        let at_ends = (0..history.len()).filter(at_end);
-        let beside = |row: usize| row.saturating_sub(BESIDE)..(row + BESIDE + 1).min(history.len());
-        with(at_ends.flat_map(beside).collect(), &[])
     }
 
     fn loaded<'b>(
@@ -266,14 +233,6 @@ impl<'a> PreparedGirders<'a> {
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
         (extremes, all, stresses, reactions)
     }
-}
-
-/// Numbers of two increasing lists, each once, in order.
-fn with(mut numbers: Vec<usize>, more: &[usize]) -> Vec<usize> {
-    numbers.extend(more);
-    numbers.sort_unstable();
-    numbers.dedup();
-    numbers
 }
 
 /// Every so many of the rows, and the last one.

@@ -65,7 +65,7 @@ pub struct Scene {
     pub output_dt: f64,
     /// Number of samples of the history in each output interval, at least 1.
     pub output_parts: usize,
-    /// Whether [`crate::Run::steps`] has samples at the end of every step, and at the nodes of collocation methods.
+    /// Whether [`crate::Run::steps`] has a sample at the end of every step of [`crate::Method::Sdirk4`].
     pub records_steps: bool,
     /// Required relative accuracy of displacements and forces.
     pub accuracy: f64,

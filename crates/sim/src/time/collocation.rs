@@ -69,9 +69,6 @@ const STORED: usize = 12;
 /// a higher order than the motion by the polynomials of the accelerations at the nodes.
 const FEW: usize = 3;
 
-/// Fraction of a step from its start within which a node is no sample beside it.
-const CLOSE: f64 = 0.1;
-
 /// Error of a penetration rate at the end of a step, per unit of the difference from its extrapolation.
 const RATE_SHARE: f64 = 0.05;
 
@@ -158,13 +155,6 @@ impl Collocation {
     /// Number of nodes.
     pub fn count(&self) -> usize {
         self.nodes.count()
-    }
-
-    /// Geometries and states at the nodes inside the step just taken, but for those very close to its start.
-    pub fn inner_nodes(&self) -> impl Iterator<Item = (&Geometry, &State)> {
-        let is_inner = |c: &f64| (CLOSE..1.0).contains(c);
-        let nodes = self.nodes.c.iter().zip(self.geometries.iter().zip(&self.states));
-        nodes.filter(move |(c, _)| is_inner(c)).map(|(_, node)| node)
     }
 
     /// Energy exchanged in the step, by the quadrature of the collocation method.

@@ -1,5 +1,4 @@
-//! Samples of a run at its output times, which generally lie inside steps, and at the ends of steps. The steps of collocation
-//! methods are longer than cubic polynomials between their ends are exact, and have samples at their nodes as well.
+//! Samples of a run at its output times, which generally lie inside steps, and at the ends of steps.
 
 use super::stepper::Stepper;
 use crate::contact::active::ActiveSet;
@@ -15,10 +14,8 @@ const MOST_VALUES: usize = 10_000_000;
 /// Recorder of the history at the output times, and of that with the ends of steps.
 pub(crate) struct Samples {
     recorder: Recorder,
-    /// The history with the ends of steps; `None` where it is not wanted.
-    steps: Option<History>,
-    /// Samples inside the step just taken and at its end that are no output times, by increasing time.
-    inside: Vec<f64>,
+    /// The history with the ends of steps, and the sample at the end of the last one; `None` where it is not wanted.
+    steps: Option<(History, Vec<f64>)>,
     /// Index of the next output time.
     next: u64,
     sample: State,
@@ -59,9 +56,9 @@ impl Samples {
         let mut recorder = Recorder::new(solver.system());
         recorder.reserve_for(solver.system().scene);
         recorder.record(solver.system(), solver.geometry(), start)?;
-        let steps = wanted.then(|| recorder.history().clone());
-        let (begun, inside) = (Acting::of(solver), Vec::new());
-        Ok(Samples { recorder, steps, inside, next: 1, sample: start.clone(), after: begun.clone(), begun })
+        let steps = wanted.then(|| (recorder.history().clone(), Vec::new()));
+        let begun = Acting::of(solver);
+        Ok(Samples { recorder, steps, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }
 
     /// Stores the active elements at the start of the next step; samples inside the step are computed with them.
@@ -78,15 +75,9 @@ impl Samples {
         let system = step.system();
         let (from, to) = (step.from.t, step.to.t);
         self.after.take(step.solver);
-        self.inside.clear();
-        if self.steps.is_some() {
-            // the geometry of the solver is that of the end until another time is sampled
-            self.recorder.row(system, step.solver.geometry(), &step.to, &mut self.inside)?;
-            let width = self.inside.len();
-            for (geometry, node) in step.inner_nodes() {
-                self.recorder.row(system, geometry, node, &mut self.inside)?;
-            }
-            self.inside.rotate_left(width);
+        if let Some((_, end)) = &mut self.steps {
+            end.clear();
+            self.recorder.row(system, step.solver.geometry(), &step.to, end)?;
         }
         let known = self.recorder.history().len();
         while system.scene.output_time(self.next) <= to {
@@ -109,23 +100,17 @@ impl Samples {
         Ok(())
     }
 
-    /// Adds the samples at the ends of output intervals and those inside the step just taken to those of the steps, by
-    /// increasing time. Output samples from number `known` on are new; every `parts`-th one ends an interval.
+    /// Adds the samples at the ends of output intervals to those of the steps, and the one at the end of the step just taken,
+    /// unless it is among them. Samples from number `known` on are new; every `parts`-th one ends an interval.
     fn add_step(&mut self, known: usize, parts: usize) {
-        let Some(steps) = &mut self.steps else { return };
-        let history = self.recorder.history();
+        let Some((steps, end)) = &mut self.steps else { return };
         let mut values = steps.take_values();
-        let width = history.channels().len();
-        let mut inside = self.inside.chunks_exact(width).peekable();
-        for k in (known..history.len()).filter(|k| k.is_multiple_of(parts)) {
-            let sample = history.sample(k);
-            while let Some(before) = inside.next_if(|own| own[0] < sample[0]) {
-                values.extend(before);
-            }
-            inside.next_if(|own| own[0] == sample[0]);
-            values.extend(sample);
+        let history = self.recorder.history();
+        let ends = (known..history.len()).filter(|k| k.is_multiple_of(parts));
+        ends.for_each(|k| values.extend(history.sample(k)));
+        if values[values.len() - end.len()] < end[0] {
+            values.append(end);
         }
-        inside.for_each(|own| values.extend(own));
         let is_too_long = values.len() > MOST_VALUES;
         steps.put_values(values);
         if is_too_long {
@@ -148,6 +133,6 @@ impl Samples {
 
     /// Returns the samples at the output times, and those with the ends of steps.
     pub fn histories(self) -> [History; 2] {
-        [self.recorder.into_history(), self.steps.unwrap_or_default()]
+        [self.recorder.into_history(), self.steps.map_or_else(History::default, |(steps, _)| steps)]
     }
 }
