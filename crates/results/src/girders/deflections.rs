@@ -33,8 +33,9 @@ impl Refinement<'_> {
         let tracks = (0..self.scan.under.len() / spans.max(1))
             .map(|load| (load, &self.scan.under[self.scan.under(load, rail, span)][plane][kind]));
         let points = self.carried_points(wanted);
-        let heights: Vec<f64> = points.iter().map(|at| self.scan.points[*at][plane][kind].height).collect();
-        let under = tracks.clone().map(|(_, peak)| peak.height);
+        let heights: Vec<f64> =
+            points.iter().map(|at| self.scan.points[*at][plane][kind].highest.height).collect();
+        let under = tracks.clone().map(|(_, peak)| peak.highest.height);
         let best = heights.iter().copied().chain(under).fold(f64::NEG_INFINITY, f64::max);
         let least = best - NEAR * self.size(FORCES + plane);
         let mut found: Option<GirderValue> = None;
@@ -47,7 +48,7 @@ impl Refinement<'_> {
                 offer(&mut found, own);
             }
         }
-        for (load, peak) in tracks.filter(|(_, peak)| peak.height >= least) {
+        for (load, peak) in tracks.filter(|(_, peak)| peak.highest.height >= least) {
             offer(&mut found, self.under(wanted, load, peak));
         }
         found
@@ -69,7 +70,7 @@ impl Refinement<'_> {
 
     /// The largest deflection under a wheel while it is in the span.
     fn under(&self, wanted: Wanted, load: usize, peak: &Peak) -> Option<GirderValue> {
-        if peak.height == f64::NEG_INFINITY {
+        if peak.highest.height == f64::NEG_INFINITY {
             return None;
         }
         let girders = self.girders;

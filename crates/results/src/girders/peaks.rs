@@ -9,7 +9,8 @@ pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 ///
 /// A peak is a row whose neighbours are not higher; for the lowest the values count with the opposite sign. Peaks are
 /// compared by the vertex of the parabola through the three values, so that of two peaks between the rows the higher one is
-/// found.
+/// found. Where values jump from a row to the next, that vertex is far above them; so the peak with the largest value at its
+/// row is known as well.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Peaks {
     /// Row of the last value, the last two values, and how many of them there are.
@@ -21,15 +22,22 @@ pub(super) struct Peaks {
 
 /// A peak: height of its vertex, its row, and the value there, times the sign for which it is a peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Peak {
+pub(super) struct Vertex {
     pub height: f64,
     pub row: usize,
     pub value: f64,
 }
 
-impl Default for Peak {
-    fn default() -> Peak {
-        Peak { height: f64::NEG_INFINITY, row: 0, value: f64::NEG_INFINITY }
+/// The peak whose vertex is the highest, and the one with the largest value at its row.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Peak {
+    pub highest: Vertex,
+    pub largest: Vertex,
+}
+
+impl Default for Vertex {
+    fn default() -> Vertex {
+        Vertex { height: f64::NEG_INFINITY, row: 0, value: f64::NEG_INFINITY }
     }
 }
 
@@ -97,8 +105,12 @@ fn offer(found: &mut [Peak; 2], (row, own): (usize, f64), rise: Option<f64>, fal
             }
             _ => 0.0,
         };
-        if sign * own + bulge > peak.height {
-            *peak = Peak { height: sign * own + bulge, row, value: sign * own };
+        let vertex = Vertex { height: sign * own + bulge, row, value: sign * own };
+        if vertex.height > peak.highest.height {
+            peak.highest = vertex;
+        }
+        if vertex.value > peak.largest.value {
+            peak.largest = vertex;
         }
     }
 }
@@ -269,10 +281,23 @@ mod tests {
         peaks.finish();
         let [highest, lowest] = peaks.both();
         assert!(
-            (highest.height - 1.1).abs() < 1e-12 && (highest.row == 4 || highest.row == 5),
+            (highest.highest.height - 1.1).abs() < 1e-12 && [4, 5].contains(&highest.highest.row),
             "{highest:?}"
         );
+        let lowest = lowest.highest;
         assert!((lowest.value + wave(1.5, 1.1)).abs() < 1e-12 && lowest.row == 3, "{lowest:?}");
+    }
+
+    /// By hand: from 2.0 values fall to -3.0, and the parabola through 1.9, 2.0 and -3.0 is above 2.5; 2.2 is larger than 2.0.
+    #[test]
+    fn a_peak_beside_a_jump_does_not_hide_a_larger_one() {
+        let mut peaks = Peaks::default();
+        for (row, value) in [1.0, 2.2, 1.0, 1.9, 2.0, -3.0].into_iter().enumerate() {
+            peaks.add(row, value);
+        }
+        peaks.finish();
+        let [Peak { highest, largest }, _] = *peaks.both();
+        assert!(highest.row == 4 && highest.height > 2.5 && (largest.row, largest.value) == (1, 2.2));
     }
 
     /// Identity: many sequences have the peaks of each of them alone, also where rows are left out.

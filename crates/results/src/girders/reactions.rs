@@ -294,7 +294,6 @@ impl Refinement<'_> {
         let states = self.girders.states;
         let count = reactions.all.len();
         let mut peaks = vec![Peaks::default(); count];
-        let mut rows = vec![[NONE; 2]; count];
         let mut passages = vec![[NONE; 2]; count];
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
         let mut sizes = [0.0_f64; 2];
@@ -306,7 +305,6 @@ impl Refinement<'_> {
                 let size = &mut sizes[usize::from(reaction.direction >= Dof::Rx)];
                 *size = size.max(value.abs());
             }
-            keep_larger(&mut rows, &values, row as f64);
             if row > 0 {
                 for (position, state) in self.passed_corners(reactions, row - 1) {
                     reactions.fill(&state, &mut ordinates, &mut values);
@@ -322,20 +320,20 @@ impl Refinement<'_> {
             peaks.finish();
             let reaction = &reactions.all[index];
             let size = sizes[usize::from(reaction.direction >= Dof::Rx)];
-            let most = peaks.both().iter().fold(0.0_f64, |most, peak| most.max(peak.value.abs()));
+            let most = peaks.both().iter().fold(0.0_f64, |most, peak| most.max(peak.largest.value.abs()));
             for (kind, peak) in peaks.both().iter().enumerate() {
                 let refined = |position: f64| {
                     self.near_in_time(position, 1, &mut |position| {
                         SIGNS[kind] * reactions.value(index, &states.at(position))
                     })
                 };
-                let mut found = (peak.value, peak.row as f64);
+                let mut found = (peak.highest.value, peak.highest.row as f64);
                 // a value that is only rounding has no crest
                 if most > ROUNDING * size {
                     found = refined(found.1);
-                    // the crest beside the row of the largest value may be lower than the parabola of the peak says
-                    if rows[index][kind].0 > found.0 + ROUNDING * size {
-                        found = refined(rows[index][kind].1);
+                    // the crest beside the row of the highest vertex may be lower than its parabola says
+                    if peak.largest.value > found.0 + ROUNDING * size {
+                        found = refined(peak.largest.row as f64);
                     }
                 }
                 if passages[index][kind].0 > found.0 + ROUNDING * size {

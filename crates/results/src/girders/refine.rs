@@ -5,7 +5,7 @@ use trains::{GirderResponse, SectionSide};
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
 use super::instants::LoadState;
-use super::peaks::{Peak, SIGNS, largest, largest_between};
+use super::peaks::{Peak, SIGNS, Vertex, largest, largest_between};
 use super::scan::Scan;
 
 /// Largest number of evaluations for the peak between two rows.
@@ -75,7 +75,7 @@ impl Refinement<'_> {
         let section = &self.girders.sections.sections[at];
         let x = self.girders.sections.points[section.point].x;
         let peak = &self.scan.sections[at][quantity][kind];
-        if peak.height == f64::NEG_INFINITY {
+        if peak.highest.height == f64::NEG_INFINITY {
             return None;
         }
         let value = |position: f64| SIGNS[kind] * self.girders.forces(section, position)[quantity];
@@ -111,7 +111,7 @@ impl Refinement<'_> {
     pub fn point(&self, at: usize, plane: usize, kind: usize) -> Option<GirderValue> {
         let point = self.girders.sections.points[at];
         let peak = &self.scan.points[at][plane][kind];
-        if peak.height == f64::NEG_INFINITY {
+        if peak.highest.height == f64::NEG_INFINITY {
             return None;
         }
         let mut value =
@@ -134,19 +134,30 @@ impl Refinement<'_> {
     }
 
     /// The largest value in the two intervals beside the row of a peak, at whose ends it is not larger; the value at the row
-    /// where the values beside it show that no larger one lies between the rows.
+    /// where the values beside it show that no larger one lies between the rows. Where the peak with the highest vertex turns
+    /// out lower than the one with the largest value may be, that one is followed as well.
     pub fn over_time(
         &self,
         (peak, stride): (&Peak, usize),
         quantity: usize,
         value: &mut dyn FnMut(f64) -> f64,
     ) -> (f64, f64) {
-        let known = (peak.value, (peak.row * stride) as f64);
-        let ends = self.rows_beside(known.1, stride);
-        if peak.height - peak.value <= 1e-2 * self.accuracy * self.size(quantity) || ends[1] <= ends[0] {
-            return known;
+        let mut near = |vertex: &Vertex| {
+            let known = (vertex.value, (vertex.row * stride) as f64);
+            let ends = self.rows_beside(known.1, stride);
+            if vertex.height - vertex.value <= 1e-2 * self.accuracy * self.size(quantity)
+                || ends[1] <= ends[0]
+            {
+                return known;
+            }
+            largest_between(ends, known, EVALUATIONS, &mut *value)
+        };
+        let found = near(&peak.highest);
+        if peak.largest.row == peak.highest.row || peak.largest.height <= found.0 {
+            return found;
         }
-        largest_between(ends, known, EVALUATIONS, value)
+        let other = near(&peak.largest);
+        if other.0 > found.0 { other } else { found }
     }
 
     /// The times `stride` rows before a row and behind it, within the run.

@@ -62,18 +62,19 @@ impl Refinement<'_> {
                 (load, behind, &wheels[self.scan.wheel(load, behind, rail, span)][quantity][kind])
             })
             .collect();
-        let heights = own.iter().map(|at| peaks[*at][quantity][kind].height);
-        let best = heights.chain(tracks.iter().map(|track| track.2.height)).fold(f64::NEG_INFINITY, f64::max);
+        let values = own.iter().map(|at| peaks[*at][quantity][kind].largest.value);
+        let values = values.chain(tracks.iter().map(|track| track.2.largest.value));
+        let best = values.fold(f64::NEG_INFINITY, f64::max);
         let least = best - NEAR * self.size(quantity);
         let mut found: Option<GirderValue> = None;
         for &at in &own {
-            let is_near = peaks[at][quantity][kind].height >= least;
+            let is_near = peaks[at][quantity][kind].highest.height >= least;
             offer(&mut found, self.section(at, quantity, kind, is_near));
         }
         if let Some(own) = found.filter(|own| own.own.is_none() && !self.girders.distributed.is_empty()) {
             offer(&mut found, self.along(rail, span, quantity, kind, own));
         }
-        for (load, behind, peak) in tracks.into_iter().filter(|track| track.2.height >= least) {
+        for (load, behind, peak) in tracks.into_iter().filter(|track| track.2.highest.height >= least) {
             offer(&mut found, self.beside(rail, span, (load, behind), quantity, kind, peak));
         }
         found
@@ -89,7 +90,7 @@ impl Refinement<'_> {
         kind: usize,
         peak: &Peak,
     ) -> Option<GirderValue> {
-        if peak.height == f64::NEG_INFINITY {
+        if peak.highest.height == f64::NEG_INFINITY {
             return None;
         }
         let girders = self.girders;
