@@ -20,7 +20,8 @@ pub(super) struct Region {
 ///
 /// `x` are the coordinates of the columns, `y` those of the rows, both increasing, and `values[row][column]` the values
 /// there. Each cell is clipped to the part at or above the level (marching squares). The parts in neighbouring cells of
-/// a row are joined to one polygon; neighbours that are whole are one rectangle. A cell whose largest value equals the level is omitted.
+/// a row are joined to one polygon; neighbours that are whole are one rectangle. A cell whose largest value equals the level
+/// is omitted.
 pub(super) fn region(x: &[f64], y: &[f64], values: &[Vec<f64>], level: f64) -> Region {
     let mut found = Region::default();
     for row in 1..y.len() {

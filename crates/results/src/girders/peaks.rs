@@ -79,11 +79,6 @@ impl Peaks {
         self.count = 0;
     }
 
-    /// The highest and the lowest peak.
-    pub fn both(&self) -> &[Peak; 2] {
-        &self.found
-    }
-
     /// Considers the last value, now that the next one is known.
     fn offer(&mut self, next: Option<f64>) {
         let [before, own] = self.values;
@@ -279,7 +274,7 @@ mod tests {
             peaks.add(3 + row, wave(x, 1.1));
         }
         peaks.finish();
-        let [highest, lowest] = peaks.both();
+        let [highest, lowest] = peaks.found;
         assert!(
             (highest.highest.height - 1.1).abs() < 1e-12 && [4, 5].contains(&highest.highest.row),
             "{highest:?}"
@@ -296,7 +291,7 @@ mod tests {
             peaks.add(row, value);
         }
         peaks.finish();
-        let [Peak { highest, largest }, _] = *peaks.both();
+        let [Peak { highest, largest }, _] = peaks.found;
         assert!(highest.row == 4 && highest.height > 2.5 && (largest.row, largest.value) == (1, 2.2));
     }
 

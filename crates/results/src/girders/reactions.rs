@@ -14,7 +14,7 @@ use splines::{Axis, InfluenceLines, Probe, RailElement};
 use trains::{MemberForces, RailLoad};
 
 use super::instants::LoadState;
-use super::peaks::{Peaks, SIGNS};
+use super::peaks::{PeakRows, SIGNS};
 use super::refine::Refinement;
 use crate::response::{ColumnEnvelope, dead_load, inertia, relative_direction};
 use foundations::{BuiltFoundation, SolvedModel};
@@ -293,15 +293,15 @@ impl Refinement<'_> {
     pub fn reactions(&self, reactions: &Reactions) -> Vec<GirderReaction> {
         let states = self.girders.states;
         let count = reactions.all.len();
-        let mut peaks = vec![Peaks::default(); count];
+        let mut peaks = PeakRows::new(count);
         let mut passages = vec![[NONE; 2]; count];
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
         let mut sizes = [0.0_f64; 2];
         for row in self.girders.rows() {
             let state = states.at_row(row);
             reactions.fill(&state, &mut ordinates, &mut values);
-            for ((peaks, value), reaction) in peaks.iter_mut().zip(&values).zip(&reactions.all) {
-                peaks.add(row, *value);
+            peaks.add(row, &values);
+            for (value, reaction) in values.iter().zip(&reactions.all) {
                 let size = &mut sizes[usize::from(reaction.direction >= Dof::Rx)];
                 *size = size.max(value.abs());
             }
@@ -316,12 +316,12 @@ impl Refinement<'_> {
         if (self.girders.is_stopped)() {
             return out;
         }
-        for (index, mut peaks) in peaks.into_iter().enumerate() {
-            peaks.finish();
+        peaks.finish();
+        for (index, peaks) in peaks.found().iter().enumerate() {
             let reaction = &reactions.all[index];
             let size = sizes[usize::from(reaction.direction >= Dof::Rx)];
-            let most = peaks.both().iter().fold(0.0_f64, |most, peak| most.max(peak.largest.value.abs()));
-            for (kind, peak) in peaks.both().iter().enumerate() {
+            let most = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.largest.value.abs()));
+            for (kind, peak) in peaks.iter().enumerate() {
                 let refined = |position: f64| {
                     self.near_in_time(position, 1, &mut |position| {
                         SIGNS[kind] * reactions.value(index, &states.at(position))

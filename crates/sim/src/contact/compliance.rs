@@ -243,19 +243,13 @@ fn within([from, to]: [f64; 2], reach: f64) -> [f64; 2] {
 fn transpose(from: &[f64], to: &mut [f64], m: usize) {
     const TILE: usize = 16;
     let size = from.len().isqrt();
-    if size <= TILE {
-        for (i, row) in to.chunks_mut(m).take(size).enumerate() {
-            row[..size].iter_mut().zip(from[i..].iter().step_by(size)).for_each(|(to, from)| *to = *from);
-        }
-        return;
-    }
     for first in (0..size).step_by(TILE) {
         let rows = first..(first + TILE).min(size);
         for left in (0..size).step_by(TILE) {
             for i in rows.clone() {
-                for j in left..(left + TILE).min(size) {
-                    to[i * m + j] = from[j * size + i];
-                }
+                let row = &mut to[i * m + left..i * m + (left + TILE).min(size)];
+                let column = from[left * size + i..].iter().step_by(size);
+                row.iter_mut().zip(column).for_each(|(to, from)| *to = *from);
             }
         }
     }

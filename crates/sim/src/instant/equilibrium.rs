@@ -379,9 +379,9 @@ impl<'a> Balance<'a> {
             free.push(self.constant[i] - self.p[i] + point.force / point.by_penetration);
         }
         factors.replace(size, |matrix| {
-            for (c, (&column, own)) in active.iter().zip(own).enumerate() {
-                matrix.extend(active.iter().map(|&row| compliance[(row, column)]));
-                matrix[c * (size + 1)] += own;
+            for (r, (&row, own)) in active.iter().zip(own).enumerate() {
+                matrix.extend(active.iter().map(|&column| compliance[(row, column)]));
+                matrix[r * (size + 1)] += own;
             }
         });
         if self.moving.is_empty() {
@@ -402,7 +402,9 @@ impl<'a> Balance<'a> {
             self.weight.iter().zip(carried).map(|(weight, carried)| weight - carried).collect();
         let moving = self.moving.len();
         let mut next = balance.clone();
-        of_dofs.replace(moving, |matrix| matrix.extend_from_slice(&stiffness));
+        of_dofs.replace(moving, |matrix| {
+            (0..moving).for_each(|r| matrix.extend(stiffness[r..].iter().step_by(moving)));
+        });
         if !of_dofs.solve(&mut next) {
             return None;
         }

@@ -221,10 +221,10 @@ impl Penetrations {
         let scaled =
             |part: usize| DMatrix::from_fn(count, count, |r, c| middle.compliance(r, c) * laws[c][part]);
         let in_place = DMatrix::identity(count, count) + scaled(1);
-        *factors = Factors { own: LuFactors::new(in_place), by_slope: Some(scaled(2) / self.h) };
+        *factors = Factors { own: LuFactors::new(&in_place), by_slope: Some(scaled(2) / self.h) };
     }
 
-    /// Adds the derivatives of the residual by the differences, column by column.
+    /// Adds the derivatives of the residual by the differences, row by row.
     fn fill_matrix(&self, laws: &[[f64; 3]], weights: &[[f64; 4]; 4], matrix: &mut Vec<f64>) {
         let count = self.contacts.len();
         let size = PLACES.len() * count;
@@ -235,9 +235,9 @@ impl Penetrations {
                 let row = a * count + r;
                 for (c, [_, by_place, by_rate]) in laws[a * count..(a + 1) * count].iter().enumerate() {
                     let compliance = node.compliance(r, c);
-                    matrix[(a * count + c) * size + row] += compliance * by_place;
+                    matrix[row * size + a * count + c] += compliance * by_place;
                     for (b, weight) in weights.iter().enumerate() {
-                        matrix[(b * count + c) * size + row] += compliance * by_rate * weight / self.h;
+                        matrix[row * size + b * count + c] += compliance * by_rate * weight / self.h;
                     }
                 }
             }
@@ -365,8 +365,8 @@ mod tests {
         }
         let residual = DVector::from_fn(size, |i, _| (1.0 + i as f64).sin());
         let mut expected = residual.clone();
-        assert!(LuFactors::new(whole).solve(expected.as_mut_slice()), "the matrix is regular");
-        let factors = Factors { own: LuFactors::new(in_place), by_slope: Some(by_slope) };
+        assert!(LuFactors::new(&whole).solve(expected.as_mut_slice()), "the matrix is regular");
+        let factors = Factors { own: LuFactors::new(&in_place), by_slope: Some(by_slope) };
         let mut found = residual.clone();
         assert!(factors.solve(found.as_mut_slice()), "I + G K is regular");
         assert!((&found - &expected).amax() < 1e-12 * expected.amax(), "{found} for {expected}");

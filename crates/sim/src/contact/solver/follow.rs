@@ -81,9 +81,9 @@ impl Solver<'_> {
             compliance.extend(contacts.iter().map(|&j| rails.value[i * m + j]));
         }
         factors.replace(count, |matrix| {
-            for (c, stiffness) in stiffness.iter().enumerate() {
-                let own = |r: usize| f64::from(u8::from(r == c)) + compliance[r * count + c] * stiffness;
-                matrix.extend((0..count).map(own));
+            for (r, row) in compliance.chunks_exact(count).enumerate() {
+                let own = |(c, (entry, stiffness))| f64::from(u8::from(r == c)) + entry * stiffness;
+                matrix.extend(row.iter().zip(stiffness).enumerate().map(own));
             }
         });
         value.clone_from(approach);
@@ -132,7 +132,7 @@ impl Solver<'_> {
             let own = f64::from(u8::from(r == c));
             own + rails.value[contacts[r] * m + contacts[c]] * stiffness(contacts[c])
         });
-        if !LuFactors::new(matrix).solve(rates.as_mut_slice()) {
+        if !LuFactors::new(&matrix).solve(rates.as_mut_slice()) {
             return false;
         }
         for (&i, rate) in contacts.iter().zip(rates.iter()).filter(|(i, _)| self.is_damped_by_mass(**i)) {
