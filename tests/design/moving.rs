@@ -119,12 +119,24 @@ fn dead_load_counts_as_in_the_design() {
     assert_alike(&found, &extremes(run("design", &design).path()), 1e-6, &["moment", "shear"]);
 }
 
-/// Regression of a property: rows of the history are a choice of the user, the extremes are not.
+/// Identity: rows of the history and the method are choices of the user, the extremes are not. As the second wheel passes a
+/// support the force of its damper jumps by 1.5 %, and the shear force beside the support is largest just behind it. With an
+/// output time at this passage the force of one side was taken on the other, and it was 1 % too large.
 #[test]
 fn extremes_do_not_depend_on_the_output_interval() {
     for modes in [0, 8] {
-        let of = |dt: f64| extremes(run("run", &crossing(modes, dt, 1e-4, false)).path());
-        assert_alike(&of(0.01), &of(0.01 / 7.0), 1e-4, &["moment", "shear", "deflection"]);
+        let of = |dt: f64, stepper: &str| {
+            let mut scene = crossing(modes, dt, 1e-4, false);
+            scene["stepper"] = json!(stepper);
+            extremes(run("run", &scene).path())
+        };
+        let known = of(0.01, "radau");
+        for (dt, stepper) in [(0.01 / 7.0, "radau"), (0.00143, "radau"), (0.01, "sdirk4"), (0.0017, "sdirk4")]
+        {
+            // each run has an error of its own
+            let tolerance = if stepper == "radau" { 1e-4 } else { 2e-4 };
+            assert_alike(&of(dt, stepper), &known, tolerance, &["moment", "shear", "deflection"]);
+        }
     }
 }
 

@@ -87,8 +87,9 @@ pub struct Run {
     /// Samples over time.
     pub history: History,
     /// Samples at the output times and at the ends of steps, where [`Scene::records_steps`] asks for them: steps end where
-    /// contacts open and close, so that forces are smooth between these samples. Empty but for [`Method::Sdirk4`], whose steps
-    /// are short, and where they would be more than 1e7 values.
+    /// contacts open and close, so that forces are smooth between these samples. The steps of collocation methods are long,
+    /// and have samples at their nodes as well. Empty for [`Method::Series`], for a quasi-static sweep, and where they would be
+    /// more than 1e7 values.
     pub steps: History,
     /// Rules that acted, in order of time.
     pub fired: Vec<Fired>,
@@ -281,9 +282,7 @@ fn integrate(
 ) -> Result<Run, Error> {
     let scene = system.scene;
     begin(system, solver, &mut state)?;
-    // the steps of other methods are longer than a cubic between their ends is exact
-    let wanted = scene.records_steps && stepping.method == Method::Sdirk4;
-    let mut samples = Samples::new(solver, &state, wanted)?;
+    let mut samples = Samples::new(solver, &state, scene.records_steps)?;
     let first = (0.1 * scene.output_dt).min(1e-3 * scene.end).max(1e-9 * scene.end);
     let mut stepper = Stepper::new(solver, state, stepping, LOCAL_PER_GLOBAL * scene.accuracy, first)?;
     let mut fired = Vec::new();

@@ -8,7 +8,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use formats::scene::Scene;
 use formats::scene::motion::SimulationInput;
 use foundations::{BuiltFoundation, SolvedModel, solution_of};
-use sim::{Foundation, History, Run};
+use sim::{Foundation, History, Method, Run};
 
 use super::GirderExtremes;
 use super::rows::{Prepared, Recorded, of_run};
@@ -83,8 +83,9 @@ pub(crate) struct GirderInputs {
     scene: Scene,
     built: Vec<BuiltFoundation>,
     members: Arc<SolvedMembers>,
-    /// Ends of the steps, where the run has recorded them.
+    /// Ends of the steps, where the run has recorded them, and whether times inside of the steps are among them.
     steps: History,
+    has_inner_times: bool,
     /// Whether the history has an interval.
     has_rows: bool,
     /// The history, where its owner has dropped it.
@@ -104,7 +105,8 @@ impl GirderInputs {
         // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
         let repetitions = usize::from(run.strike.is_none() && run.status.is_complete());
         let (steps, has_rows) = (take(&mut run.steps), run.history.len() >= 2);
-        GirderInputs { scene, built, members, steps, has_rows, rows: None, repetitions }
+        let has_inner_times = run.method != Some(Method::Sdirk4);
+        GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows: None, repetitions }
     }
 
     /// Computes the extremes. `watch` is called with the time in repetitions of the run, and many times between them.
@@ -118,7 +120,8 @@ impl GirderInputs {
         columns: &[ColumnEnvelope],
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<GirderExtremes, Box<GirderInputs>> {
-        let GirderInputs { scene, built, members, steps, has_rows, rows, repetitions } = *self;
+        let GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows, repetitions } =
+            *self;
         let solved: Vec<Option<&SolvedModel>> = scene
             .structures
             .iter()
@@ -137,9 +140,10 @@ impl GirderInputs {
         let mut found = {
             let prepared = Prepared::new(&scene, &built, &solved, &members, &is_stopped);
             (foundations, bases) = built.into_iter().map(|built| (built.foundation, built.basis)).unzip();
-            let recorded = match steps.is_empty() {
-                true => Recorded::Rows(rows.as_ref().unwrap_or(history)),
-                false => Recorded::Steps(&steps),
+            let recorded = match (steps.is_empty(), has_inner_times) {
+                (true, _) => Recorded::Rows(rows.as_ref().unwrap_or(history)),
+                (false, false) => Recorded::Steps(&steps),
+                (false, true) => Recorded::Inside(&steps),
             };
             let mut left = repetitions;
             let mut repeat = |rows: usize| {
@@ -154,7 +158,9 @@ impl GirderInputs {
         if stop.get() {
             let built = foundations.into_iter().zip(bases);
             let built = built.map(|(foundation, basis)| BuiltFoundation { foundation, basis }).collect();
-            return Err(Box::new(GirderInputs { scene, built, members, steps, has_rows, rows, repetitions }));
+            let again =
+                GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows, repetitions };
+            return Err(Box::new(again));
         }
         found.reactions.iter_mut().for_each(|reaction| reaction.extend_to(columns));
         Ok(found)

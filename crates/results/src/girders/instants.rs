@@ -2,10 +2,10 @@
 
 use std::borrow::Cow;
 use std::cell::OnceCell;
-use std::ops::Range;
+use std::ops::{Range, RangeInclusive};
 
 use sim::{Channel, History};
-use trains::RailLoad;
+use trains::{MemberForces, RailLoad, RailMember};
 
 use crate::response::{LoadSource, WheelLoadReader};
 
@@ -16,6 +16,65 @@ const CORNER: f64 = 0.25;
 /// How far a value between rows may lie beyond their range, relative to it: the vertex of a parabola through four even rows
 /// is beyond it by at most an eighth, and values just beside the rows are extrapolated.
 const OVERSHOOT: f64 = 0.5;
+
+/// Distance from an end of a member, relative to its coordinate plus 1, within which a load is at it: the slack with which
+/// the step of a rolling wheel ends there, for accuracies up to 1e-2.
+const AT_END: f64 = 4e-6;
+
+/// Distance from an end of a member, relative to the length of the member, within which a load is kept on its side of the
+/// end: within 1e-9 of the length it would count on the members of both.
+const BESIDE_END: f64 = 1.5e-9;
+
+/// Least time of a passage behind a row, in rows: at the row itself a load that comes to an end is before it.
+const AFTER_ROW: f64 = 1e-9;
+
+/// Time from a corner, in rows, within which a passage is the corner: rows may be so near to each other that rounding of
+/// coordinates is a part of the interval.
+const AT_CORNER: f64 = 1e-3;
+
+/// An end of one or two members on a rail.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct MemberEnd {
+    pub rail: usize,
+    pub x: f64,
+    /// Distance from it to which loads are kept on their side.
+    gap: f64,
+}
+
+impl MemberEnd {
+    /// The ends of all members, those at the same place once.
+    pub fn all(members: &MemberForces) -> Vec<MemberEnd> {
+        let of_member = |own: RailMember| {
+            let gap = BESIDE_END * (own.x[1] - own.x[0]).abs();
+            own.x.map(|x| MemberEnd { rail: own.rail, x, gap })
+        };
+        let mut ends: Vec<MemberEnd> = members.members().flat_map(of_member).collect();
+        ends.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
+        ends.dedup_by(|next, kept| {
+            let gap = kept.gap.max(next.gap);
+            let is_same = next.rail == kept.rail && next.x - kept.x <= gap;
+            if is_same {
+                kept.gap = gap;
+            }
+            is_same
+        });
+        ends
+    }
+
+    /// Whether a load is at the end, within the slack with which the steps of a run end there.
+    pub fn has(&self, load: &RailLoad) -> bool {
+        self.rail == load.rail && (load.x - self.x).abs() <= self.slack()
+    }
+
+    /// The coordinate of a load, kept on one side of the end: that of larger coordinates where `side` is 1, otherwise -1.
+    fn aside(&self, x: f64, side: f64) -> f64 {
+        self.x + side * (side * (x - self.x)).max(self.gap)
+    }
+
+    fn slack(&self) -> f64 {
+        (AT_END * (1.0 + self.x.abs())).max(self.gap)
+    }
+}
 
 /// State of a structure at one time.
 #[derive(Clone)]
@@ -59,8 +118,9 @@ impl LoadState<'_> {
 /// The states of a structure over time: rows of a history, and between them cubic polynomials through
 /// four rows, channel by channel.
 ///
-/// Forces have corners, and with dampers jumps, where wheels pass the ends of members. No polynomial extends to these
-/// times: beside them it is one through rows of the same side, extrapolated. Where the four rows show another jump or corner, for instance of a contact
+/// Forces have corners, and with dampers jumps, where wheels pass the ends of members. No polynomial extends across these
+/// times: beside them it is one through rows of the same side, extrapolated. At a row at which a wheel comes to an end of a
+/// member the force is that before the end, and the wheel stands just before it. Where the four rows show another jump or corner, for instance of a contact
 /// that opens, values are interpolated linearly.
 pub(super) struct LoadStates {
     /// The loads, with the place of their first value in a row.
@@ -73,8 +133,22 @@ pub(super) struct LoadStates {
     values: Vec<f64>,
     /// The loads, row by row.
     loads: Vec<RailLoad>,
-    /// Times at which loads pass ends of members, counted in rows, increasing.
-    corners: Vec<f64>,
+    /// Whether a value of a row may jump at a corner: forces and accelerations may, places and displacements may not.
+    may_jump: Vec<bool>,
+    /// Where loads pass ends of members, by increasing time.
+    corners: Vec<Corner>,
+}
+
+/// A load that passes an end of a member.
+#[derive(Clone, Copy, Debug)]
+struct Corner {
+    /// Time, counted in rows.
+    position: f64,
+    /// Index of the load.
+    load: usize,
+    end: MemberEnd,
+    /// 1 where the load moves towards larger coordinates, otherwise -1.
+    sense: f64,
 }
 
 impl LoadStates {
@@ -84,54 +158,60 @@ impl LoadStates {
         history: &History,
         loads: &WheelLoadReader,
         (s, dofs): (usize, usize),
-        ends: &[(usize, f64)],
+        ends: &[MemberEnd],
         rows: &[usize],
     ) -> LoadStates {
-        let mut channels = vec![0];
+        let (mut channels, mut may_jump) = (vec![0], vec![false]);
         let mut sources = Vec::new();
         for source in loads.on(s) {
             sources.push((source.clone(), channels.len()));
-            channels.extend(source.channels().into_iter().flatten());
+            let [place, forces] = source.channels();
+            may_jump.extend(place.clone().map(|_| false).chain(forces.clone().map(|_| true)));
+            channels.extend(place.chain(forces));
         }
         let motions = channels.len();
         let first = |wanted| history.position(wanted);
         let motion = first(Channel::Coordinate(s, 0)).zip(first(Channel::Acceleration(s, 0)));
         channels.extend(motion.iter().flat_map(|(q, a)| (*q..q + dofs).chain(*a..a + dofs)));
         let width = channels.len();
+        may_jump.extend((motions..width).map(|c| c - motions >= (width - motions) / 2));
         let mut values = Vec::with_capacity(rows.len() * width);
         let mut loads = Vec::with_capacity(rows.len() * sources.len());
-        for row in rows {
-            let sample = history.sample(*row);
+        for &row in rows {
+            let sample = history.sample(row);
             let first = values.len();
             values.extend(channels.iter().map(|c| sample[*c]));
             let own = &values[first..];
-            loads.extend(sources.iter().map(|source| load(source, &|c| own[c])));
+            for source in &sources {
+                let mut load = load(source, &|c| own[c]);
+                if let Some(before) = row.checked_sub(1) {
+                    stop_before(ends, source.0.load_in(history.sample(before)).x, &mut load);
+                }
+                loads.push(load);
+            }
         }
-        let mut out = LoadStates { sources, motions, width, values, loads, corners: Vec::new() };
+        let mut out = LoadStates { sources, motions, width, values, loads, may_jump, corners: Vec::new() };
         out.corners = out.all_corners(ends);
         out
     }
 
-    fn all_corners(&self, ends: &[(usize, f64)]) -> Vec<f64> {
+    fn all_corners(&self, ends: &[MemberEnd]) -> Vec<Corner> {
         let mut corners = Vec::new();
         for row in 1..self.len() {
             for (load, (a, b)) in self.loads(row - 1).iter().zip(self.loads(row)).enumerate() {
                 let (low, high) = (a.x.min(b.x), a.x.max(b.x));
                 if low < high {
-                    let passed = ends.iter().filter(|(rail, x)| *rail == a.rail && low <= *x && *x <= high);
-                    for (_, x) in passed {
-                        corners.push((row - 1) as f64 + self.passage(row - 1, load, *x, [a.x, b.x]));
+                    let passed =
+                        ends.iter().filter(|end| end.rail == a.rail && low <= end.x && end.x <= high);
+                    for &end in passed {
+                        let fraction = self.passage(row - 1, load, end.x, [a.x, b.x]).max(AFTER_ROW);
+                        let (position, sense) = ((row - 1) as f64 + fraction, (b.x - a.x).signum());
+                        corners.push(Corner { position, load, end, sense });
                     }
                 }
             }
         }
-        for corner in &mut corners {
-            if (*corner - corner.round()).abs() < 1e-5 {
-                *corner = corner.round();
-            }
-        }
-        corners.sort_by(f64::total_cmp);
-        corners.dedup();
+        corners.sort_by(|a, b| a.position.total_cmp(&b.position));
         corners
     }
 
@@ -166,10 +246,23 @@ impl LoadStates {
         match self.between(position) {
             Ok(row) => self.at_row(row),
             Err(between) => {
-                let loads = self.loads_by(&|c| between.value(c));
+                let mut loads = self.loads_by(&|c| between.value(c));
+                // also a corner at the next row, which is just behind it
+                for corner in self.corners_in(position.floor()..=position.floor() + 1.0 + 2.0 * AFTER_ROW) {
+                    let load = &mut loads.to_mut()[corner.load];
+                    let side = if position > corner.position { corner.sense } else { -corner.sense };
+                    load.x = corner.end.aside(load.x, side);
+                }
                 self.state(loads, StateValues::Between(between))
             }
         }
+    }
+
+    /// The corners between two times that are counted in rows.
+    fn corners_in(&self, positions: RangeInclusive<f64>) -> &[Corner] {
+        let first = self.corners.partition_point(|corner| corner.position < *positions.start());
+        let end = self.corners.partition_point(|corner| corner.position <= *positions.end());
+        &self.corners[first..end]
     }
 
     /// The coordinate of a load at a time that is counted in rows.
@@ -198,23 +291,19 @@ impl LoadStates {
         }
         let ends = [self.row(row), self.row(row + 1)];
         let time = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
-        let starts = self.starts(row, position);
-        Err(Box::new(Between { states: self, ends, fraction, time, starts, cubics: Default::default() }))
+        let corner = self.corner_from(row as f64).filter(|corner| *corner <= (row + 1) as f64);
+        let is_after = corner.map(|corner| position > corner);
+        let starts = match is_after {
+            Some(false) => [row.checked_sub(3), None, None],
+            Some(true) => [Some(row + 1), None, None],
+            None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
+        };
+        let cubics = Default::default();
+        Err(Box::new(Between { states: self, ends, fraction, time, is_after, starts, cubics }))
     }
 
     fn four(&self, start: usize) -> [&[f64]; 4] {
         std::array::from_fn(|k| self.row(start + k))
-    }
-
-    /// First rows of the polynomials for a position behind `row`, best first, as far as there are four rows without a corner
-    /// between them.
-    fn starts(&self, row: usize, position: f64) -> [Option<usize>; 3] {
-        let own = self.corner_from(row as f64).filter(|corner| *corner <= (row + 1) as f64);
-        match own {
-            Some(corner) if position <= corner => [row.checked_sub(3), None, None],
-            Some(_) => [Some(row + 1), None, None],
-            None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
-        }
     }
 
     /// Whether there are four rows without a corner from `start`.
@@ -225,13 +314,15 @@ impl LoadStates {
 
     /// The first corner that is not before a position.
     fn corner_from(&self, position: f64) -> Option<f64> {
-        self.corners.get(self.corners.partition_point(|corner| *corner < position)).copied()
+        self.corners
+            .get(self.corners.partition_point(|corner| corner.position < position))
+            .map(|corner| corner.position)
     }
 
     /// The state just before or just after a corner; the state at the time itself if it is none. Where another corner is too
     /// near for a polynomial, forces are those of the next row on this side, and loads stand where they are at the corner.
     pub fn limit(&self, position: f64, is_after: bool) -> LoadState<'_> {
-        let corner = self.corner_from(position - 1e-6).filter(|corner| corner - position < 1e-6);
+        let corner = self.corner_from(position - AT_CORNER).filter(|corner| corner - position < AT_CORNER);
         let Some(corner) = corner.filter(|_| self.len() > 1) else { return self.at(position) };
         let (row, start) = if is_after {
             let row = corner.floor() as usize + 1;
@@ -301,6 +392,19 @@ impl LoadStates {
     }
 }
 
+/// Sets a load that comes from the coordinate `from` to an end of a member to just before it: there it has the force of this
+/// side.
+fn stop_before(ends: &[MemberEnd], from: f64, load: &mut RailLoad) {
+    let sense = (load.x - from).signum();
+    let comes_to = |end: &&MemberEnd| {
+        let [left, beyond] = [end.x - from, load.x - end.x].map(|distance| sense * distance);
+        end.has(load) && left > end.gap && beyond >= -end.gap
+    };
+    if let Some(end) = ends.iter().find(comes_to) {
+        load.x = end.aside(load.x, -sense);
+    }
+}
+
 /// A load by the values of a row; `first` is the place of its first value.
 fn load((source, first): &(LoadSource, usize), value: &dyn Fn(usize) -> f64) -> RailLoad {
     let count: usize = source.channels().into_iter().map(|range| range.len()).sum();
@@ -316,7 +420,9 @@ struct Between<'a> {
     ends: [&'a [f64]; 2],
     fraction: f64,
     time: f64,
-    /// First rows of the polynomials, best first.
+    /// Whether it is behind a corner between the rows; `None` where there is none.
+    is_after: Option<bool>,
+    /// First rows of the polynomials, best first, as far as there are four rows without a corner between them.
     starts: [Option<usize>; 3],
     /// The polynomials, made when the better ones have no value; `None` where a corner lies between their rows.
     cubics: [OnceCell<Option<Cubic<'a>>>; 3],
@@ -338,7 +444,11 @@ impl Between<'_> {
                 return value;
             }
         }
-        from + self.fraction * (to - from)
+        match self.is_after.filter(|_| self.states.may_jump[c]) {
+            Some(false) => from,
+            Some(true) => to,
+            None => from + self.fraction * (to - from),
+        }
     }
 }
 

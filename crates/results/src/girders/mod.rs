@@ -12,8 +12,8 @@
 //!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
-//! 4. The same is done at the ends of steps, which the run records beside its output times, as many of
-//!    them as loads and motions need (`kept_rows`), and the extremes are compared with those from fewer steps (`rows`). Runs
+//! 4. The same is done at the ends of steps and inside of long ones, which the run records beside its output times, as many of
+//!    them as loads and motions need (`kept_rows`), and the extremes are compared with those from fewer of them (`rows`). Runs
 //!    without steps, such as quasi-static ones, are repeated with more rows.
 //!
 //! Not covered: what happens between two rows and is not shown by their values, such as a contact that is lost and found

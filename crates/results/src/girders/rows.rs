@@ -21,6 +21,12 @@ const REPETITIONS: usize = 2;
 /// Ratio of the changes before and after a repetition above which there is no other one.
 const WORTHWHILE: f64 = 0.7;
 
+/// Error of extremes by their difference from those at every second time, where errors fall with the square of the interval.
+const OF_EVERY_SECOND: f64 = 1.0 / 3.0;
+/// Every how many rows of long steps are evaluated first, and the error of the extremes, relative to the accuracy, from which
+/// all are.
+const FEWER: (usize, f64) = (3, 0.3);
+
 /// The girders of a scene, prepared for any number of runs on the same foundations.
 pub(super) struct Prepared<'a> {
     girders: Vec<PreparedGirders<'a>>,
@@ -61,6 +67,8 @@ pub(super) enum Recorded<'a> {
     Rows(&'a History),
     /// The same, and the ends of its steps.
     Steps(&'a History),
+    /// The same, and times inside of its steps.
+    Inside(&'a History),
 }
 
 /// Repeats a run with a number of rows in each output interval; `None` if it cannot be repeated.
@@ -70,7 +78,10 @@ pub(super) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 ///
 /// Where the ends of steps were recorded, the extremes are those at the ends of steps and between them: those
 /// between which loads and motions are straight lines to 1e-5 of the largest. By how much they change from those of a tolerance
-/// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run.
+/// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run. Where long steps were sampled
+/// inside, every third of these times is evaluated, or all of them if the error is too large, and the extremes are compared
+/// with those at every second one: D is then the difference of two errors of
+/// which one has twice the interval, and where errors fall with its square at least, that of all times is D/3 or less.
 ///
 /// Otherwise the extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
@@ -86,7 +97,7 @@ pub(super) fn of_run(
 ) -> GirderExtremes {
     let girders = &prepared.girders;
     let mut out = prepared.without_rows();
-    let (Recorded::Rows(history) | Recorded::Steps(history)) = recorded;
+    let (Recorded::Rows(history) | Recorded::Steps(history) | Recorded::Inside(history)) = recorded;
     let is_known = |girders: &&PreparedGirders<'_>| {
         let s = girders.structure();
         foundations[s].dofs() == 0 || history.position(Channel::Coordinate(s, 0)).is_some()
@@ -99,17 +110,19 @@ pub(super) fn of_run(
     let (found, finer) = match recorded {
         Recorded::Rows(rows) => all.by_repetition(rows, repeat),
         Recorded::Steps(steps) => (all.attempt(steps, RowChoice::Needed), None),
+        Recorded::Inside(steps) => (all.inside(steps), None),
     };
     let history = finer.as_ref().unwrap_or(history);
-    let loads = WheelLoadReader::new(scene, input, history);
+    let (loads, breaks) = (WheelLoadReader::new(scene, input, history), input.scene.breaks());
     for (girders, spans) in girders.iter().zip(&found.spans) {
-        let rows = Rows { history, loads: &loads, foundations };
+        let rows = Rows { history, loads: &loads, foundations, breaks: &breaks };
         let (extremes, envelope, stresses, reactions) = girders.results(rows, spans, scene.accuracy);
         out.extremes.extend(extremes);
         out.reactions.extend(reactions);
         out.envelope.extend(envelope);
         out.stresses.extend(stresses);
-        if spans.chosen.stride > 1 {
+        let usual = if matches!(recorded, Recorded::Inside(_)) { FEWER.0 } else { 1 };
+        if spans.chosen.stride > usual {
             out.notes.push(format!(
                 "{}: extremes of girders are evaluated at one of {} times, because they are many",
                 girders.name(),
@@ -202,6 +215,20 @@ impl Evaluation<'_> {
         (found, finer)
     }
 
+    /// The extremes at every third row of long steps and of the times inside of them, or at all rows if the error of those is
+    /// too large.
+    fn inside(&self, steps: &History) -> Attempt {
+        let attempt = |stride: usize| {
+            let mut found = self.attempt(steps, RowChoice::Sampled(stride));
+            found.change.fraction *= OF_EVERY_SECOND;
+            found
+        };
+        let found = attempt(FEWER.0);
+        // where the values are many, the first choice has as many of them as the second
+        let has_more = found.spans.iter().any(|spans| spans.chosen.stride == FEWER.0);
+        if has_more && found.change.fraction > FEWER.1 * self.scene.accuracy { attempt(1) } else { found }
+    }
+
     /// Largest change of the extremes from one evaluation to the next, relative to the largest value of its kind.
     fn change(&self, next: &Attempt, before: &Attempt) -> Change {
         let each = self.girders.iter().zip(next.spans.iter().zip(&before.spans));
@@ -215,7 +242,8 @@ impl Evaluation<'_> {
     /// The extremes at rows of a history, and by how much they change from a coarser choice of them.
     fn attempt(&self, history: &History, choice: RowChoice) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let rows = Rows { history, loads: &loads, foundations: self.foundations };
+        let breaks = self.input.scene.breaks();
+        let rows = Rows { history, loads: &loads, foundations: self.foundations, breaks: &breaks };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {

@@ -2,11 +2,11 @@
 
 use formats::scene::Scene;
 use sim::{Channel, Foundation, History};
-use trains::{GirderResponse, MemberForces};
+use trains::{GirderResponse, MemberForces, RailLoad};
 
 use super::distributed::{DistributedForces, FORCES};
 use super::girder::LoadedGirders;
-use super::instants::LoadStates;
+use super::instants::{LoadStates, MemberEnd};
 use super::kept_rows::kept_rows;
 use super::peaks::SIGNS;
 use super::points::PointDeflections;
@@ -27,6 +27,11 @@ const MAX_VALUES: usize = 2_000_000;
 /// Tolerances within which loads are straight lines between the rows that are needed, and the largest number of values of
 /// these rows, finer and coarser. Also where the number of values decides, the finer ones are more.
 const NEEDED: [(f64, usize); 2] = [(1e-5, 3 * MAX_VALUES), (1e-4, MAX_VALUES)];
+/// Largest number of values that a scan evaluates of the rows of long steps.
+const MAX_SAMPLED: usize = 3 * MAX_VALUES;
+/// Number of rows beside a time at which a load is at an end of a member that are kept: cubic polynomials do not extend across
+/// it.
+const BESIDE: usize = 4;
 /// Number of rows above which deflections are evaluated at fewer rows.
 const MAX_DEFLECTIONS: usize = 500;
 /// The same for the ends of steps, between which deflections are less even.
@@ -37,6 +42,7 @@ pub(super) struct PreparedGirders<'a> {
     scene: &'a Scene,
     s: usize,
     members: &'a MemberForces,
+    ends: Vec<MemberEnd>,
     sections: Sections,
     distributed: DistributedForces,
     reactions: Reactions,
@@ -51,6 +57,8 @@ pub(super) struct Rows<'a> {
     pub loads: &'a WheelLoadReader,
     /// One for each structure.
     pub foundations: &'a [Foundation],
+    /// Times at which motions and loads have corners.
+    pub breaks: &'a [f64],
 }
 
 /// A choice among the rows of a history, with a coarser one, to see by how much extremes change.
@@ -61,13 +69,16 @@ pub(super) enum RowChoice {
     /// Those between which loads differ from straight lines by more than the tolerances [`NEEDED`], finer and coarser,
     /// relative to the largest load. They are raised until there are no more than [`MAX_VALUES`] of all rows.
     Needed,
+    /// One of so many rows and every second one of these, at most [`MAX_SAMPLED`] values, and in both the rows beside those at which a load is at
+    /// an end of a member or a motion has a corner: rows at the ends of long steps, which end at such times, and inside of them.
+    Sampled(usize),
 }
 
 /// Rows of a history that are evaluated.
 #[derive(Clone, Debug)]
 pub(super) struct ChosenRows {
     pub rows: Vec<usize>,
-    /// Every how many rows of the history were taken, where they were not chosen by need.
+    /// Every how many rows of the history were taken, where they were not chosen by need; 1 where they were.
     pub stride: usize,
     /// Indices of those of the coarser choice.
     coarse: Vec<usize>,
@@ -113,7 +124,8 @@ impl<'a> PreparedGirders<'a> {
             .map_err(|source| failed(source.into()))?;
         let reactions = Reactions::new((scene, s), solved, built, members, load)
             .map_err(|source| failed(source.into()))?;
-        Ok(Some(PreparedGirders { scene, s, members, sections, distributed, reactions, is_stopped }))
+        let ends = MemberEnd::all(members);
+        Ok(Some(PreparedGirders { scene, s, members, ends, sections, distributed, reactions, is_stopped }))
     }
 
     /// Index of the structure.
@@ -137,9 +149,18 @@ impl<'a> PreparedGirders<'a> {
         MAX_VALUES / self.width(history, loads).max(1)
     }
 
-    fn chosen(&self, Rows { history, loads, foundations }: Rows<'_>, choice: RowChoice) -> ChosenRows {
+    fn chosen(&self, rows: Rows<'_>, choice: RowChoice) -> ChosenRows {
+        let Rows { history, loads, foundations, .. } = rows;
         let width = self.width(history, loads).max(1);
         let all: Vec<usize> = (0..history.len()).collect();
+        if let RowChoice::Sampled(least) = choice {
+            let beside = self.rows_beside_corners(rows);
+            let stride = (history.len() * width).div_ceil(MAX_SAMPLED).max(least);
+            let rows = with(every(&all, stride), &beside);
+            let kept = (0..rows.len()).filter(|index| beside.binary_search(&rows[*index]).is_ok());
+            let coarse = with(every(&(0..rows.len()).collect::<Vec<_>>(), 2), &kept.collect::<Vec<_>>());
+            return ChosenRows { rows, stride, coarse, most_deflections: MAX_STEPS };
+        }
         if choice == RowChoice::Needed {
             // places, forces, displacements and accelerations
             let of_loads =
@@ -163,6 +184,18 @@ impl<'a> PreparedGirders<'a> {
         ChosenRows { rows, stride, coarse, most_deflections: MAX_DEFLECTIONS }
     }
 
+    /// Rows at which a load is at an end of a member of its rail, or a motion or load has a corner, and the [`BESIDE`] rows on
+    /// both sides of them.
+    fn rows_beside_corners(&self, Rows { history, loads, breaks, .. }: Rows<'_>) -> Vec<usize> {
+        let is_at_end = |load: &RailLoad| self.ends.iter().any(|end| end.has(load));
+        let is_corner = |row: &usize| {
+            let sample = history.sample(*row);
+            breaks.contains(&sample[0]) || loads.on(self.s).any(|source| is_at_end(&source.load_in(sample)))
+        };
+        let beside = |row: usize| row.saturating_sub(BESIDE)..(row + BESIDE + 1).min(history.len());
+        with((0..history.len()).filter(is_corner).flat_map(beside).collect(), &[])
+    }
+
     fn loaded<'b>(
         &'b self,
         Rows { foundations, .. }: Rows<'b>,
@@ -183,10 +216,8 @@ impl<'a> PreparedGirders<'a> {
     }
 
     /// The states of the structure at rows of the history.
-    fn states(&self, Rows { history, loads, foundations }: Rows<'_>, rows: &[usize]) -> LoadStates {
-        let ends: Vec<(usize, f64)> =
-            self.members.members().flat_map(|member| member.x.map(|x| (member.rail, x))).collect();
-        LoadStates::new(history, loads, (self.s, foundations[self.s].dofs()), &ends, rows)
+    fn states(&self, Rows { history, loads, foundations, .. }: Rows<'_>, rows: &[usize]) -> LoadStates {
+        LoadStates::new(history, loads, (self.s, foundations[self.s].dofs()), &self.ends, rows)
     }
 
     /// Extremes of all spans, at some of the rows.
@@ -233,6 +264,14 @@ impl<'a> PreparedGirders<'a> {
         all.sort_by(|a, b| a.rail.cmp(&b.rail).then(a.x.total_cmp(&b.x)));
         (extremes, all, stresses, reactions)
     }
+}
+
+/// Numbers of two increasing lists, each once, in order.
+fn with(mut numbers: Vec<usize>, more: &[usize]) -> Vec<usize> {
+    numbers.extend(more);
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
 }
 
 /// Every so many of the rows, and the last one.

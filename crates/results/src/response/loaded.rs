@@ -49,6 +49,11 @@ impl LoadSource {
         [start..forces, forces..end]
     }
 
+    /// The load in a sample of the history.
+    pub fn load_in(&self, sample: &[f64]) -> RailLoad {
+        self.load(&sample[self.channels.clone()])
+    }
+
     /// The load by the values of its channels.
     pub fn load(&self, values: &[f64]) -> RailLoad {
         let (x, force) = match self.stop {
@@ -92,7 +97,7 @@ impl WheelLoadReader {
     #[must_use]
     pub fn at(&self, sample: &[f64]) -> Vec<WheelLoad> {
         let load = |source: &LoadSource| {
-            let RailLoad { rail, x, force } = source.load(&sample[source.channels.clone()]);
+            let RailLoad { rail, x, force } = source.load_in(sample);
             WheelLoad { structure: source.structure, rail, x, force }
         };
         self.sources.iter().map(load).collect()

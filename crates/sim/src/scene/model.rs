@@ -65,7 +65,7 @@ pub struct Scene {
     pub output_dt: f64,
     /// Number of samples of the history in each output interval, at least 1.
     pub output_parts: usize,
-    /// Whether [`crate::Run::steps`] has a sample at the end of every step of [`crate::Method::Sdirk4`].
+    /// Whether [`crate::Run::steps`] has samples at the end of every step, and at the nodes of collocation methods.
     pub records_steps: bool,
     /// Required relative accuracy of displacements and forces.
     pub accuracy: f64,
@@ -102,7 +102,8 @@ impl Scene {
     }
 
     /// Times at which a step must end, in ascending order; the last one is the end of the run.
-    pub(crate) fn breaks(&self) -> Vec<f64> {
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
         let mut breaks: Vec<f64> = self
             .bodies
             .iter()

@@ -157,6 +157,12 @@ impl Collocation {
         self.nodes.count()
     }
 
+    /// Geometries and states at the nodes inside the step just taken.
+    pub fn inner_nodes(&self) -> impl Iterator<Item = (&Geometry, &State)> {
+        let nodes = self.nodes.c.iter().zip(self.geometries.iter().zip(&self.states));
+        nodes.filter(|(c, _)| **c < 1.0).map(|(_, node)| node)
+    }
+
     /// Energy exchanged in the step, by the quadrature of the collocation method.
     pub fn exchanged(&self) -> Exchanged {
         let s = self.count();

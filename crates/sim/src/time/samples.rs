@@ -1,5 +1,7 @@
-//! Samples of a run at its output times, which generally lie inside steps, and at the ends of steps.
+//! Samples of a run at its output times, which generally lie inside steps, and at the ends of steps. The steps of collocation
+//! methods are longer than cubic polynomials between their ends are exact, and have samples at their nodes as well.
 
+use super::step::Step;
 use super::stepper::Stepper;
 use crate::contact::active::ActiveSet;
 use crate::contact::solver::Solver;
@@ -11,11 +13,20 @@ use crate::{Error, History};
 /// Largest number of values of the history with the ends of steps.
 const MOST_VALUES: usize = 10_000_000;
 
+/// Fraction of a step behind a break or an event at which a sample shows the forces after it. Wheels roll by more than the
+/// slack within which a step ends at the break.
+const AFTER: f64 = 1e-3;
+
+/// Times that differ by less, relative to them, are the same: a step ends by rounding before a wheel is at a break of its rail.
+const SAME_TIME: f64 = 1e-14;
+
 /// Recorder of the history at the output times, and of that with the ends of steps.
 pub(crate) struct Samples {
     recorder: Recorder,
-    /// The history with the ends of steps, and the sample at the end of the last one; `None` where it is not wanted.
-    steps: Option<(History, Vec<f64>)>,
+    /// The history with the ends of steps; `None` where it is not wanted.
+    steps: Option<History>,
+    /// Samples inside the step just taken and at its end that are no output times, by increasing time.
+    inside: Vec<f64>,
     /// Index of the next output time.
     next: u64,
     sample: State,
@@ -56,9 +67,9 @@ impl Samples {
         let mut recorder = Recorder::new(solver.system());
         recorder.reserve_for(solver.system().scene);
         recorder.record(solver.system(), solver.geometry(), start)?;
-        let steps = wanted.then(|| (recorder.history().clone(), Vec::new()));
-        let begun = Acting::of(solver);
-        Ok(Samples { recorder, steps, next: 1, sample: start.clone(), after: begun.clone(), begun })
+        let steps = wanted.then(|| recorder.history().clone());
+        let (begun, inside) = (Acting::of(solver), Vec::new());
+        Ok(Samples { recorder, steps, inside, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }
 
     /// Stores the active elements at the start of the next step; samples inside the step are computed with them.
@@ -75,23 +86,26 @@ impl Samples {
         let system = step.system();
         let (from, to) = (step.from.t, step.to.t);
         self.after.take(step.solver);
-        if let Some((_, end)) = &mut self.steps {
-            end.clear();
-            self.recorder.row(system, step.solver.geometry(), &step.to, end)?;
+        self.inside.clear();
+        if self.steps.is_some() {
+            self.take_inside(step)?;
         }
         let known = self.recorder.history().len();
-        while system.scene.output_time(self.next) <= to {
+        while system.scene.output_time(self.next) <= to * (1.0 + SAME_TIME) {
             let t = system.scene.output_time(self.next);
-            let is_end = t >= to * (1.0 - 1e-14);
+            let is_end = t >= to * (1.0 - SAME_TIME);
             if is_end && (self.begun != self.after || !step.has_damped_rails()) {
                 self.sample.copy_from(&step.to);
+                settle(step.solver, &mut self.sample)?;
             } else {
                 self.begun.restore(step.solver);
                 let fraction = if is_end { 1.0 } else { (t - from) / (to - from) };
                 step.sample(fraction, &mut self.sample)?;
+                // a step ends just before a break of the rail, where the rail has the slope of this side
+                self.sample.t = t.min(to);
+                settle(step.solver, &mut self.sample)?;
                 self.sample.t = t;
             }
-            settle(step.solver, &mut self.sample)?;
             self.recorder.record(system, step.solver.geometry(), &self.sample)?;
             self.after.restore(step.solver);
             self.next += 1;
@@ -100,17 +114,48 @@ impl Samples {
         Ok(())
     }
 
-    /// Adds the samples at the ends of output intervals to those of the steps, and the one at the end of the step just taken,
-    /// unless it is among them. Samples from number `known` on are new; every `parts`-th one ends an interval.
-    fn add_step(&mut self, known: usize, parts: usize) {
-        let Some((steps, end)) = &mut self.steps else { return };
-        let mut values = steps.take_values();
-        let history = self.recorder.history();
-        let ends = (known..history.len()).filter(|k| k.is_multiple_of(parts));
-        ends.for_each(|k| values.extend(history.sample(k)));
-        if values[values.len() - end.len()] < end[0] {
-            values.append(end);
+    /// Samples the step just taken: just behind its start, if forces may jump there, at its inner nodes, and at its end before
+    /// a break or an event changes the forces.
+    fn take_inside(&mut self, step: &mut Step) -> Result<(), Error> {
+        let (system, inside) = (step.system(), &mut self.inside);
+        // the geometry of the solver is that of the end until another time is sampled
+        self.recorder.row(system, step.solver.geometry(), &step.arrived, inside)?;
+        let width = inside.len();
+        let (from, to) = (step.from.t, step.to.t);
+        if from > 0.0 && !step.begins_smoothly {
+            self.begun.restore(step.solver);
+            step.sample(AFTER, &mut self.sample)?;
+            self.sample.t = from + AFTER * (to - from);
+            settle(step.solver, &mut self.sample)?;
+            self.recorder.row(system, step.solver.geometry(), &self.sample, inside)?;
+            self.after.restore(step.solver);
         }
+        for (geometry, node) in step.inner_nodes() {
+            self.recorder.row(system, geometry, node, inside)?;
+        }
+        inside.rotate_left(width);
+        Ok(())
+    }
+
+    /// Adds the samples at the ends of output intervals and those inside the step just taken to those of the steps, by
+    /// increasing time. Output samples from number `known` on are new; every `parts`-th one ends an interval.
+    fn add_step(&mut self, known: usize, parts: usize) {
+        let Some(steps) = &mut self.steps else { return };
+        let history = self.recorder.history();
+        let mut values = steps.take_values();
+        let width = history.channels().len();
+        let mut inside = self.inside.chunks_exact(width).peekable();
+        for k in (known..history.len()).filter(|k| k.is_multiple_of(parts)) {
+            let sample = history.sample(k);
+            while let Some(before) = inside.next_if(|own| own[0] < sample[0] * (1.0 - SAME_TIME)) {
+                values.extend(before);
+            }
+            let is_same = |own: &&[f64]| own[0] - sample[0] <= SAME_TIME * sample[0];
+            if !inside.peek().is_some_and(is_same) {
+                values.extend(sample);
+            }
+        }
+        inside.for_each(|own| values.extend(own));
         let is_too_long = values.len() > MOST_VALUES;
         steps.put_values(values);
         if is_too_long {
@@ -133,6 +178,6 @@ impl Samples {
 
     /// Returns the samples at the output times, and those with the ends of steps.
     pub fn histories(self) -> [History; 2] {
-        [self.recorder.into_history(), self.steps.map_or_else(History::default, |(steps, _)| steps)]
+        [self.recorder.into_history(), self.steps.unwrap_or_default()]
     }
 }

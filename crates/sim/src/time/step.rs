@@ -4,6 +4,7 @@ use super::collocation::Collocation;
 use super::nodes::Nodes;
 use super::penetrations::Penetrations;
 use super::sdirk::Sdirk;
+use crate::contact::geometry::Geometry;
 use crate::contact::solver::Solver;
 use crate::contact::solver::errors::{Ringing, StateErrors};
 use crate::contact::system::System;
@@ -222,6 +223,15 @@ impl<'a, 'b> Step<'a, 'b> {
             Integrator::Collocation(collocation) => first(&mut collocation.excesses(self.solver).into_iter()),
             Integrator::Sdirk(sdirk) => first(&mut sdirk.excesses()),
         }
+    }
+
+    /// Geometries and states at the nodes of a collocation method inside the step just taken, by increasing time.
+    pub fn inner_nodes(&self) -> impl Iterator<Item = (&Geometry, &State)> {
+        let nodes = match &self.integrator {
+            Integrator::Collocation(collocation) => Some(collocation.inner_nodes()),
+            Integrator::Sdirk(_) => None,
+        };
+        nodes.into_iter().flatten()
     }
 
     /// Energy exchanged in the step just taken, of length `h`.
