@@ -22,6 +22,8 @@
 //! given time is then a matter of chance. There the window is the whole run, and the extremes of a quantity are taken
 //! over all wheels of a body.
 
+use std::cell::OnceCell;
+
 use crate::{Channel, History};
 
 /// Scale of the smallest quantities, relative to the largest of their kind.
@@ -116,7 +118,7 @@ impl Record {
         let range = |quantity: &RecordedQuantity| {
             let first = quantity.values.first().copied().unwrap_or_default();
             let start = if quantity.is_position { first } else { 0.0 };
-            let [low, high] = extremes(quantity.values.iter(), start);
+            let [low, high] = extremes(&quantity.values, start);
             high - low
         };
         let ranges: Vec<f64> = self.quantities.iter().map(range).collect();
@@ -129,14 +131,28 @@ impl Record {
     }
 }
 
-/// Smallest and largest of `values` and `start`.
-fn extremes<'a>(values: impl Iterator<Item = &'a f64>, start: f64) -> [f64; 2] {
-    values.fold([start; 2], |[low, high], value| [low.min(*value), high.max(*value)])
+/// Number of values that are compared side by side.
+const LANES: usize = 8;
+
+/// Smallest and largest of `values` and `start`; what is not a number does not count.
+fn extremes(values: &[f64], start: f64) -> [f64; 2] {
+    let (mut low, mut high) = ([f64::INFINITY; LANES], [f64::NEG_INFINITY; LANES]);
+    let blocks = values.chunks_exact(LANES);
+    let last = blocks.remainder();
+    let mut add = |block: &[f64]| {
+        for ((low, high), value) in low.iter_mut().zip(&mut high).zip(block) {
+            *low = if *value < *low { *value } else { *low };
+            *high = if *value > *high { *value } else { *high };
+        }
+    };
+    blocks.for_each(&mut add);
+    add(last);
+    [low.into_iter().fold(start, f64::min), high.into_iter().fold(start, f64::max)]
 }
 
 /// Smallest and largest of `values`; zeros where there are none.
 fn own_extremes(values: &[f64]) -> [f64; 2] {
-    extremes(values.iter(), values.first().copied().unwrap_or_default())
+    extremes(values, values.first().copied().unwrap_or_default())
 }
 
 /// Difference of two runs.
@@ -196,7 +212,7 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
                 let [a, b] = [a, b].map(|record| group_extremes(record, &other.group, count));
                 (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
             }
-            Measure::Extremes => windows.difference(values),
+            Measure::Extremes => windows.outline(values[0]).difference(&windows.outline(values[1])),
         };
         let relative = if largest == 0.0 { 0.0 } else { largest / scale };
         if other.channel.is_none() {
@@ -310,22 +326,82 @@ impl Windows {
         Windows { own, wide }
     }
 
-    /// Largest difference of extremes over the run, of the envelopes, and of the means.
-    fn difference(&self, values: [&[f64]; 2]) -> f64 {
-        let over = |side: usize, range: std::ops::Range<usize>| own_extremes(&values[side][range]);
-        let whole = 0..values[0].len();
-        let [a, b] = [over(0, whole.clone()), over(1, whole)];
-        let mut most = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
-        for (own, wide) in self.own.iter().zip(&self.wide) {
-            let [a, b] = [over(0, own.clone()), over(1, own.clone())];
-            let [around_a, around_b] = [over(0, wide.clone()), over(1, wide.clone())];
-            most = most.max(a[1] - around_b[1]).max(b[1] - around_a[1]);
-            most = most.max(around_b[0] - a[0]).max(around_a[0] - b[0]);
-            let mean = |side: usize| values[side][own.clone()].iter().sum::<f64>() / own.len() as f64;
-            most = most.max((mean(0) - mean(1)).abs());
+    /// What is compared of the values of a quantity.
+    fn outline(&self, values: &[f64]) -> Outline {
+        let of = |range: &std::ops::Range<usize>| own_extremes(&values[range.clone()]);
+        let windows = self.own.iter().zip(&self.wide).map(|(own, wide)| Window {
+            own: of(own),
+            wide: of(wide),
+            mean: values[own.clone()].iter().sum::<f64>() / own.len() as f64,
+        });
+        Outline {
+            whole: own_extremes(values),
+            windows: windows.collect(),
+            is_finite: values.iter().all(|value| value.is_finite()),
         }
-        // maxima ignore what is not a number; the sum does not
-        if values.iter().all(|part| part.iter().all(|value| value.is_finite())) { most } else { f64::NAN }
+    }
+}
+
+/// What [`Measure::Extremes`] compares of one quantity.
+struct Outline {
+    /// Smallest and largest value over the run.
+    whole: [f64; 2],
+    windows: Vec<Window>,
+    /// Whether all values are finite.
+    is_finite: bool,
+}
+
+/// Extremes in a window and in the widened one, and the mean in it.
+struct Window {
+    own: [f64; 2],
+    wide: [f64; 2],
+    mean: f64,
+}
+
+impl Outline {
+    /// Largest difference of extremes over the run, of the envelopes, and of the means.
+    fn difference(&self, other: &Outline) -> f64 {
+        // maxima ignore what is not a number
+        if !(self.is_finite && other.is_finite) {
+            return f64::NAN;
+        }
+        let [a, b] = [self.whole, other.whole];
+        let mut most = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
+        for (a, b) in self.windows.iter().zip(&other.windows) {
+            most = most.max(a.own[1] - b.wide[1]).max(b.own[1] - a.wide[1]);
+            most = most.max(b.wide[0] - a.own[0]).max(a.wide[0] - b.own[0]);
+            most = most.max((a.mean - b.mean).abs());
+        }
+        most
+    }
+}
+
+/// A record whose single quantities are compared with many others by [`Measure::Extremes`], in a run whose phases count.
+pub(super) struct Outlined<'a> {
+    record: &'a Record,
+    windows: Windows,
+    scales: Vec<f64>,
+    /// By quantity, made when it is first compared.
+    outlines: Vec<OnceCell<Outline>>,
+}
+
+impl<'a> Outlined<'a> {
+    /// The record; `None` where bounces are so many that wheels are compared together, or where it is empty.
+    pub fn new(record: &'a Record, bounces: Bounces) -> Option<Outlined<'a>> {
+        if bounces.are_many() || record.time.is_empty() {
+            return None;
+        }
+        let outlines = record.quantities.iter().map(|_| OnceCell::new()).collect();
+        let (windows, scales) = (Windows::new(&record.time, bounces.slowest), record.scales());
+        Some(Outlined { record, windows, scales, outlines })
+    }
+
+    /// Difference of other values of quantity `index` from its own, relative to its scale.
+    pub fn difference(&self, index: usize, values: &[f64]) -> f64 {
+        let own =
+            self.outlines[index].get_or_init(|| self.windows.outline(&self.record.quantities[index].values));
+        let largest = self.windows.outline(values).difference(own);
+        if largest == 0.0 { 0.0 } else { largest / self.scales[index] }
     }
 }
 

@@ -32,7 +32,7 @@ use splines::{Axis, Influence, Probe};
 
 use self::oscillator::{LoadAtEnds, Oscillator};
 use self::wheels::{CORNER, Interval, LoadedWheel, WheelInstant, loaded_wheels};
-use super::measure::{Bounces, Measure, Record, RecordedQuantity, difference};
+use super::measure::{Bounces, Measure, Outlined, Record, RecordedQuantity, difference};
 use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
@@ -463,7 +463,8 @@ impl<'a> Replay<'a> {
             }
             found
         };
-        let by_extremes = |(index, kept): (usize, usize)| {
+        // wheels of a body are compared together
+        let together = |(index, kept): (usize, usize)| {
             let (mut completed, rows) = (record.clone(), record.time.len());
             for slot in &slots {
                 let Lacking::Series(series) = &slot.lacking else { continue };
@@ -473,6 +474,29 @@ impl<'a> Replay<'a> {
             }
             let apart = difference(&completed, record, Measure::Extremes, bounces);
             TailError { kept, error: apart.largest, quantity: apart.quantity }
+        };
+        let outlined = Outlined::new(record, bounces);
+        let mut values = Vec::new();
+        let by_extremes = |(index, kept): (usize, usize)| {
+            let Some(outlined) = &outlined else { return together((index, kept)) };
+            let (mut found, rows) =
+                (TailError { kept, error: 0.0, quantity: String::new() }, record.time.len());
+            for slot in &slots {
+                let Lacking::Series(series) = &slot.lacking else { continue };
+                let own = &record.quantities[slot.quantity];
+                let lacking = &series[index * rows..(index + 1) * rows];
+                let share = beyond(slot, kept);
+                values.clear();
+                values.extend(
+                    own.values.iter().zip(lacking).map(|(value, more)| value + share * f64::from(*more)),
+                );
+                let error = outlined.difference(slot.quantity, &values);
+                if error > found.error || error.is_nan() {
+                    found.error = if error.is_nan() { f64::INFINITY } else { error };
+                    found.quantity.clone_from(&own.name);
+                }
+            }
+            found
         };
         let counts = self.counts.iter().copied().enumerate();
         match measure {

@@ -1,10 +1,10 @@
 //! Converged references: runs whose own error is known by comparison with a second run.
 //!
 //! A reference is a pair of runs that differ in everything that can err: the number of modes (or of elements) and the
-//! method of integration. Pairs are run ever finer until the largest difference of a pair is a hundredth of what the
-//! study must resolve, until a run exceeds its time limit, or until the list of the budget ends; the closest pair is
-//! kept. The difference d of the pair limits the resolution of the reference: errors of settings are resolved if they
-//! exceed [`RESOLUTION_FACTOR`] d.
+//! method of integration. Pairs are run ever finer until the largest difference of a pair is far below what the study
+//! must resolve ([`StudyBudget::margin`]), until a run exceeds its time limit, or until the list of the budget ends; the
+//! closest pair is kept. The difference d of the pair limits the resolution of the reference: errors of settings are
+//! resolved if they exceed [`RESOLUTION_FACTOR`] d.
 
 use sim::{Measure, Method, Stepping};
 
@@ -165,7 +165,7 @@ impl Search {
         levels: impl Iterator<Item = (f64, MeshDetail)>,
         budget: &StudyBudget,
     ) -> Result<(), Error> {
-        let wanted = (budget.resolution / RESOLUTION_FACTOR * 1e-2).max(SMALLEST_DIFFERENCE);
+        let wanted = (budget.resolution / RESOLUTION_FACTOR * budget.margin).max(SMALLEST_DIFFERENCE);
         for (accuracy, detail) in levels {
             let scenes = [make(detail), make(detail.half())];
             let [(columns, words), (second, second_words)] =

@@ -21,6 +21,8 @@ pub struct StudyBudget {
     pub modes: Vec<usize>,
     /// Numbers of elements of each member.
     pub elements: Vec<usize>,
+    /// Number of elements of the mesh that varies its accuracy, spread over the members.
+    pub mesh_elements: usize,
     /// Numbers of rigid parts.
     pub parts: Vec<usize>,
     /// Numbers of stations of each rail.
@@ -38,6 +40,9 @@ pub struct StudyBudget {
     /// Smallest relative error of deflections and wheel forces that the study must resolve: the runs of a reference
     /// must agree ten times better.
     pub resolution: f64,
+    /// Difference of the two runs of a reference from which no finer ones are made, relative to the largest that resolves
+    /// `resolution`.
+    pub margin: f64,
 }
 
 impl StudyBudget {
@@ -50,6 +55,7 @@ impl StudyBudget {
             steps: vec![64, 256, 1024, 4096, 16384],
             modes: vec![1, 2, 3, 4, 6, 8, 12, 16, 24],
             elements: vec![1, 2, 4, 8],
+            mesh_elements: 192,
             parts: vec![2, 4, 8, 16, 32, 64],
             stations: vec![5, 7, 13, 19, 37, 73, 145],
             references: vec![(1e-5, 8), (1e-6, 16), (1e-7, 32), (1e-8, 48), (1e-9, 64)],
@@ -58,6 +64,7 @@ impl StudyBudget {
             limit: 20.0,
             repetition_limit: 20.0,
             resolution: 1e-4,
+            margin: 1e-2,
         }
     }
 
@@ -70,7 +77,8 @@ impl StudyBudget {
             steps: vec![256, 1024],
             modes: vec![1, 2, 4, 8],
             elements: vec![1, 2],
-            parts: vec![2, 8, 16],
+            mesh_elements: 64,
+            parts: vec![2, 4, 8],
             stations: vec![7, 19, 73],
             references: vec![(1e-4, 4), (1e-5, 8), (1e-6, 16)],
             meshes: vec![(1e-4, 2), (1e-5, 4)],
@@ -78,6 +86,7 @@ impl StudyBudget {
             limit: 5.0,
             repetition_limit: 0.5,
             resolution: 1e-2,
+            margin: 0.1,
         }
     }
 }

@@ -59,21 +59,15 @@ pub fn with(scene: &Scene, set: impl Fn(&Structure) -> Foundation) -> Scene {
     out
 }
 
-/// Number of elements of a mesh whose time is measured.
-const ELEMENTS: usize = 192;
-/// Least and largest number of elements of a member in it.
+/// Least and largest number of elements of a member in a mesh whose time is measured.
 const PER_MEMBER: [usize; 2] = [2, 64];
 
-/// Number of elements of each member in a mesh of about 192 elements, 2 to 64 per member.
-fn mesh_elements(solved: Option<&SolvedModel>) -> usize {
-    let members = solved.map_or(1, |solved| solved.model.members.len());
-    (ELEMENTS / members.max(1)).clamp(PER_MEMBER[0], PER_MEMBER[1])
-}
-
-/// The scene on a mesh of that many elements.
-fn mesh(scene: &Scene, known: &[SolvedStructure]) -> Scene {
+/// The scene on a mesh of about `count` elements, 2 to 64 of each member.
+fn mesh(scene: &Scene, known: &[SolvedStructure], count: usize) -> Scene {
     with(scene, |structure| {
-        let elements = mesh_elements(solution_of(known, &structure.origin));
+        let solved = solution_of(known, &structure.origin);
+        let members = solved.map_or(1, |solved| solved.model.members.len());
+        let elements = (count / members.max(1)).clamp(PER_MEMBER[0], PER_MEMBER[1]);
         Foundation::Full { elements, damping: structure.damping }
     })
 }
@@ -168,7 +162,7 @@ impl List<'_> {
                 let scene = with(&fine, |own| Foundation::Full { elements, damping: own.damping });
                 self.add(SettingFamily::Mesh, "elements", elements as f64, scene);
             }
-            self.by_accuracy(SettingFamily::Full, &mesh(scene, known));
+            self.by_accuracy(SettingFamily::Full, &mesh(scene, known, self.budget.mesh_elements));
         }
     }
 

@@ -57,3 +57,26 @@ fn a_shift_in_time_moves_extremes_at_the_end_of_a_run() {
     assert_eq!(share_at_end(&record(&within), 0.25), 0.0);
     assert_eq!(share_at_end(&Record::default(), 0.25), 0.0);
 }
+
+/// Identity: the difference of one quantity from an outlined record is that of two records which differ in it alone.
+#[test]
+fn a_quantity_of_an_outlined_record_differs_as_in_whole_records() {
+    let bounces = Bounces { slowest: 0.05, remembered: 20.0 };
+    let known = record(0.1, |t| (9.0 * t).sin(), |t| 3.0 + t * t);
+    let outlined = Outlined::new(&known, bounces).expect("few bounces");
+    let changes: [&dyn Fn(f64) -> f64; 4] =
+        [&|_| 0.0, &|t| if (t - 0.5).abs() < 0.01 { 0.7 } else { 0.0 }, &|t| 0.2 * (40.0 * t).cos(), &|t| {
+            if t > 0.85 { f64::NAN } else { 0.0 }
+        }];
+    for change in changes {
+        for index in 0..known.quantities.len() {
+            let mut other = known.clone();
+            let values = &mut other.quantities[index].values;
+            values.iter_mut().zip(&known.time).for_each(|(value, t)| *value += change(*t));
+            let found = outlined.difference(index, values);
+            let whole = difference(&other, &known, Measure::Extremes, bounces).largest;
+            assert!(found == whole || (found.is_nan() && whole == f64::INFINITY), "{found} and {whole}");
+        }
+    }
+    assert!(Outlined::new(&known, Bounces { remembered: 200.0, ..bounces }).is_none());
+}
