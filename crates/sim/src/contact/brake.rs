@@ -38,6 +38,10 @@ impl Element for BrakeForce<'_> {
         *row.rate_offset = -0.0;
     }
 
+    fn row_changes(&self) -> bool {
+        false
+    }
+
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         self.grip.probes()
     }

@@ -18,6 +18,10 @@ use crate::mechanics::assembly::Mechanics;
 /// of extrapolated by its slope.
 const NEAR: f64 = 1e-3;
 
+/// Square of the distance a wheel may be beside the path, in radii per unit of step tolerance. G is extrapolated to it, with an
+/// error in proportion to its square.
+const BESIDE: f64 = 4e-3;
+
 /// The compliance between all elements.
 #[derive(Clone)]
 pub(crate) struct RailCompliance {
@@ -78,7 +82,7 @@ impl RailCompliance {
     /// radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
         self.near = NEAR * tolerance;
-        self.reach = (NEAR * tolerance).sqrt() * radius;
+        self.reach = (BESIDE * tolerance).sqrt() * radius;
     }
 
     /// Whether interpolation along paths is useful.

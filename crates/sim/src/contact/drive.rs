@@ -56,6 +56,10 @@ impl Element for DriveForce<'_> {
         *row.rate_offset = -reference.unwrap_or(0.0);
     }
 
+    fn row_changes(&self) -> bool {
+        false
+    }
+
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         self.grip.probes()
     }

@@ -40,6 +40,11 @@ pub(crate) trait Element {
     /// Adds the part of its row that depends on positions and time; the shapes of the rail are added afterwards.
     fn update_row(&self, _at: &Where, _row: &mut RowMut, _local: &mut Local) {}
 
+    /// Whether [`Element::update_row`] changes more of its row than offsets and rise.
+    fn row_changes(&self) -> bool {
+        true
+    }
+
     /// Fraction of its law that acts at the present positions of the wheels, and the slope of this fraction along the
     /// rail.
     fn fraction(&self, _mechanics: &Mechanics, _places: &Places) -> Option<[f64; 2]> {
@@ -188,6 +193,7 @@ pub(crate) struct Fixed {
     pub has_memory: bool,
     pub is_followed: bool,
     pub is_tangential: bool,
+    pub row_changes: bool,
 }
 
 impl Fixed {
@@ -198,6 +204,7 @@ impl Fixed {
             has_memory: element.has_memory(),
             is_followed: element.is_followed(),
             is_tangential: element.is_tangential(),
+            row_changes: element.row_changes(),
         }
     }
 }

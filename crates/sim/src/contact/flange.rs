@@ -13,7 +13,7 @@ use crate::scene::irregularity::LATERAL;
 use crate::{BodyDof, Channel, Flange};
 
 /// Part of the clearance within which a flange is near its rail.
-const NEAR: f64 = 0.1;
+const NEAR: f64 = 0.02;
 /// Factor on the motion that speed and acceleration at the start of a step predict for it.
 const CLOSING: f64 = 3.0;
 
@@ -98,7 +98,7 @@ impl Element for FlangeContact<'_> {
         true
     }
 
-    /// A flange may touch if what is left of its clearance is a tenth of it, or less than three times what its present speed
+    /// A flange may touch if what is left of its clearance is a fiftieth of it, or less than three times what its present speed
     /// and acceleration close within `h`.
     fn may_act(&self, at: &At, h: f64) -> bool {
         let shape = at.rows.rise[at.index] * at.mechanics.speed_along(self.wheel, at.state);

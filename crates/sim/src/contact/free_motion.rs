@@ -8,6 +8,7 @@ use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::inertia::columns_of;
 use crate::mechanics::mobility::Mobility;
 use crate::mechanics::state::{Known, State};
+use crate::numerics::dense::add_lines;
 
 /// Loads, mass and mobility at one state, and the resulting motion.
 pub(crate) struct FreeMotion<'a> {
@@ -110,10 +111,8 @@ impl<'a> FreeMotion<'a> {
         self.load.copy_from(&self.given);
         if let Some(constant) = system.mechanics.blocks[0].body_mass() {
             let mass = if system.mechanics.carried.is_empty() { constant } else { &self.mass };
-            let load = self.load.as_mut_slice();
-            for (column, a) in columns_of(mass).zip(at.a.as_slice()) {
-                load.iter_mut().zip(column).for_each(|(load, mass)| *load -= mass * a);
-            }
+            let columns = at.a.iter().map(|a| -a).zip(columns_of(mass));
+            add_lines(columns, &mut self.load.as_mut_slice()[..mass.nrows()]);
         }
         if system.mechanics.has_structures() {
             self.a.copy_from(&at.a);
@@ -126,11 +125,7 @@ impl<'a> FreeMotion<'a> {
                 coupling.resist_acceleration(self.a.as_slice(), self.load.as_mut_slice());
             }
         }
-        for &j in acting {
-            let force = at.force[j];
-            let load = self.load.as_mut_slice();
-            load.iter_mut().zip(force_row(j)).for_each(|(load, share)| *load -= share * force);
-        }
+        add_lines(acting.iter().map(|&j| (-at.force[j], force_row(j))), self.load.as_mut_slice());
         self.stage.apply(self.load.as_slice(), self.a.as_mut_slice());
         for (a, own) in self.a.as_mut_slice().iter_mut().zip(at.a.as_slice()) {
             *a += own;
@@ -149,14 +144,8 @@ impl<'a> FreeMotion<'a> {
         for block in &system.mechanics.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
-        let load = self.load.as_mut_slice();
-        for (row, force) in
-            rows.chunks_exact(load.len().max(1)).zip(&at.force).filter(|(_, force)| **force != 0.0)
-        {
-            for (load, entry) in load.iter_mut().zip(row) {
-                *load -= entry * force;
-            }
-        }
+        let rows = rows.chunks_exact(self.load.len().max(1));
+        add_lines(at.force.iter().map(|force| -force).zip(rows), self.load.as_mut_slice());
         self.inverse.apply(self.load.as_slice(), at.a.as_mut_slice());
         Ok(())
     }

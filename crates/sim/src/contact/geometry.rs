@@ -18,7 +18,7 @@ use super::rows::Rows;
 use super::switches::Switches;
 use super::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::dense::along;
+use crate::numerics::dense::{add_lines, along};
 use crate::scene::dof::arm_rows;
 use crate::{Action, Error};
 
@@ -35,6 +35,9 @@ pub(crate) struct Geometry {
     switches: Switches,
     /// Slope of the deflected rail under each element, d u/d x, including that of the unloaded rail's shape.
     rail_slope: Vec<f64>,
+    /// Rows of the x of the wheels on which the slope of the deflected rail exerts a force, over the degrees of freedom,
+    /// row-major; empty if no wheel moves freely along its rail.
+    along_rail: Vec<f64>,
     shapes: ShapeSlopes,
     is_built: bool,
     /// Largest change of a displacement of a body for which the data of another state serve.
@@ -49,8 +52,10 @@ pub(crate) struct Geometry {
 struct Drift {
     /// Motion of every wheel along its rail.
     wheels: Vec<f64>,
-    /// Change of the approach of every element less the deflection of its rail.
+    /// Change of the approach of every element less the deflection of its rail; zero where this is no state.
     change: Vec<f64>,
+    /// Scratch: the part of it by the motion of the wheels of other elements.
+    by_others: Vec<f64>,
 }
 
 /// Largest change of a displacement of a body, in radii of the smallest wheel per unit of step tolerance, for which the
@@ -77,16 +82,21 @@ impl Geometry {
         Geometry {
             places: Places::new(&system.mechanics),
             rails: RailCompliance::new(&system.mechanics, &system.probes, m),
-            rows: Rows::zeros(m, n),
+            rows: constant.clone(),
             constant,
             local: vec![Local::default(); m],
             switches: Switches::new(&system.scene.actuators),
             rail_slope: vec![0.0; m],
+            along_rail: rows_along_rails(system),
             shapes: ShapeSlopes { all: vec![0.0; m * n], value: vec![0.0; n], slope: vec![0.0; n] },
             is_built: false,
             near: 0.0,
             height: vec![0.0; system.mechanics.wheels.len()],
-            drift: Drift { wheels: vec![0.0; system.mechanics.wheels.len()], change: vec![0.0; m] },
+            drift: Drift {
+                wheels: vec![0.0; system.mechanics.wheels.len()],
+                change: vec![0.0; m],
+                by_others: vec![0.0; m],
+            },
         }
     }
 
@@ -254,11 +264,12 @@ impl Geometry {
         self.height.copy_from_slice(&self.places.height);
         let Geometry { places, rows, local, switches, .. } = self;
         let at = Where { mechanics, t, q, places, switches, is_uneven };
+        let has_structures = mechanics.has_structures();
         for &i in elements.list() {
-            rows.reset(i, &self.constant);
+            rows.reset(i, &self.constant, has_structures || system.fixed[i].row_changes);
             system.elements[i].update_row(&at, &mut rows.row_mut(i), &mut local[i]);
         }
-        if mechanics.has_structures() {
+        if has_structures {
             self.add_shapes(system, elements)?;
         }
         Ok(())
@@ -316,24 +327,21 @@ impl Geometry {
     /// Computes the rows of the forces: the rows of the approach, or of the rate for tangential elements, minus the
     /// slope of the rail times the rows of the wheel's x.
     fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
-        let n = system.mechanics.dofs;
+        let (n, moves_freely) = (system.mechanics.dofs, system.mechanics.moves_freely);
+        if moves_freely {
+            self.update_rail_slope(system, q, force);
+        }
         for &i in elements.list() {
             let span = i * n..(i + 1) * n;
             let own = if system.fixed[i].is_tangential { &self.rows.rate } else { &self.rows.approach };
-            self.rows.force[span.clone()].copy_from_slice(&own[span]);
-        }
-        if !system.mechanics.moves_freely {
-            return;
-        }
-        self.update_rail_slope(system, q, force);
-        for &i in elements.list() {
-            let Some(w) = system.elements[i].tilted_wheel() else { continue };
-            let wheel = &system.mechanics.wheels[w];
-            let row = arm_rows(wheel.hub)[0];
-            for (k, coefficient) in row.iter().enumerate().filter(|(_, c)| **c != 0.0) {
-                for &(number, share) in &system.mechanics.kinematics.terms(wheel.body)[k] {
-                    self.rows.force[i * n + number] -= self.rail_slope[i] * coefficient * share;
-                }
+            let (row, own) = (&mut self.rows.force[span.clone()], &own[span.clone()]);
+            if !moves_freely {
+                row.copy_from_slice(own);
+                continue;
+            }
+            let slope = self.rail_slope[i];
+            for (entry, (own, along)) in row.iter_mut().zip(own.iter().zip(&self.along_rail[span])) {
+                *entry = own - slope * along;
             }
         }
     }
@@ -389,28 +397,24 @@ impl Geometry {
             return;
         }
         let (mechanics, m) = (&system.mechanics, force.len());
-        let mut drift = std::mem::replace(&mut self.drift, Drift { wheels: Vec::new(), change: Vec::new() });
-        let Drift { wheels, change } = &mut drift;
-        for (w, moved) in wheels.iter_mut().enumerate() {
-            *moved = self.places.of_wheel(mechanics, w, q) - self.places.x[w];
+        let Geometry { drift: Drift { wheels, change, by_others }, places, rails, rows, shapes, .. } = self;
+        for w in 0..wheels.len() {
+            // The wheels of one contact move together.
+            let is_next = w > 0 && mechanics.wheels[w].contact == mechanics.wheels[w - 1].contact;
+            wheels[w] = if is_next { wheels[w - 1] } else { places.of_wheel(mechanics, w, q) - places.x[w] };
         }
-        let slopes = &self.rails.matrices().slope;
+        let slopes = &rails.matrices().slope;
+        let moved = |i: usize| system.first_wheel[i].map_or(0.0, |wheel| wheels[wheel]);
+        by_others.fill(0.0);
+        let shares = force.iter().enumerate().map(|(j, force)| moved(j) * force);
+        add_lines(shares.zip(slopes.chunks_exact(m)), by_others);
         for &i in &system.probes.states {
-            let moved = system.first_wheel[i].map_or(0.0, |wheel| wheels[wheel]);
-            change[i] = moved * (self.rows.rise[i] - along(slopes, i, force));
+            let mut slope = rows.rise[i] - along(slopes, i, force);
             if mechanics.has_structures() {
-                change[i] -= moved * self.shape_slope(i, q);
+                slope -= along(&shapes.all, i, q.as_slice());
             }
+            change[i] = moved(i) * slope - by_others[i];
         }
-        for (j, force) in force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
-            let Some(wheel) = system.first_wheel[j] else { continue };
-            let share = wheels[wheel] * force;
-            let row = &slopes[j * m..(j + 1) * m];
-            for &i in &system.probes.states {
-                change[i] -= share * row[i];
-            }
-        }
-        self.drift = drift;
     }
 
     /// Change of the approach of element `i` less the deflection of its rail by the last [`Geometry::drift_to`]; zero
@@ -500,4 +504,21 @@ impl Geometry {
     pub fn set_compliance(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>) {
         self.rails.set_value(rows, self.local.len());
     }
+}
+
+/// Rows of the x of the wheels on which the slope of the deflected rail exerts a force, elements x degrees of freedom,
+/// row-major; empty if no wheel moves freely along its rail.
+fn rows_along_rails(system: &System) -> Vec<f64> {
+    let (mechanics, n) = (&system.mechanics, system.mechanics.dofs);
+    if !mechanics.moves_freely {
+        return Vec::new();
+    }
+    let mut rows = vec![0.0; system.elements.len() * n];
+    for (element, row) in system.elements.iter().zip(rows.chunks_exact_mut(n.max(1))) {
+        let Some(wheel) = element.tilted_wheel().map(|w| &mechanics.wheels[w]) else { continue };
+        for (number, share) in mechanics.kinematics.combine(wheel.body, &arm_rows(wheel.hub)[0]) {
+            row[number] = share;
+        }
+    }
+    rows
 }

@@ -56,8 +56,17 @@ struct Pair {
     /// G(i, j): s^0 to s^3.
     value: [f64; 4],
     /// d G(i, j)/d x_i and d G(j, i)/d x_j: s^0 to s^2.
-    slope: [f64; 3],
-    back: [f64; 3],
+    slopes: [[f64; 2]; 3],
+}
+
+impl Pair {
+    /// G(i, j), d G(i, j)/d x_i and d G(j, i)/d x_j at `s` and at the distances `beside` of both groups from the path.
+    #[inline]
+    fn at(&self, s: f64, beside: [f64; 2]) -> [f64; 3] {
+        let ([a, b, c, d], [p, q, r]) = (self.value, self.slopes);
+        let [slope, back] = std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k]));
+        [a + s * (b + s * (c + s * d)) + (slope * beside[0] + back * beside[1]), slope, back]
+    }
 }
 
 /// The path of the wheels of a structure.
@@ -232,7 +241,8 @@ impl CompliancePath {
                     let (line, by) = (to.slope[pair] - from.slope[pair], bend * length);
                     [from.slope[pair], line + by, -by]
                 };
-                self.pairs.push(Pair { value, slope: slope(there, x), back: slope(back, y) });
+                let (slope, back) = (slope(there, x), slope(back, y));
+                self.pairs.push(Pair { value, slopes: std::array::from_fn(|k| [slope[k], back[k]]) });
             }
         }
     }
@@ -286,28 +296,29 @@ impl CompliancePath {
             }
         }
         for (place, &i) in self.rows.iter().enumerate() {
-            let pairs = &self.pairs[i * (i + 1) / 2..][..=i];
             let (row, offset) = (&self.groups[i], self.offset[i]);
-            for &j in &self.rows[..=place] {
-                let (pair, column) = (&pairs[j], &self.groups[j]);
-                let quadratic = |[a, b, c]: [f64; 3]| a + s * (b + s * c);
-                let [a, b, c, d] = pair.value;
-                let (slope, back) = (quadratic(pair.slope), quadratic(pair.back));
-                let value = a + s * (b + s * (c + s * d)) + (slope * offset + back * self.offset[j]);
-                let there = row.element * m + column.element;
+            let (first, last) = (row.element * m, row.element);
+            let pairs = &self.pairs[i * (i + 1) / 2..][..=i];
+            for &j in &self.rows[..place] {
+                let (column, [value, slope, back]) =
+                    (&self.groups[j], pairs[j].at(s, [offset, self.offset[j]]));
+                let (there, mirrored) = (first + column.element, column.element * m + last);
                 sums[there] += value;
+                sums[mirrored] += value;
                 rates[there] += slope;
+                rates[mirrored] += back;
                 if let Some(own) = row.tangential {
                     tangential[own * m + column.element] += slope;
                 }
-                if i != j {
-                    let there = column.element * m + row.element;
-                    sums[there] += value;
-                    rates[there] += back;
-                    if let Some(own) = column.tangential {
-                        tangential[own * m + row.element] += back;
-                    }
+                if let Some(own) = column.tangential {
+                    tangential[own * m + last] += back;
                 }
+            }
+            let [value, slope, _] = pairs[i].at(s, [offset; 2]);
+            sums[first + last] += value;
+            rates[first + last] += slope;
+            if let Some(own) = row.tangential {
+                tangential[own * m + last] += slope;
             }
         }
         true

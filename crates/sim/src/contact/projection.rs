@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::rows::Rows;
 use super::system::System;
 use crate::mechanics::mobility::Mobility;
-use crate::numerics::dense::dot;
+use crate::numerics::dense::{add_lines, dot};
 
 /// Products of rows and mobility.
 pub(crate) struct Projection {
@@ -109,26 +109,9 @@ impl Projection {
     }
 }
 
-/// Sets `sum` to the product of `row` and a row-major matrix with as many columns as `sum` has entries. The lines of the
-/// matrix are added in their order, four at a time: each sum is loaded and stored once for four of them.
+/// Sets `sum` to the product of `row` and a row-major matrix with as many columns as `sum` has entries.
 fn product(row: &[f64], matrix: &[f64], sum: &mut [f64]) {
     sum.fill(0.0);
     let width = sum.len().max(1);
-    let mut four: [(f64, &[f64]); 4] = [(0.0, &[]); 4];
-    let mut known = 0;
-    for (share, line) in row.iter().zip(matrix.chunks_exact(width)).filter(|(share, _)| **share != 0.0) {
-        four[known] = (*share, line);
-        known += 1;
-        if known == 4 {
-            let [(a, first), (b, second), (c, third), (d, fourth)] = four;
-            let lines = first.iter().zip(second).zip(third.iter().zip(fourth));
-            for (sum, ((e, f), (g, h))) in sum.iter_mut().zip(lines) {
-                *sum = *sum + a * e + b * f + c * g + d * h;
-            }
-            known = 0;
-        }
-    }
-    for (share, line) in &four[..known] {
-        sum.iter_mut().zip(*line).for_each(|(sum, entry)| *sum += share * entry);
-    }
+    add_lines(row.iter().copied().zip(matrix.chunks_exact(width)), sum);
 }

@@ -49,11 +49,14 @@ impl Rows {
         }
     }
 
-    /// Copies approach and rate of element `i` and the offset of its approach from `constant`; sets its `rise` to zero.
-    pub fn reset(&mut self, i: usize, constant: &Rows) {
-        let span = i * self.dofs..(i + 1) * self.dofs;
-        self.approach[span.clone()].copy_from_slice(&constant.approach[span.clone()]);
-        self.rate[span.clone()].copy_from_slice(&constant.rate[span]);
+    /// Copies the offset of the approach of element `i` from `constant` and, where it `has_changed`, approach and rate; sets
+    /// its `rise` to zero.
+    pub fn reset(&mut self, i: usize, constant: &Rows, has_changed: bool) {
+        if has_changed {
+            let span = i * self.dofs..(i + 1) * self.dofs;
+            self.approach[span.clone()].copy_from_slice(&constant.approach[span.clone()]);
+            self.rate[span.clone()].copy_from_slice(&constant.rate[span]);
+        }
         self.approach_offset[i] = constant.approach_offset[i];
         self.rise[i] = 0.0;
     }

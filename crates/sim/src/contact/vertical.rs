@@ -143,6 +143,10 @@ impl Element for Vertical<'_> {
         Some(chains[contact.rail].fraction(part, mean))
     }
 
+    fn row_changes(&self) -> bool {
+        false
+    }
+
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         let weight = -1.0 / self.count();
         let wheels = self.wheels.clone();

@@ -12,9 +12,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::assembly::Mechanics;
 use super::coupling::InertialCoupling;
-use super::inertia::{Block, Matrices};
+use super::inertia::{Block, Matrices, columns_of};
 use crate::Error;
-use crate::numerics::dense::invert_spd;
+use crate::numerics::dense::{add_lines, invert_spd};
 
 /// Mobility (M + g C + g^2 K)^-1 of the whole scene.
 pub(crate) struct Mobility<'a> {
@@ -155,7 +155,6 @@ enum Inverse {
 struct BlockMobility {
     step: f64,
     blocks: Vec<(Range<usize>, Inverse)>,
-    scratch: Vec<f64>,
 }
 
 impl BlockMobility {
@@ -166,7 +165,7 @@ impl BlockMobility {
     pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
         if let Some((_, Inverse::Matrix(bodies))) = self.blocks.first_mut() {
             bodies.copy_from(mass);
-            if !invert_spd(bodies.as_mut_slice(), &mut self.scratch, mass.nrows()) {
+            if !invert_spd(bodies.as_mut_slice(), mass.nrows()) {
                 return Err(not_definite(mass.diagonal().min()));
             }
         }
@@ -191,9 +190,7 @@ impl BlockMobility {
             };
             Ok((block.range.clone(), inverse))
         };
-        let bodies = blocks.first().map_or(0, |block| block.range.len());
-        let blocks = blocks.iter().map(of).collect::<Result<_, Error>>()?;
-        Ok(BlockMobility { step: 0.0, blocks, scratch: vec![0.0; bodies * bodies] })
+        Ok(BlockMobility { step: 0.0, blocks: blocks.iter().map(of).collect::<Result<_, Error>>()? })
     }
 
     /// Sets the coefficient g. The block of the bodies does not depend on it.
@@ -222,11 +219,7 @@ impl Inverse {
         match self {
             Inverse::Matrix(matrix) => {
                 out.fill(0.0);
-                for (j, factor) in load.iter().enumerate().filter(|(_, load)| **load != 0.0) {
-                    for (out, entry) in out.iter_mut().zip(matrix.column(j).as_slice()) {
-                        *out += entry * factor;
-                    }
-                }
+                add_lines(load.iter().copied().zip(columns_of(matrix)), out);
             }
             Inverse::Diagonal(diagonal) => {
                 for ((out, load), entry) in out.iter_mut().zip(load).zip(diagonal) {

@@ -28,6 +28,32 @@ pub(crate) fn along(rows: &[f64], i: usize, vector: &[f64]) -> f64 {
     dot(&rows[i * n..(i + 1) * n], vector)
 }
 
+/// Adds `lines`, each times its share, to `sum` in their order, four at a time: every sum is loaded and stored once for four
+/// of them. Lines with the share zero are left out.
+#[inline]
+pub(crate) fn add_lines<'m>(lines: impl Iterator<Item = (f64, &'m [f64])>, sum: &mut [f64]) {
+    let mut four: [(f64, &[f64]); 4] = [(0.0, &[]); 4];
+    let mut known = 0;
+    for line in lines.filter(|(share, _)| *share != 0.0) {
+        four[known] = line;
+        known += 1;
+        if known == 4 {
+            add_four(four, sum);
+            known = 0;
+        }
+    }
+    for (share, line) in &four[..known] {
+        sum.iter_mut().zip(*line).for_each(|(sum, entry)| *sum += share * entry);
+    }
+}
+
+fn add_four([(a, first), (b, second), (c, third), (d, fourth)]: [(f64, &[f64]); 4], sum: &mut [f64]) {
+    let lines = first.iter().zip(second).zip(third.iter().zip(fourth));
+    for (sum, ((e, f), (g, h))) in sum.iter_mut().zip(lines) {
+        *sum = *sum + a * e + b * f + c * g + d * h;
+    }
+}
+
 /// Order of a matrix from which blocked factorization is faster.
 pub(crate) const BLOCKED: usize = 64;
 /// Order of a matrix from which scalar products use `LANES` partial sums; below it the plain loop is faster.
@@ -175,8 +201,11 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     for (j, &pivot) in pivots.iter().enumerate() {
         b.swap(j, pivot);
     }
+    // The up to three unknowns found last are subtracted one by one: they are waited for, and the sum of the others is not.
     for i in 1..n {
-        b[i] -= dot(&a[i * n..i * n + i], &b[..i]);
+        let (row, early) = (&a[i * n..i * n + i], i / 4 * 4);
+        let sum = b[i] - dot(&row[..early], &b[..early]);
+        b[i] = row[early..].iter().zip(&b[early..i]).fold(sum, |sum, (entry, b)| sum - entry * b);
     }
     substitute(a, b);
 }
@@ -217,37 +246,34 @@ fn eliminate(a: &mut [f64], j: usize, n: usize) {
 fn substitute(a: &[f64], b: &mut [f64]) {
     let n = b.len();
     for i in (0..n).rev() {
-        let line = &a[i * n..(i + 1) * n];
-        b[i] = (b[i] - dot(&line[i + 1..], &b[i + 1..])) * line[i];
+        let (line, late) = (&a[i * n..(i + 1) * n], n - (n - 1 - i) / 4 * 4);
+        let sum = b[i] - dot(&line[late..], &b[late..]);
+        let latest = line[i + 1..late].iter().zip(&b[i + 1..late]).rev();
+        b[i] = latest.fold(sum, |sum, (entry, b)| sum - entry * b) * line[i];
     }
 }
 
-/// Replaces a symmetric positive definite matrix (n x n, lower triangle used) by its inverse L^-T L^-1. `scratch`
-/// must be at least as large as the matrix.
+/// Replaces a symmetric positive definite matrix (n x n, row-major) by its inverse. Gauss-Jordan elimination without
+/// exchanges is stable for such matrices; its pivots are the squares of those of Cholesky's factor.
 ///
 /// Returns false where the matrix is not positive definite to working precision; the contents of `a` are then
 /// undefined.
 #[must_use]
-pub(crate) fn invert_spd(a: &mut [f64], scratch: &mut [f64], n: usize) -> bool {
-    if !factor_spd(a, n, dot) {
-        return false;
-    }
-    // The rows of L^-1 are computed from the top, each from the rows above it.
-    let inverse = &mut scratch[..n * n];
-    inverse.fill(0.0);
-    for i in 0..n {
-        let (above, row) = inverse.split_at_mut(i * n);
-        let factor = &a[i * n..=i * n + i];
-        let scale = 1.0 / factor[i];
-        for (line, share) in above.chunks_exact(n).zip(factor).take(i) {
-            row[..i].iter_mut().zip(line).for_each(|(x, entry)| *x -= scale * share * entry);
+pub(crate) fn invert_spd(a: &mut [f64], n: usize) -> bool {
+    for k in 0..n {
+        let (above, rest) = a.split_at_mut(k * n);
+        let (row, below) = rest.split_at_mut(n);
+        if !(row[k] > 0.0 && row[k].is_finite()) {
+            return false;
         }
-        row[i] = scale;
-    }
-    a[..n * n].fill(0.0);
-    for line in inverse.chunks_exact(n) {
-        for (share, sum) in line.iter().zip(a.chunks_exact_mut(n)).filter(|(share, _)| **share != 0.0) {
-            sum.iter_mut().zip(line).for_each(|(x, entry)| *x += share * entry);
+        let scale = 1.0 / row[k];
+        row[k] = 1.0;
+        row.iter_mut().for_each(|x| *x *= scale);
+        for lines in [above, below] {
+            for line in lines.chunks_exact_mut(n) {
+                let factor = std::mem::take(&mut line[k]);
+                line.iter_mut().zip(&*row).for_each(|(x, entry)| *x -= factor * entry);
+            }
         }
     }
     true
@@ -313,8 +339,8 @@ mod tests {
         for n in [1, 2, 5, 13] {
             let entry = |i: usize, j: usize| 1.0 / (1 + i + j) as f64 + if i == j { 1.0 } else { 0.0 };
             let a: Vec<f64> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
-            let (mut inverse, mut scratch) = (a.clone(), vec![f64::NAN; n * n]);
-            assert!(invert_spd(&mut inverse, &mut scratch, n));
+            let mut inverse = a.clone();
+            assert!(invert_spd(&mut inverse, n));
             for i in 0..n {
                 for j in 0..n {
                     let sum: f64 = (0..n).map(|k| a[i * n + k] * inverse[k * n + j]).sum();
@@ -322,7 +348,7 @@ mod tests {
                 }
             }
         }
-        assert!(!invert_spd(&mut [-1.0], &mut [0.0], 1));
+        assert!(!invert_spd(&mut [-1.0], 1));
     }
 
     #[test]

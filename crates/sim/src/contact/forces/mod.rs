@@ -103,6 +103,8 @@ pub(crate) struct Problem {
     pub sought: Vec<usize>,
     /// Allowed relative residual of the forces; zero if only rounding is allowed.
     pub slack: f64,
+    /// Whether W and Y are those of the last solution, whose factors then serve while the same laws act.
+    pub is_repeated: bool,
     residuals: Residuals,
     factors: Factors,
     /// Scratch: matrix and unknowns of the linear problem, forces and changes of Newton's method.
@@ -147,6 +149,7 @@ impl Problem {
             idle: vec![false; m],
             sought: (0..m).collect(),
             slack: 0.0,
+            is_repeated: false,
             residuals: Residuals {
                 reached: vec![[0.0; 2]; m],
                 value: vec![0.0; m],

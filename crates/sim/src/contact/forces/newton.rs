@@ -61,7 +61,7 @@ impl Problem {
         self.first.copy_from_slice(force);
         // Under a first guess of the forces, laws that act may seem to have ceased.
         let mut size = self.evaluate(system, local, active, force, Wanted::Continued);
-        let (mut is_current, mut leaps) = (false, LEAPS);
+        let (mut is_current, mut leaps) = (std::mem::take(&mut self.is_repeated), LEAPS);
         for _ in 0..ITERATIONS {
             let before = size;
             if !(is_current && self.residuals.acting == self.factors.elements || self.factor()) {

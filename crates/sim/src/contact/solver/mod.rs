@@ -312,8 +312,9 @@ impl<'a> Solver<'a> {
         self.factored_for = None;
         self.problem.slack = slack;
         self.update(at)?;
-        for _ in 0..PASSES {
+        for pass in 0..PASSES {
             self.fill_instant(at);
+            self.problem.is_repeated = pass > 0;
             let (local, active) = (self.geometry.local(), self.active.flags());
             if !self.problem.solve(system, local, active, &mut at.force) {
                 return Ok(false);
