@@ -140,6 +140,25 @@ fn extremes_do_not_depend_on_the_output_interval() {
     }
 }
 
+/// Identity: an output at the very passage of a support has the forces of the rows before it, by a cubic through four of
+/// them; the force of the wheel that passes jumps behind it. It was 1e-4 off, with slopes of the rail of both sides.
+#[test]
+fn a_row_at_the_passage_of_a_support_has_the_forces_before_it() {
+    for modes in [0, 8] {
+        let mut scene = crossing(modes, 1e-4, 1e-6, false);
+        scene["end"] = json!({"time": 1.0005});
+        let rows = table(&run("run", &scene).path().join("out"), "history.csv");
+        let at = rows.iter().position(|row| number(&row["time"]) == 1.0).expect("a row at the passage");
+        for wheel in [1, 2] {
+            let force = |row: usize| number(&rows[row][&format!("crane.truck1.wheel{wheel}.vertical")]);
+            let cubic = 4.0 * (force(at - 1) + force(at - 3)) - 6.0 * force(at - 2) - force(at - 4);
+            assert!((force(at) / cubic - 1.0).abs() < 1e-7, "{} instead of {cubic}", force(at));
+            let jump = (force(at + 1) / force(at) - 1.0).abs();
+            assert_eq!(jump > 0.01, wheel == 1, "wheel {wheel}: {jump}");
+        }
+    }
+}
+
 /// Identity, in a run whose wheels are undamped: the largest shear force of span 2 occurs in a vibration of a wheel just before
 /// it passes a support, where the forces of sections jump. When the jump hid it, the value depended on the rows and on the
 /// method, by 2.6e-2 of the largest.

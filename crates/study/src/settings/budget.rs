@@ -77,7 +77,7 @@ impl StudyBudget {
             steps: vec![256, 1024],
             modes: vec![1, 2, 4, 8],
             elements: vec![1, 2],
-            mesh_elements: 64,
+            mesh_elements: 48,
             parts: vec![2, 4, 8],
             stations: vec![7, 19, 73],
             references: vec![(1e-4, 4), (1e-5, 8), (1e-6, 16)],
