@@ -20,7 +20,7 @@ const NEAR: f64 = 1e-3;
 
 /// Square of the distance a wheel may be beside the path, in radii per unit of step tolerance. G is extrapolated to it, with an
 /// error in proportion to its square.
-const BESIDE: f64 = 4e-3;
+const BESIDE: f64 = 1e-3;
 
 /// The compliance between all elements.
 #[derive(Clone)]

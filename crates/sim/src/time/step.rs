@@ -12,7 +12,7 @@ use crate::mechanics::state::State;
 use crate::{Error, Exchanged, Method};
 
 /// Number of step lengths covered by the path along which the compliance is interpolated.
-const PATH: f64 = 12.0;
+const PATH: f64 = 8.0;
 
 /// Number of bounces of a wheel up to which the errors of their forces may add up.
 pub(crate) const BOUNCES: f64 = 100.0;
