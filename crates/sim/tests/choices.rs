@@ -151,6 +151,22 @@ fn a_result_whose_steps_change_it_is_repeated_with_finer_ones() {
     assert!(accuracies.iter().zip(wanted).all(|(found, wanted)| (found / wanted - 1.0).abs() < 1e-12));
 }
 
+/// By the rule: an undamped wheel that bounces n = 1/(4 alpha) times may amplify what influence functions lack by n. With 83
+/// bounces an estimate of a twentieth of the tolerance asks for a run with modes, with 8 it does not; a fiftieth never does.
+#[test]
+fn influence_functions_suffice_at_once_where_bounces_cannot_amplify_what_they_lack() {
+    for (alpha, share, is_checked) in
+        [(0.003, 0.05, true), (0.003, 0.02, false), (0.03, 0.05, false), (0.03, 0.02, false)]
+    {
+        let estimate = chosen(alpha, EXTREMES, &mut Beam::default()).tried[0].estimate;
+        let mut provider = Beam::default();
+        let choice = chosen(alpha, Tolerance { value: estimate / share, ..EXTREMES }, &mut provider);
+        let found = choice.tried[0].estimate / (estimate / share);
+        assert!((found / share - 1.0).abs() < 0.2, "{found} for {share}");
+        assert_eq!(!provider.counts().is_empty(), is_checked, "{alpha}, {found}: {:?}", provider.runs);
+    }
+}
+
 impl Beam {
     /// Numbers of modes of the runs with modes, each once, in the order of their first runs.
     fn counts(&self) -> Vec<usize> {

@@ -3,7 +3,8 @@
 //! 1. The scene is run with influence functions. This costs least of all flexible foundations.
 //! 2. The wheel forces of this run act on the natural modes ([`tail_errors`]). This costs little and estimates the
 //!    error of leaving out all modes but the lowest m, for each m, m = 0 being the run itself. If the estimate for
-//!    m = 0 is a tenth of the tolerance or less, the choice ends here.
+//!    m = 0 is a tenth of the tolerance or less, the choice ends here. Wheels that remember n of their bounces may amplify
+//!    what the rails lack by n: from n = 8 on it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
 //! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a tenth of the tolerance. The
 //!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
 //!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
@@ -347,7 +348,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let bounces = self.bounces(&first);
         let compliances = std::mem::take(&mut first.foundations);
         let frequency = 2.0 * std::f64::consts::PI / fastest_bounce(&self.scene);
-        let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, frequency);
+        // wheels amplify what the rails lack by as many times as they remember bounces
+        let enough = SAFE / bounces.remembered.clamp(SAFE / AIM, AMPLIFICATION[1]);
+        let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, (frequency, enough));
         self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
         if counts.iter().any(|count| *count > 0) {
             return self.refine(Refinement { open, counts, is_hopeless, bounces, compliances }, first);
@@ -359,13 +362,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Estimates the error of the run `first`; returns the numbers of modes for the next run, 0 where influence
-    /// suffices, and whether influence is not expected to suffice somewhere. `frequency` is that of the fastest bounce.
+    /// suffices, and whether influence is not expected to suffice somewhere. `frequency` is that of the fastest bounce,
+    /// `enough` the estimate with which influence suffices, relative to the tolerance.
     fn first_counts(
         &mut self,
         open: &mut [Open],
         first: &Trial,
         compliances: &[Foundation],
-        frequency: f64,
+        (frequency, enough): (f64, f64),
     ) -> (Vec<usize>, bool) {
         for own in open.iter_mut() {
             self.estimate(own, first, compliances, 0, f64::INFINITY);
@@ -375,7 +379,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for (own, count) in open.iter_mut().zip(&mut counts) {
             let aim = AIM * own.tolerance;
             let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
-            if own.tail(0).error > aim {
+            if own.tail(0).error > enough * own.tolerance {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
                 self.estimate(own, first, compliances, 1, limit);
                 // a run that only checks influence need not be within the tolerance itself
@@ -384,8 +388,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                     None => own.count_for(limit, UNKNOWN, 1),
                     found => found,
                 };
-                let enough = |limit: f64| found(limit).unwrap_or(own.known());
-                *count = enough(limit).max(least.min(enough(NEGLIGIBLE * aim)));
+                let needed = |limit: f64| found(limit).unwrap_or(own.known());
+                *count = needed(limit).max(least.min(needed(NEGLIGIBLE * aim)));
             }
         }
         (counts, is_hopeless)
