@@ -120,8 +120,9 @@ impl LoadState<'_> {
 ///
 /// Forces have corners, and with dampers jumps, where wheels pass the ends of members. No polynomial extends across these
 /// times: beside them it is one through rows of the same side, extrapolated. At a row at which a wheel comes to an end of a
-/// member the force is that before the end, and the wheel stands just before it. Where the four rows show another jump or corner, for instance of a contact
-/// that opens, values are interpolated linearly.
+/// member the force is that before the end, and the wheel stands just before it. Where the four rows show another jump or
+/// corner, for instance of a contact that opens, values are interpolated linearly; beside a passage those that jump there are
+/// those of the row on their side.
 pub(super) struct LoadStates {
     /// The loads, with the place of their first value in a row.
     sources: Vec<(LoadSource, usize)>,
@@ -195,6 +196,7 @@ impl LoadStates {
         out
     }
 
+    /// The passages of ends of members by loads, by increasing time.
     fn all_corners(&self, ends: &[MemberEnd]) -> Vec<Corner> {
         let mut corners = Vec::new();
         for row in 1..self.len() {
