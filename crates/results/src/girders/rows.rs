@@ -80,8 +80,8 @@ pub(super) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 /// between which loads and motions are straight lines to 1e-5 of the largest. By how much they change from those of a tolerance
 /// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run. Where long steps were sampled
 /// inside, every third of these times is evaluated, or all of them if the error is too large, and the extremes are compared
-/// with those at every second one: D is then the difference of two errors of
-/// which one has twice the interval, and where errors fall with its square at least, that of all times is D/3 or less.
+/// with those at every second one: D is then the difference of two errors of which one has twice the interval, and where
+/// errors fall with its square at least, that of all times is D/3 or less.
 ///
 /// Otherwise the extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
@@ -106,14 +106,15 @@ pub(super) fn of_run(
     if girders.is_empty() {
         return out;
     }
-    let all = Evaluation { scene, input, foundations, girders: &girders };
+    let breaks = input.scene.breaks();
+    let all = Evaluation { scene, input, foundations, girders: &girders, breaks: &breaks };
     let (found, finer) = match recorded {
         Recorded::Rows(rows) => all.by_repetition(rows, repeat),
         Recorded::Steps(steps) => (all.attempt(steps, RowChoice::Needed), None),
         Recorded::Inside(steps) => (all.inside(steps), None),
     };
     let history = finer.as_ref().unwrap_or(history);
-    let (loads, breaks) = (WheelLoadReader::new(scene, input, history), input.scene.breaks());
+    let loads = WheelLoadReader::new(scene, input, history);
     for (girders, spans) in girders.iter().zip(&found.spans) {
         let rows = Rows { history, loads: &loads, foundations, breaks: &breaks };
         let (extremes, envelope, stresses, reactions) = girders.results(rows, spans, scene.accuracy);
@@ -187,6 +188,8 @@ struct Evaluation<'a> {
     input: &'a SimulationInput,
     foundations: &'a [Foundation],
     girders: &'a [&'a PreparedGirders<'a>],
+    /// Times at which motions and loads have corners.
+    breaks: &'a [f64],
 }
 
 impl Evaluation<'_> {
@@ -242,8 +245,7 @@ impl Evaluation<'_> {
     /// The extremes at rows of a history, and by how much they change from a coarser choice of them.
     fn attempt(&self, history: &History, choice: RowChoice) -> Attempt {
         let loads = WheelLoadReader::new(self.scene, self.input, history);
-        let breaks = self.input.scene.breaks();
-        let rows = Rows { history, loads: &loads, foundations: self.foundations, breaks: &breaks };
+        let rows = Rows { history, loads: &loads, foundations: self.foundations, breaks: self.breaks };
         let mut change = Change::default();
         let mut all = Vec::new();
         for girders in self.girders {

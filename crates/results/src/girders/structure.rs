@@ -69,8 +69,9 @@ pub(super) enum RowChoice {
     /// Those between which loads differ from straight lines by more than the tolerances [`NEEDED`], finer and coarser,
     /// relative to the largest load. They are raised until there are no more than [`MAX_VALUES`] of all rows.
     Needed,
-    /// One of so many rows and every second one of these, at most [`MAX_SAMPLED`] values, and in both the rows beside those at which a load is at
-    /// an end of a member or a motion has a corner: rows at the ends of long steps, which end at such times, and inside of them.
+    /// One of so many rows and every second one of these, at most [`MAX_SAMPLED`] values, and in both the rows beside those
+    /// at which a load is at an end of a member or a motion has a corner: rows at the ends of long steps, which end at such
+    /// times, and inside of them.
     Sampled(usize),
 }
 

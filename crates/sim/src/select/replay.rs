@@ -440,7 +440,7 @@ impl<'a> Replay<'a> {
     /// modes: the sum over all modes above k is N/(N - k) times that over the modes from k to N.
     fn errors(self) -> Vec<TailError> {
         let Loaded { record, measure, bounces, .. } = *self.loaded;
-        let (known, scales) = (self.oscillators.len() as f64, record.scales());
+        let known = self.oscillators.len() as f64;
         let slots: Vec<Slot> = (self.by_wheel.into_iter().flatten())
             .chain(self.drives.into_iter().map(|(_, slot)| slot))
             .chain(self.gauges.into_iter().map(|(_, slot)| slot))
@@ -450,12 +450,11 @@ impl<'a> Replay<'a> {
             let is_effect = record.quantities[slot.quantity].channel.is_none();
             if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 }
         };
-        let pointwise = |(index, kept): (usize, usize)| {
+        // the largest of the errors of single quantities
+        let largest = |kept: usize, error: &mut dyn FnMut(&Slot) -> f64| {
             let mut found = TailError { kept, error: 0.0, quantity: String::new() };
             for slot in &slots {
-                let Lacking::Largest(largest) = &slot.lacking else { continue };
-                let (largest, scale) = (largest[index], scales[slot.quantity]);
-                let error = if largest == 0.0 { 0.0 } else { beyond(slot, kept) * largest / scale };
+                let error = error(slot);
                 if error > found.error || error.is_nan() {
                     found.error = if error.is_nan() { f64::INFINITY } else { error };
                     found.quantity.clone_from(&record.quantities[slot.quantity].name);
@@ -463,46 +462,45 @@ impl<'a> Replay<'a> {
             }
             found
         };
-        // wheels of a body are compared together
-        let together = |(index, kept): (usize, usize)| {
-            let (mut completed, rows) = (record.clone(), record.time.len());
-            for slot in &slots {
-                let Lacking::Series(series) = &slot.lacking else { continue };
-                let lacking = &series[index * rows..(index + 1) * rows];
-                let values = completed.quantities[slot.quantity].values.iter_mut();
-                values.zip(lacking).for_each(|(value, own)| *value += beyond(slot, kept) * f64::from(*own));
-            }
-            let apart = difference(&completed, record, Measure::Extremes, bounces);
-            TailError { kept, error: apart.largest, quantity: apart.quantity }
-        };
-        let outlined = Outlined::new(record, bounces);
-        let mut values = Vec::new();
-        let by_extremes = |(index, kept): (usize, usize)| {
-            let Some(outlined) = &outlined else { return together((index, kept)) };
-            let (mut found, rows) =
-                (TailError { kept, error: 0.0, quantity: String::new() }, record.time.len());
-            for slot in &slots {
-                let Lacking::Series(series) = &slot.lacking else { continue };
-                let own = &record.quantities[slot.quantity];
-                let lacking = &series[index * rows..(index + 1) * rows];
-                let share = beyond(slot, kept);
-                values.clear();
-                values.extend(
-                    own.values.iter().zip(lacking).map(|(value, more)| value + share * f64::from(*more)),
-                );
-                let error = outlined.difference(slot.quantity, &values);
-                if error > found.error || error.is_nan() {
-                    found.error = if error.is_nan() { f64::INFINITY } else { error };
-                    found.quantity.clone_from(&own.name);
-                }
-            }
-            found
+        // adds what a quantity lacks to its values
+        let complete = |slot: &Slot, (index, kept): (usize, usize), values: &mut [f64]| {
+            let (Lacking::Series(series), rows) = (&slot.lacking, record.time.len()) else { return };
+            let (lacking, share) = (&series[index * rows..(index + 1) * rows], beyond(slot, kept));
+            values.iter_mut().zip(lacking).for_each(|(value, own)| *value += share * f64::from(*own));
         };
         let counts = self.counts.iter().copied().enumerate();
-        match measure {
-            Measure::History => counts.map(pointwise).collect(),
-            Measure::Extremes => counts.map(by_extremes).collect(),
+        if measure == Measure::History {
+            let scales = record.scales();
+            let pointwise = |(index, kept): (usize, usize)| {
+                largest(kept, &mut |slot| match &slot.lacking {
+                    Lacking::Largest(most) if most[index] != 0.0 => {
+                        beyond(slot, kept) * most[index] / scales[slot.quantity]
+                    }
+                    _ => 0.0,
+                })
+            };
+            return counts.map(pointwise).collect();
         }
+        let Some(outlined) = Outlined::new(record, bounces) else {
+            let together = |count: (usize, usize)| {
+                let mut completed = record.clone();
+                for slot in &slots {
+                    complete(slot, count, &mut completed.quantities[slot.quantity].values);
+                }
+                let apart = difference(&completed, record, measure, bounces);
+                TailError { kept: count.1, error: apart.largest, quantity: apart.quantity }
+            };
+            return counts.map(together).collect();
+        };
+        let mut values = Vec::new();
+        let each = |count: (usize, usize)| {
+            largest(count.1, &mut |slot| {
+                values.clone_from(&record.quantities[slot.quantity].values);
+                complete(slot, count, &mut values);
+                outlined.difference(slot.quantity, &values)
+            })
+        };
+        counts.map(each).collect()
     }
 }
 

@@ -98,12 +98,9 @@ impl Samples {
                 self.sample.copy_from(&step.to);
                 settle(step.solver, &mut self.sample)?;
             } else {
-                self.begun.restore(step.solver);
                 let fraction = if is_end { 1.0 } else { (t - from) / (to - from) };
-                step.sample(fraction, &mut self.sample)?;
                 // a step ends just before a break of the rail, where the rail has the slope of this side
-                self.sample.t = t.min(to);
-                settle(step.solver, &mut self.sample)?;
+                self.sample_within(step, fraction, t.min(to))?;
                 self.sample.t = t;
             }
             self.recorder.record(system, step.solver.geometry(), &self.sample)?;
@@ -117,23 +114,30 @@ impl Samples {
     /// Samples the step just taken: just behind its start, if forces may jump there, at its inner nodes, and at its end before
     /// a break or an event changes the forces.
     fn take_inside(&mut self, step: &mut Step) -> Result<(), Error> {
-        let (system, inside) = (step.system(), &mut self.inside);
+        let system = step.system();
         // the geometry of the solver is that of the end until another time is sampled
-        self.recorder.row(system, step.solver.geometry(), &step.arrived, inside)?;
-        let width = inside.len();
-        let (from, to) = (step.from.t, step.to.t);
+        self.recorder.row(system, step.solver.geometry(), &step.arrived, &mut self.inside)?;
+        let width = self.inside.len();
+        let from = step.from.t;
         if from > 0.0 && !step.begins_smoothly {
-            self.begun.restore(step.solver);
-            step.sample(AFTER, &mut self.sample)?;
-            self.sample.t = from + AFTER * (to - from);
-            settle(step.solver, &mut self.sample)?;
-            self.recorder.row(system, step.solver.geometry(), &self.sample, inside)?;
+            self.sample_within(step, AFTER, from + AFTER * step.length())?;
+            self.recorder.row(system, step.solver.geometry(), &self.sample, &mut self.inside)?;
             self.after.restore(step.solver);
         }
         for (geometry, node) in step.inner_nodes() {
-            self.recorder.row(system, geometry, node, inside)?;
+            self.recorder.row(system, geometry, node, &mut self.inside)?;
         }
-        inside.rotate_left(width);
+        self.inside.rotate_left(width);
+        Ok(())
+    }
+
+    /// Sets `sample` to the state at the time `t`, at a fraction of the step just taken, with the elements that were active in
+    /// it. The solver keeps them.
+    fn sample_within(&mut self, step: &mut Step, fraction: f64, t: f64) -> Result<(), Error> {
+        self.begun.restore(step.solver);
+        step.sample(fraction, &mut self.sample)?;
+        self.sample.t = t;
+        settle(step.solver, &mut self.sample)?;
         Ok(())
     }
 
