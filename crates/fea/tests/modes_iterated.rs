@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use fea::{
     BeamTheory, CrossSection, Dof, Effect, ExcitingForces, ForceComponent, Member, Model, Rail, RailSegment,
-    RefinedModes, Support, full_modes,
+    RefinedModes, Support, excited_modes, full_modes,
 };
 use splines::{Axis, Probe};
 
@@ -35,9 +35,13 @@ fn chain(points: &[f64], reversed: &[bool], up: [f64; 3]) -> Model {
     model
 }
 
-fn modes(model: &Model, axes: &[Axis], parts: usize) -> RefinedModes {
+fn rail(model: &Model) -> Rail {
     let segments = (0..model.members.len()).map(|member| RailSegment { member, offset: [0.0; 3] }).collect();
-    let rail = Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: vec![0.0] };
+    Rail { origin: [0.0; 3], axis: [1.0, 0.0, 0.0], segments, stations: vec![0.0] }
+}
+
+fn modes(model: &Model, axes: &[Axis], parts: usize) -> RefinedModes {
+    let rail = rail(model);
     let forces = ExcitingForces { axes: axes.to_vec(), motions: Vec::new() };
     let mut refined = full_modes(model, &[rail], &forces, parts).expect("it has mass");
     refined.keep_resolved(model, &forces).expect("it has mass");
@@ -72,6 +76,32 @@ fn iteration_squares_the_errors_about_a_loaded_state() {
     let euler = PI * PI * section().e * section().iz / (SPAN * SPAN);
     errors_are_squared(-0.5 * euler);
     errors_are_squared(3.0 * euler);
+}
+
+/// A mesh for iterated modes errs by more than its accuracy before the iteration, and by less after it.
+#[test]
+fn members_are_cut_as_far_as_iterated_modes_need() {
+    let mut model = chain(&[0.0, SPAN], &[false], [0.0, 1.0, 0.0]);
+    for point in 0..2 {
+        model.supports.push(Support { point, fixed: [point == 0, true, true, true, false, false] });
+    }
+    let (rails, forces, count) = ([rail(&model)], ExcitingForces::vertical(), 8);
+    for accuracy in [1e-2, 1e-3, 1e-4, 1e-6] {
+        let mut refined = excited_modes(&model, &rails, &forces, count, accuracy).expect("it has mass");
+        let before: Vec<f64> = refined.modes.modes.iter().map(|mode| mode.omega).collect();
+        refined.iterate().expect("it has eigenvalues");
+        let mut largest = 0.0_f64;
+        for (n, (mode, before)) in (1..).zip(refined.modes.modes.iter().zip(before)) {
+            let exact = closed_form(n, 0.0);
+            let error = mode.omega / exact - 1.0;
+            let estimate = refined.iterated_error(&model, &forces, mode.omega).expect("it has mass");
+            assert!(error > -1e-9 && error <= accuracy, "{accuracy}, mode {n}: {error:e}");
+            assert!(error <= estimate + 1e-9, "{accuracy}, mode {n}: {error:e}, estimated {estimate:e}");
+            largest = largest.max(before / exact - 1.0);
+        }
+        println!("{accuracy}: {} parts, {largest:.1e} before the iteration", refined.parts[0]);
+        assert!(largest > accuracy || accuracy > 1e-3, "{accuracy}: no coarser than needed, {largest:e}");
+    }
 }
 
 fn errors_are_squared(tension: f64) {

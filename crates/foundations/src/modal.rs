@@ -181,7 +181,7 @@ fn given_surface(name: &str, solved: &SolvedModel) -> Result<ExactSurface, Error
 ///
 /// The function computes the `count` lowest modes of the unknowns that wheels can move, and drops those that wheels
 /// excite by no more than rounding, such as modes with nodes at every rail. While fewer than `count` remain, or
-/// while the highest frequency equals that of the next mode, it computes twice as many modes (at least eight more).
+/// while the highest frequency equals that of the next mode, it computes more: two for each that was dropped, at least eight.
 fn search(
     solved: &SolvedModel,
     count: usize,
@@ -200,7 +200,9 @@ fn search(
         if is_whole || (excited.len() >= count && !is_split) {
             return Ok((refined, excited, is_whole));
         }
-        requested = (2 * requested).max(requested + 8);
+        // as many more as were dropped, and as have the same frequency
+        let dropped = requested - excited.len().min(requested);
+        requested = (requested + 2 * dropped).clamp(requested + 8, 2 * requested + 8);
     }
 }
 
@@ -244,14 +246,17 @@ impl ModeCache {
         dampers: Dampers<'_>,
         excitation: Excitation,
     ) -> Result<BuiltFoundation, Error> {
-        let index = match self.lowest.iter().position(|(own, modes)| *own <= accuracy && modes.has(count)) {
-            Some(index) => index,
+        let known = self.lowest.iter().find(|(own, modes)| *own <= accuracy && modes.has(count));
+        let coarse = self.coarse.as_ref().filter(|modes| accuracy >= COARSE && modes.has(count));
+        let modes = match known.map(|(_, modes)| modes).or(coarse) {
+            Some(modes) => Arc::clone(modes),
             None => {
-                self.lowest.push((accuracy, MeshModes::lowest(name, solved, count, accuracy, excitation)?));
-                self.lowest.len() - 1
+                let found = MeshModes::lowest(name, solved, count, accuracy, excitation)?;
+                self.lowest.push((accuracy, Arc::clone(&found)));
+                found
             }
         };
-        self.lowest[index].1.foundation(name, count, ratio, dampers, excitation)
+        modes.foundation(name, count, ratio, dampers, excitation)
     }
 
     /// Accuracy of the frequencies of the highest of `count` modes in a run of length `duration` whose error may reach
@@ -269,14 +274,24 @@ impl ModeCache {
     /// ```
     ///
     /// which may be a twentieth of the tolerance. The frequencies are those of the coarse modes; where these are not known,
-    /// it is 1e-6. The same numbers of modes always get the same accuracy, whatever coarse modes are known by then.
-    pub(super) fn accuracy(&mut self, tolerance: (f64, Measure), duration: f64, counts: [usize; 2]) -> f64 {
+    /// it is 1e-6. Where the mesh of the coarse modes is fine enough for the lowest n, they serve for all. The same numbers of
+    /// modes always get the same accuracy, whatever coarse modes are known by then.
+    ///
+    /// # Errors
+    /// Those of modes that cannot be found.
+    pub(super) fn accuracy(
+        &mut self,
+        tolerance: (f64, Measure),
+        duration: f64,
+        counts: [usize; 2],
+        (solved, excitation): (&SolvedModel, Excitation),
+    ) -> Result<f64, fea::Error> {
         if let Some((_, known)) = self.accuracies.iter().find(|(own, _)| *own == counts) {
-            return *known;
+            return Ok(*known);
         }
-        let accuracy = self.least_accuracy(tolerance, duration, counts);
+        let accuracy = self.least_accuracy(tolerance, duration, counts, (solved, excitation))?;
         self.accuracies.push((counts, accuracy));
-        accuracy
+        Ok(accuracy)
     }
 
     fn least_accuracy(
@@ -284,9 +299,10 @@ impl ModeCache {
         (tolerance, measure): (f64, Measure),
         duration: f64,
         [count, kept]: [usize; 2],
-    ) -> f64 {
+        (solved, excitation): (&SolvedModel, Excitation),
+    ) -> Result<f64, fea::Error> {
         let Some(modes) = self.coarse.as_ref().filter(|modes| !modes.excited.is_empty()) else {
-            return ACCURACY;
+            return Ok(ACCURACY);
         };
         let omega = |count: usize| modes.excited[count.clamp(1, modes.excited.len()) - 1].omega;
         let [lowest, own, highest] = [1, kept, count].map(omega);
@@ -297,7 +313,13 @@ impl ModeCache {
             Measure::History => most.min(BY_PHASES * tolerance * square(own / lowest) / (own * duration)),
         };
         let of_kept = of_kept.max(ACCURACY);
-        (of_kept * square(highest / own)).min(COARSE.max(of_kept))
+        if kept < count && modes.has(count) {
+            let error = modes.refined.iterated_error(&solved.model, &excitation.forces(), own)?;
+            if error <= of_kept {
+                return Ok(COARSE);
+            }
+        }
+        Ok((of_kept * square(highest / own)).min(COARSE.max(of_kept)))
     }
 
     /// The lowest `count` modes that `excitation` excites, with the fraction `ratio` of critical damping, and with

@@ -11,7 +11,7 @@ use sim::{
     Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance, TrialCheck,
 };
 
-use crate::build::{build_with_modes, coarse_modes};
+use crate::build::{build_with_modes, coarse_modes, excitation};
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
 use crate::modal::{ACCURACY, ModeCache};
@@ -163,14 +163,16 @@ impl SceneFoundations<'_> {
             own.foundation = scene_foundation(&own, fidelity);
         }
         let cache = &mut self.mode_caches[structure];
-        let accuracy = match fidelity {
-            Fidelity::Modal(count) if own.auto => {
-                let counts = [count, kept.unwrap_or(count)];
-                cache.accuracy((own.tolerance, own.measure), self.duration, counts)
+        let solved = solution_of(self.known, &own.origin);
+        let accuracy = match (fidelity, solved) {
+            (Fidelity::Modal(count), Some(solved)) if own.auto => {
+                let (counts, excitation) = ([count, kept.unwrap_or(count)], excitation(&own, self.lateral));
+                let tolerance = (own.tolerance, own.measure);
+                let found = cache.accuracy(tolerance, self.duration, counts, (solved, excitation));
+                found.map_err(Error::modes(&own.name))?
             }
             _ => ACCURACY,
         };
-        let solved = solution_of(self.known, &own.origin);
         build_with_modes(cache, &own, solved, self.lateral, accuracy)
     }
 

@@ -4,6 +4,7 @@
 //! ([`foundations::select_and_run`]), and the history is converted to named columns. Reactions, envelopes, natural
 //! modes, values of codes and fatigue are then computed from these columns.
 
+use std::cmp::Reverse;
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Arc, OnceLock};
@@ -20,7 +21,7 @@ use crate::observe::ColumnObserver;
 use crate::response::{self, Response, SceneMode};
 use crate::threads::parallel_map;
 use formats::scene::motion::simulation_input;
-use formats::scene::{Case, Document, Scene};
+use formats::scene::{self, Case, Document, Scene, Structure};
 use foundations::{BuiltFoundation, SolvedModel, SolvedStructure, solution_of};
 
 /// How far a simulation is.
@@ -100,7 +101,9 @@ pub fn simulate_while(
     let cases = &document.cases;
     let done: Vec<AtomicU64> = cases.iter().map(|_| AtomicU64::new(0)).collect();
     let members = Arc::new(SolvedMembers::new(known));
-    let outcomes = parallel_map(cases, options.threads, |index, case| {
+    let order = longest_first(cases);
+    let mut outcomes = parallel_map(&order, options.threads, |_, &index| {
+        let case = &cases[index];
         let fraction = || {
             let sum: u64 = done.iter().map(|thousandths| thousandths.load(Ordering::Relaxed)).sum();
             progress(SimulationProgress::Fraction(sum as f64 / (1000.0 * cases.len() as f64)))
@@ -117,9 +120,26 @@ pub fn simulate_while(
             let _ = progress(SimulationProgress::Trial(trial));
             let _ = fraction();
         };
-        run_case(case, &members, options.girders, &trial, &mut watch)
+        (index, run_case(case, &members, options.girders, &trial, &mut watch))
     });
-    outcomes.into_iter().collect()
+    outcomes.sort_by_key(|(index, _)| *index);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
+}
+
+/// The cases in the order in which threads begin with them: first those that take longest, as far as their foundations tell,
+/// so that no thread begins with a long one when the others are at their last.
+fn longest_first(cases: &[Case]) -> Vec<usize> {
+    let of_foundation = |structure: &Structure| match structure.foundation {
+        _ if structure.auto => 5,
+        scene::Foundation::Full { .. } => 4,
+        scene::Foundation::Modal { .. } | scene::Foundation::Parts { .. } => 3,
+        scene::Foundation::Ties { .. } => 2,
+        scene::Foundation::Influence => 1,
+        scene::Foundation::Rigid => 0,
+    };
+    let mut order: Vec<usize> = (0..cases.len()).collect();
+    order.sort_by_key(|&index| Reverse(cases[index].scene.structures.iter().map(of_foundation).max()));
+    order
 }
 
 /// Largest number of values of the degrees of freedom of a structure that a history stores where no column needs

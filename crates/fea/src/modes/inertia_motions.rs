@@ -19,8 +19,7 @@ use splines::MemberMotion;
 
 use crate::assembly::BendingPlane;
 use crate::modes::shapes::{
-    Polynomial, bending_shapes, bent_deflection, integral_of_product, is_bent, uniform_load_shape,
-    uniform_load_stiffness,
+    Moments, Polynomial, bending_shapes, bent_deflection, is_bent, uniform_load_shape, uniform_load_stiffness,
 };
 
 /// Number of motions with inertia in one plane of a member: four of the ends, and the interior motion.
@@ -58,12 +57,12 @@ impl InertiaMotions {
         released: &[[f64; 4]; 4],
     ) -> InertiaMotions {
         let shapes = shapes(plane, length);
-        let work = |a: &[Polynomial; 2], b: &[Polynomial; 2]| {
-            length
-                * (mass.deflection * integral_of_product(&a[0], &b[0])
-                    + mass.rotation * integral_of_product(&a[1], &b[1]))
+        let moments = |of: &[Polynomial; 2]| of.each_ref().map(Moments::of);
+        let work = |a: &[Moments; 2], b: &[Polynomial; 2]| {
+            length * (mass.deflection * a[0].integral_with(&b[0]) + mass.rotation * a[1].integral_with(&b[1]))
         };
-        let of_shapes = products(|i, j| work(&shapes[i], &shapes[j]));
+        let shape_moments = shapes.each_ref().map(moments);
+        let of_shapes = products(|i, j| work(&shape_moments[i], &shapes[j]));
         let uniform = &shapes[MOTIONS - 1];
         let energy = uniform_load_stiffness(plane, length);
         let rest: [[Polynomial; 2]; MOTIONS] = std::array::from_fn(|j| {
@@ -80,11 +79,14 @@ impl InertiaMotions {
             }
             rest
         });
+        let rest_moments = rest.each_ref().map(moments);
         InertiaMotions {
             motions: rest.map(|[deflection, rotation]| MemberMotion { plane: index, deflection, rotation }),
             // Its two halves are equal but for rounding.
-            stiffness: products(|i, j| 0.5 * (work(&shapes[i], &rest[j]) + work(&shapes[j], &rest[i]))),
-            mass: products(|i, j| work(&rest[i], &rest[j])),
+            stiffness: products(|i, j| {
+                0.5 * (work(&shape_moments[i], &rest[j]) + work(&shape_moments[j], &rest[i]))
+            }),
+            mass: products(|i, j| work(&rest_moments[i], &rest[j])),
             uniform: uniform_load_motion(index, plane, length),
         }
     }
@@ -155,7 +157,7 @@ fn repeated(of: &Polynomial) -> [Polynomial; 4] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::modes::shapes::polynomial;
+    use crate::modes::shapes::{integral_of_product, polynomial};
 
     const PLANE: BendingPlane =
         BendingPlane { deflection: 1, rotation: 5, sign: 1.0, bending: 0.3, shear: 0.7, tension: 0.0 };

@@ -46,8 +46,8 @@ struct Place {
     member: usize,
     plane: usize,
     inertia: InertiaMotions,
-    /// Amplitudes of its end motions in the six rigid motions of the whole.
-    rigid: [[f64; 4]; 6],
+    /// Products of its inertia in each of the six rigid motions of the whole with its own motions.
+    coupling: [[f64; MOTIONS]; 6],
 }
 
 impl FactoredFrame {
@@ -88,8 +88,12 @@ impl FactoredFrame {
             let whole = |k: usize| {
                 end_motions(&|body| arm(&Vector3::from(m.points[reference(body)])).column(k).into_owned())
             };
-            let rigid = std::array::from_fn(whole);
-            places.push(Place { member, plane, inertia: motion.inertia_motions(m, element), rigid });
+            let inertia = motion.inertia_motions(m, element);
+            let coupling = std::array::from_fn(|k| {
+                let ends = whole(k);
+                std::array::from_fn(|j| ends.iter().zip(&inertia.stiffness).map(|(z, row)| z * row[j]).sum())
+            });
+            places.push(Place { member, plane, inertia, coupling });
         }
         let [strain, kinetic] =
             [|of: &InertiaMotions| of.stiffness, |of: &InertiaMotions| of.mass].map(|pick| {
@@ -147,26 +151,25 @@ fn combinations(modes: &Modes, strain: &Mat<f64>, kinetic: &Mat<f64>) -> Option<
 
 /// Combines the modes and adds the deflections of the members.
 fn combine(modes: &mut Modes, places: &[Place], loads: &Mat<f64>, (squares, factors): &Combinations) {
-    let old = &modes.modes;
-    let (states, points) = (6 * old[0].states.len(), 6 * old[0].points.len());
+    let (states, points) = (6 * modes.modes[0].states.len(), 6 * modes.modes[0].points.len());
     let rows = states + points + places.len() + 6;
-    let value = |row: usize, r: usize| {
-        let mode = &old[r];
-        match row {
-            row if row < states => mode.states[row / 6][row % 6],
-            row if row < states + points => mode.points[(row - states) / 6][(row - states) % 6],
-            row if row < rows - 6 => {
-                let place = &places[row - states - points];
-                mode.between[place.member][place.plane][0]
-            }
-            row => mode.coupling[row + 6 - rows],
-        }
-    };
+    // All motions of each mode, one after another.
+    let columns: Vec<Vec<f64>> = (modes.modes.iter())
+        .map(|mode| {
+            let motions = mode.states.iter().chain(&mode.points).flatten().copied();
+            let uniform = places.iter().map(|place| mode.between[place.member][place.plane][0]);
+            motions.chain(uniform).chain(mode.coupling).collect()
+        })
+        .collect();
     // Many rows are zero: motions in one plane have none beside it.
-    let kept: Vec<usize> = (0..rows).filter(|&row| (0..old.len()).any(|r| value(row, r) != 0.0)).collect();
+    let mut is_kept = vec![false; rows];
+    for column in &columns {
+        is_kept.iter_mut().zip(column).for_each(|(kept, value)| *kept |= *value != 0.0);
+    }
+    let kept: Vec<usize> = (0..rows).filter(|&row| is_kept[row]).collect();
     let mut index = vec![None; rows];
     kept.iter().enumerate().for_each(|(k, &row)| index[row] = Some(k));
-    let sums = Mat::from_fn(kept.len(), old.len(), |k, r| value(kept[k], r)) * factors;
+    let sums = Mat::from_fn(kept.len(), columns.len(), |k, r| columns[r][kept[k]]) * factors;
     let amplitudes = loads * factors;
     for (r, mode) in modes.modes.iter_mut().enumerate() {
         mode.omega = squares[r].sqrt();
@@ -180,10 +183,8 @@ fn combine(modes: &mut Modes, places: &[Place], loads: &Mat<f64>, (squares, fact
         mode.coupling = std::array::from_fn(|k| own(rows - 6 + k));
         for (row, place) in places.iter().enumerate() {
             let inertia: [f64; MOTIONS] = std::array::from_fn(|k| amplitudes[(MOTIONS * row + k, r)]);
-            for (coupling, rigid) in mode.coupling.iter_mut().zip(&place.rigid) {
-                for (z, products) in rigid.iter().zip(&place.inertia.stiffness) {
-                    *coupling += z * products.iter().zip(&inertia).map(|(a, b)| a * b).sum::<f64>();
-                }
+            for (coupling, products) in mode.coupling.iter_mut().zip(&place.coupling) {
+                *coupling += products.iter().zip(&inertia).map(|(a, b)| a * b).sum::<f64>();
             }
             let between = &mut mode.between[place.member][place.plane];
             let uniform = own(states + points + row);

@@ -33,6 +33,8 @@ const FREQUENCY_STEPS: usize = 40;
 const LEAST_RESOLVED: f64 = 1.0 / 8.0;
 /// Factor on the leading errors of a part that deflects under its own inertia, which leave out their coupling.
 const COUPLING: f64 = 1.4;
+/// Error of an iterated mode, relative to the square of the error before ([`RefinedModes::iterate`]).
+const ITERATED: f64 = 6.0;
 
 /// A model with its members cut into parts, and its modes.
 #[derive(Clone, Debug)]
@@ -94,6 +96,17 @@ impl RefinedModes {
         self.frame.iterate(&self.model, &mut self.modes)
     }
 
+    /// Estimate of the relative error of a frequency `omega` of these modes after [`RefinedModes::iterate`]; `m` is the given
+    /// model, and `forces` are those that excite the modes.
+    ///
+    /// # Errors
+    /// As [`FactoredFrame::modes`].
+    pub fn iterated_error(&self, m: &Model, forces: &ExcitingForces, omega: f64) -> Result<f64, Error> {
+        let directions = member_directions(&self.frame, &self.model, Some(forces), &self.parts)?;
+        let divided = errors_of_members(m, &self.parts, &directions, omega, PartError::iterated);
+        Ok(divided.max(undivided_error(m, &directions, omega)))
+    }
+
     /// An effect of the given model as one of the model cut into parts. A section where two parts meet is just
     /// inside the second.
     #[must_use]
@@ -140,8 +153,13 @@ pub fn refined_modes(m: &Model, rails: &[Rail], count: usize, accuracy: f64) -> 
     refine(m, rails, None, count, accuracy)
 }
 
-/// The `count` lowest modes among those of the unknowns that `forces` can move, with members cut as by
-/// [`refined_modes`]. Only deformations in which these forces can move a member are refined.
+/// The `count` lowest modes among those of the unknowns that `forces` can move. Members are cut until the frequencies lie
+/// within `accuracy` after [`RefinedModes::iterate`], which the caller makes of the modes that it keeps; only deformations in
+/// which the forces can move a member are refined.
+///
+/// The estimates before the iteration are those of [`refined_modes`]. In bending with flexibility in shear the iteration makes
+/// of an error e at most 6 e^2; there e may be as large as that allows, but for accuracies below 1/20 at most 1/20, up to which
+/// shapes are resolved.
 ///
 /// # Errors
 /// As [`FactoredFrame::excited_modes`].
@@ -163,6 +181,10 @@ fn refine(
     accuracy: f64,
 ) -> Result<RefinedModes, Error> {
     let mut parts = first_parts(m, rails, FIRST_PARTS)?;
+    let allowed = match forces {
+        Some(_) => AllowedError::before_iteration(accuracy),
+        None => AllowedError { sheared: accuracy, others: accuracy },
+    };
     let directions = match forces {
         Some(_) => {
             let (model, rails) = cut_members(m, rails, &parts);
@@ -174,7 +196,7 @@ fn refine(
     if let Some(omega) = asymptotic_frequency(m, &directions, count) {
         let cut = m.members.iter().zip(&directions).zip(&mut parts);
         for ((member, &directions), parts) in cut.filter(|((member, _), _)| divisible(m, member)) {
-            *parts = parts_needed(m, member, directions, FREQUENCY_MARGIN * omega, accuracy);
+            *parts = parts_needed(m, member, directions, FREQUENCY_MARGIN * omega, allowed);
         }
     }
     loop {
@@ -194,7 +216,7 @@ fn refine(
             .zip(&parts)
             .map(|((member, &directions), &now)| match divisible(m, member) {
                 true if short && directions != Directions::NONE => (2 * now).min(MOST_PARTS),
-                true => now.max(parts_needed(m, member, directions, highest, accuracy)),
+                true => now.max(parts_needed(m, member, directions, highest, allowed)),
                 false => 1,
             })
             .collect();
@@ -369,44 +391,95 @@ fn length_squared(m: &Model, member: &Member) -> f64 {
     (ends[1] - ends[0]).norm_squared()
 }
 
-/// Relative errors of a frequency with a member in one part, for the deformations `directions`; each with the power
-/// of the number of parts by which it falls.
-fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega: f64) -> Vec<(f64, i32)> {
+/// A relative error of a frequency with a member in one part.
+struct PartError {
+    size: f64,
+    /// Power of the number of parts by which it falls.
+    power: i32,
+    /// Whether it is one of bending with flexibility in shear.
+    is_sheared: bool,
+}
+
+impl PartError {
+    /// The error with the member in `parts` parts.
+    fn in_parts(&self, parts: usize) -> f64 {
+        self.size / (parts as f64).powi(self.power)
+    }
+
+    /// The same after the iteration, as far as the mesh resolves the mode.
+    fn iterated(&self, parts: usize) -> f64 {
+        let own = self.in_parts(parts);
+        if self.is_sheared && own <= RESOLVED { ITERATED * own * own } else { own }
+    }
+}
+
+/// Largest errors that a mesh may have: in bending with flexibility in shear, and otherwise.
+#[derive(Clone, Copy)]
+struct AllowedError {
+    sheared: f64,
+    others: f64,
+}
+
+impl AllowedError {
+    /// Those for which modes have the accuracy `accuracy` after the iteration.
+    fn before_iteration(accuracy: f64) -> Self {
+        AllowedError { sheared: (accuracy / ITERATED).sqrt().min(RESOLVED).max(accuracy), others: accuracy }
+    }
+
+    /// Least number of parts for an error, not rounded.
+    fn parts(self, error: &PartError) -> f64 {
+        let allowed = if error.is_sheared { self.sheared } else { self.others };
+        (error.size / allowed).powf(1.0 / f64::from(error.power))
+    }
+}
+
+/// Relative errors of a frequency with a member in one part, for the deformations `directions`.
+fn errors_of_one_part(m: &Model, member: &Member, directions: Directions, omega: f64) -> Vec<PartError> {
     let section = &m.sections[member.section];
     let square = length_squared(m, member);
     let inertia = section.mass * omega * omega;
     let f = section.flexibility(m.theory);
     let polar = section.gyration_squared(section.iy + section.iz);
-    let second = |flexibility: f64| (inertia * flexibility * square / 24.0, 2);
     let mut all = Vec::new();
-    if directions.axial {
-        all.push(second(f.axial));
-    }
-    if directions.torsion {
-        all.push(second(f.torsion * polar));
+    let mut add = |size: f64, power: i32, is_sheared: bool| all.push(PartError { size, power, is_sheared });
+    for (flexibility, moves) in [(f.axial, directions.axial), (f.torsion * polar, directions.torsion)] {
+        if moves {
+            add(inertia * flexibility * square / 24.0, 2, false);
+        }
     }
     for (c, g, area) in bent_planes(m, section, directions) {
         if g > 0.0 {
             let gyration = section.gyration_squared(area);
             let wave = wave_squared(inertia, c, g);
             let leading = COUPLING * inertia * square;
-            all.push((leading * wave * g * square / 1440.0, 4));
-            all.push((leading * wave * c * square * square / 201_600.0, 6));
-            all.push((leading * c * gyration * (gyration * wave).min(1.0) / 24.0, 2));
+            add(leading * wave * g * square / 1440.0, 4, true);
+            add(leading * wave * c * square * square / 201_600.0, 6, true);
+            add(leading * c * gyration * (gyration * wave).min(1.0) / 24.0, 2, true);
         } else {
-            all.push((inertia * c * square * square / 1440.0, 4));
+            add(inertia * c * square * square / 1440.0, 4, false);
         }
     }
-    all.retain(|(size, _)| size.is_finite());
+    all.retain(|error| error.size.is_finite());
     all
 }
 
 /// Largest of these errors over all members that may be cut.
 fn largest_error(m: &Model, parts: &[usize], directions: &[Directions], omega: f64) -> f64 {
+    errors_of_members(m, parts, directions, omega, PartError::in_parts)
+}
+
+/// The same of what `of` makes of an error and a number of parts.
+fn errors_of_members(
+    m: &Model,
+    parts: &[usize],
+    directions: &[Directions],
+    omega: f64,
+    of: fn(&PartError, usize) -> f64,
+) -> f64 {
     let cut = m.members.iter().zip(parts).zip(directions).filter(|((member, _), _)| divisible(m, member));
     let errors = cut.flat_map(|((member, &parts), &directions)| {
         let all = errors_of_one_part(m, member, directions, omega).into_iter();
-        all.map(move |(size, power)| size / (parts as f64).powi(power))
+        all.map(move |error| of(&error, parts))
     });
     errors.fold(0.0, f64::max)
 }
@@ -417,16 +490,21 @@ fn undivided_error(m: &Model, directions: &[Directions], omega: f64) -> f64 {
     let bars = m.members.iter().zip(directions).filter(|(member, _)| member.kind != MemberKind::Beam);
     let errors = bars.map(|(member, &directions)| {
         let axial = Directions { axial: directions.axial, ..Directions::NONE };
-        errors_of_one_part(m, member, axial, omega).into_iter().map(|(size, _)| size).fold(0.0, f64::max)
+        errors_of_one_part(m, member, axial, omega).iter().map(|error| error.in_parts(1)).fold(0.0, f64::max)
     });
     errors.fold(0.0, f64::max)
 }
 
-/// Parts of a member for an accuracy at a frequency.
-fn parts_needed(m: &Model, member: &Member, directions: Directions, omega: f64, accuracy: f64) -> usize {
-    let parts = errors_of_one_part(m, member, directions, omega)
-        .into_iter()
-        .map(|(size, power)| (size / accuracy).powf(1.0 / f64::from(power)).ceil());
+/// Parts of a member for which the errors at a frequency are allowed.
+fn parts_needed(
+    m: &Model,
+    member: &Member,
+    directions: Directions,
+    omega: f64,
+    allowed: AllowedError,
+) -> usize {
+    let errors = errors_of_one_part(m, member, directions, omega);
+    let parts = errors.iter().map(|error| allowed.parts(error).ceil());
     parts.fold(bent_parts(m, member, directions), f64::max).min(MOST_PARTS as f64) as usize
 }
 

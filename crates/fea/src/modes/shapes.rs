@@ -34,11 +34,26 @@ const POWERS: [Polynomial; LONGEST] = {
 
 /// Integral over 0 to 1 of a product of two polynomials.
 pub(super) fn integral_of_product(a: &Polynomial, b: &Polynomial) -> f64 {
-    let mut weighted = [0.0; LONGEST];
-    for (coefficient, row) in a.iter().zip(&POWERS) {
-        weighted.iter_mut().zip(row).for_each(|(sum, integral)| *sum += coefficient * integral);
+    Moments::of(a).integral_with(b)
+}
+
+/// Integrals over 0 to 1 of a polynomial times each power, for its products with many others.
+#[derive(Clone, Copy)]
+pub(super) struct Moments([f64; LONGEST]);
+
+impl Moments {
+    pub fn of(polynomial: &Polynomial) -> Self {
+        let mut sums = [0.0; LONGEST];
+        for (coefficient, row) in polynomial.iter().zip(&POWERS) {
+            sums.iter_mut().zip(row).for_each(|(sum, integral)| *sum += coefficient * integral);
+        }
+        Moments(sums)
     }
-    weighted.iter().zip(b).map(|(a, b)| a * b).sum()
+
+    /// Integral over 0 to 1 of the product with another polynomial.
+    pub fn integral_with(&self, other: &Polynomial) -> f64 {
+        self.0.iter().zip(other).map(|(a, b)| a * b).sum()
+    }
 }
 
 /// |(lambda l)^2| up to which an axial force bends the shapes; parts of members with more have those without.

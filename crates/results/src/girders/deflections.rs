@@ -13,7 +13,7 @@ use trains::SectionSide;
 
 use super::distributed::FORCES;
 use super::peaks::{Peak, SIGNS, largest};
-use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, offer};
+use super::refine::{GirderValue, NEAR, ROUNDS, Refinement, offer};
 
 /// An extreme of a deflection of a span: its plane (0: vertical, 1: lateral) and kind (0: largest, 1: smallest).
 #[derive(Clone, Copy)]
@@ -98,10 +98,10 @@ impl Refinement<'_> {
         let girders = self.girders;
         let Wanted { rail, plane, kind, .. } = wanted;
         let near = self.carried_beside(wanted, from.x);
-        let mut found = from;
+        let (mut found, size) = (from, self.size(FORCES + plane));
         for _ in 0..ROUNDS {
             let state = girders.states.at(found.position);
-            let (signed, x) = largest(near, (found.signed, found.x), EVALUATIONS, &mut |x| {
+            let (signed, x) = largest(near, (found.signed, found.x), self.search_end(size), &mut |x| {
                 girders
                     .deflections(rail, &[x], plane, &state)
                     .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
@@ -118,7 +118,7 @@ impl Refinement<'_> {
             if signed > found.signed {
                 found = GirderValue { signed, position, ..found };
             }
-            if gain <= 1e-3 * self.accuracy * self.size(FORCES + plane) {
+            if gain <= 1e-3 * self.accuracy * size {
                 break;
             }
         }

@@ -178,23 +178,34 @@ const GOLDEN: f64 = 0.381_966_011_250_105_1;
 /// of a value at a smooth peak.
 const NEAR: f64 = 1e-6;
 
-/// The largest value of `function` between two places, with its place, after at most `count` evaluations between them.
-/// `known` is a place between them with its value, near the largest one as far as known. The ends count as well.
+/// When the search for a largest value ends.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct SearchEnd {
+    /// Largest number of evaluations between the ends.
+    pub evaluations: usize,
+    /// Difference of values that does not matter.
+    pub enough: f64,
+}
+
+/// The largest value of `function` between two places, with its place. `known` is a place between them with its value, near
+/// the largest one as far as known. The ends count as well.
 ///
 /// Each next place is the vertex of the parabola through the three best places so far; where that would leave the
-/// interval, or moves by more than half of the step before the last, it divides the larger part by the golden section.
+/// interval, or moves by more than half of the step before the last, it divides the larger part by the golden section. The
+/// search ends where the vertex is higher than the best value by no more than what is enough, and so is that value than the
+/// second.
 ///
 /// # Source
 /// Brent, Algorithms for Minimization without Derivatives (1973), chapter 5, procedure localmin.
 pub(super) fn largest(
     ends: [f64; 2],
     known: (f64, f64),
-    count: usize,
+    end: SearchEnd,
     function: &mut dyn FnMut(f64) -> f64,
 ) -> (f64, f64) {
     // of equal values the known one counts
     let outside = ends.map(|place| (function(place), place)).into_iter().fold(known, larger);
-    larger(outside, largest_between(ends, known, count, function))
+    larger(outside, largest_between(ends, known, end, function))
 }
 
 fn larger(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
@@ -205,7 +216,7 @@ fn larger(one: (f64, f64), other: (f64, f64)) -> (f64, f64) {
 pub(super) fn largest_between(
     ends: [f64; 2],
     known: (f64, f64),
-    count: usize,
+    end: SearchEnd,
     function: &mut dyn FnMut(f64) -> f64,
 ) -> (f64, f64) {
     let [mut a, mut b] = ends;
@@ -218,15 +229,19 @@ pub(super) fn largest_between(
     let is_inside = known.1 > a && known.1 < b;
     let mut best = [if is_inside { known } else { (function(start), start) }; 3];
     let (mut step, mut before) = (0.0_f64, 0.0_f64);
-    for _ in 1..count {
+    for _ in 1..end.evaluations {
         let x = best[0].1;
         let middle = 0.5 * (a + b);
         if (x - middle).abs() <= 2.0 * near - 0.5 * (b - a) {
             break;
         }
-        let vertex = vertex(&best).filter(|to| (to - x).abs() < 0.5 * before.abs() && *to > a && *to < b);
+        let vertex =
+            vertex(&best).filter(|(to, _)| (to - x).abs() < 0.5 * before.abs() && *to > a && *to < b);
+        if vertex.is_some_and(|(_, gain)| gain.max(best[0].0 - best[1].0) <= end.enough) {
+            break;
+        }
         before = step;
-        step = match vertex {
+        step = match vertex.map(|(to, _)| to) {
             Some(to) if to - a < 2.0 * near || b - to < 2.0 * near => near.copysign(middle - x),
             Some(to) => to - x,
             None => {
@@ -251,11 +266,17 @@ pub(super) fn largest_between(
     larger(known, best[0])
 }
 
-/// The vertex of the parabola through three values at places; `None` if they lie on a line.
-fn vertex([x, w, v]: &[(f64, f64); 3]) -> Option<f64> {
+/// The vertex of the parabola through three values at places, and by how much it is above the first; `None` if they lie on a
+/// line.
+fn vertex([x, w, v]: &[(f64, f64); 3]) -> Option<(f64, f64)> {
     let (to_w, to_v) = ((x.1 - w.1) * (x.0 - v.0), (x.1 - v.1) * (x.0 - w.0));
     let denominator = 2.0 * (to_v - to_w);
-    (denominator != 0.0).then(|| x.1 - ((x.1 - v.1) * to_v - (x.1 - w.1) * to_w) / denominator)
+    if denominator == 0.0 {
+        return None;
+    }
+    let step = ((x.1 - v.1) * to_v - (x.1 - w.1) * to_w) / denominator;
+    let curvature = (to_v - to_w) / ((x.1 - v.1) * (x.1 - w.1) * (w.1 - v.1));
+    Some((x.1 - step, curvature.abs() * step * step))
 }
 
 #[cfg(test)]
@@ -312,11 +333,16 @@ mod tests {
         }
     }
 
+    /// Ends as far as doubles tell values apart.
+    fn rounding(evaluations: usize) -> SearchEnd {
+        SearchEnd { evaluations, enough: 0.0 }
+    }
+
     /// Analytic: the vertex of a parabola.
     #[test]
     fn a_vertex_is_found_in_few_evaluations() {
         let mut count = 0;
-        let (value, place) = largest([0.0, 2.0], (1.31, 2.0), 30, &mut |x| {
+        let (value, place) = largest([0.0, 2.0], (1.31, 2.0), rounding(30), &mut |x| {
             count += 1;
             3.0 - (x - 0.7).powi(2)
         });
@@ -327,10 +353,34 @@ mod tests {
     /// Analytic: a quartic that is flat at its top, a corner between the places, and a largest value at an end.
     #[test]
     fn flat_tops_corners_and_ends_are_found() {
-        let (flat, at) = largest([-1.0, 2.0], (0.7599, 1.0), 30, &mut |x: f64| 1.0 - (x - 0.3).powi(4));
+        let (flat, at) =
+            largest([-1.0, 2.0], (0.7599, 1.0), rounding(30), &mut |x: f64| 1.0 - (x - 0.3).powi(4));
         assert!((flat - 1.0).abs() < 1e-9 && (at - 0.3).abs() < 0.02, "{flat} at {at}");
-        let (corner, at) = largest([0.0, 1.0], (-0.13, 0.5), 60, &mut |x: f64| -(x - 0.37).abs());
+        let (corner, at) = largest([0.0, 1.0], (-0.13, 0.5), rounding(60), &mut |x: f64| -(x - 0.37).abs());
         assert!(corner > -1e-5 && (at - 0.37).abs() < 1e-5, "{corner} at {at}");
-        assert_eq!(largest([0.0, 1.0], (0.5, 0.5), 20, &mut |x| x), (1.0, 1.0));
+        assert_eq!(largest([0.0, 1.0], (0.5, 0.5), rounding(20), &mut |x| x), (1.0, 1.0));
+    }
+
+    /// Analytic: a cosine, a corner and a peak beside an end, each to what is enough, in fewer evaluations.
+    #[test]
+    fn a_search_ends_where_more_would_gain_no_more_than_is_enough() {
+        let cases: [(fn(f64) -> f64, f64); 3] = [
+            (|x| (3.0 * (x - 0.4)).cos(), 1.0),
+            (|x| 1.0 - (x - 0.6183).abs(), 1.0),
+            (|x| 1.0 - (x - 0.02).powi(2) + (x - 0.02).powi(3), 1.0),
+        ];
+        for (k, (function, exact)) in cases.into_iter().enumerate() {
+            for enough in [1e-3, 1e-5] {
+                let mut count = 0;
+                let mut counted = |x: f64| {
+                    count += 1;
+                    function(x)
+                };
+                let end = SearchEnd { evaluations: 60, enough };
+                let (value, _) = largest_between([0.0, 1.0], (function(0.5), 0.5), end, &mut counted);
+                assert!(value <= exact && value > exact - 3.0 * enough, "case {k}, {enough}: {value}");
+                assert!(count <= if k == 1 { 30 } else { 9 }, "case {k}, {enough}: {count} evaluations");
+            }
+        }
     }
 }

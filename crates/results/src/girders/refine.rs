@@ -5,11 +5,13 @@ use trains::{GirderResponse, SectionSide};
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
 use super::instants::LoadState;
-use super::peaks::{Peak, SIGNS, Vertex, largest, largest_between};
+use super::peaks::{Peak, SIGNS, SearchEnd, Vertex, largest, largest_between};
 use super::scan::Scan;
 
 /// Largest number of evaluations for the peak between two rows.
-pub(super) const EVALUATIONS: usize = 20;
+const EVALUATIONS: usize = 20;
+/// Difference of values that does not matter for a peak, relative to the accuracy and the largest value of its kind.
+const ENOUGH: f64 = 1e-2;
 /// Rounds of refinement over time and along the girder in turn.
 pub(super) const ROUNDS: usize = 3;
 /// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
@@ -145,12 +147,11 @@ impl Refinement<'_> {
         let mut near = |vertex: &Vertex| {
             let known = (vertex.value, (vertex.row * stride) as f64);
             let ends = self.rows_beside(known.1, stride);
-            if vertex.height - vertex.value <= 1e-2 * self.accuracy * self.size(quantity)
-                || ends[1] <= ends[0]
-            {
+            let end = self.search_end(self.size(quantity));
+            if vertex.height - vertex.value <= end.enough || ends[1] <= ends[0] {
                 return known;
             }
-            largest_between(ends, known, EVALUATIONS, &mut *value)
+            largest_between(ends, known, end, &mut *value)
         };
         let found = near(&peak.highest);
         if peak.largest.row == peak.highest.row || peak.largest.height <= found.0 {
@@ -167,6 +168,11 @@ impl Refinement<'_> {
         [(row - stride as f64).max(0.0), (row + stride as f64).min(last)]
     }
 
+    /// When a search among values ends of which the largest are as large as `size`.
+    pub fn search_end(&self, size: f64) -> SearchEnd {
+        SearchEnd { evaluations: EVALUATIONS, enough: ENOUGH * self.accuracy * size }
+    }
+
     /// The largest value from `stride` rows before a time to as many behind it.
     pub fn near_in_time(
         &self,
@@ -179,7 +185,7 @@ impl Refinement<'_> {
         if ends[1] <= ends[0] {
             return own;
         }
-        largest(ends, own, EVALUATIONS, value)
+        largest(ends, own, self.search_end(own.0.abs()), value)
     }
 }
 

@@ -5,8 +5,12 @@ use trains::SectionSide;
 use super::deflections::Wanted;
 use super::distributed::FORCES;
 use super::peaks::{Peak, SIGNS, largest};
-use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
+use super::refine::{GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
 use super::scan::Scan;
+
+/// Peaks of sections that are lower than a refined value by more than this fraction of the largest value of their kind are left
+/// out: rows are near enough to each other that the parabolas through them err by less.
+const BELOW: f64 = 0.01;
 
 /// The largest or smallest value of one quantity over a span.
 #[derive(Clone, Copy, Debug)]
@@ -66,11 +70,20 @@ impl Refinement<'_> {
         let values = values.chain(tracks.iter().map(|track| track.2.largest.value));
         let best = values.fold(f64::NEG_INFINITY, f64::max);
         let least = best - NEAR * self.size(quantity);
-        let mut found: Option<GirderValue> = None;
-        for &at in &own {
-            let is_near = peaks[at][quantity][kind].highest.height >= least;
-            offer(&mut found, self.section(at, quantity, kind, is_near));
+        // sections with higher peaks first: what is far below a peak that is known is not followed
+        let height = |at: usize| peaks[at][quantity][kind].highest.height;
+        let mut ranked: Vec<usize> = (0..own.len()).collect();
+        ranked.sort_by(|a, b| height(own[*b]).total_cmp(&height(own[*a])));
+        let (mut of_sections, mut known) = (vec![None; own.len()], f64::NEG_INFINITY);
+        for rank in ranked {
+            let near = least.max(known - BELOW * self.size(quantity));
+            let value = self.section(own[rank], quantity, kind, height(own[rank]) >= near);
+            known = value.map_or(known, |value| known.max(value.signed));
+            of_sections[rank] = value;
         }
+        // of equal values that of the first section counts
+        let mut found: Option<GirderValue> = None;
+        of_sections.into_iter().for_each(|value| offer(&mut found, value));
         if let Some(own) = found.filter(|own| own.own.is_none() && !self.girders.distributed.is_empty()) {
             offer(&mut found, self.along(rail, span, quantity, kind, own));
         }
@@ -146,11 +159,11 @@ impl Refinement<'_> {
             let place = girders.members.place(member, x);
             SIGNS[kind] * girders.forces_in(member, place, &girders.states.at(position), None)[quantity]
         };
-        let mut found = from;
+        let (mut found, size) = (from, self.size(quantity));
         for _ in 0..ROUNDS {
-            let (signed, x) =
-                largest(near, (found.signed, found.x), EVALUATIONS, &mut |x| value(x, found.position));
-            if signed <= found.signed + 1e-3 * self.accuracy * self.size(quantity) {
+            let known = (found.signed, found.x);
+            let (signed, x) = largest(near, known, self.search_end(size), &mut |x| value(x, found.position));
+            if signed <= found.signed + 1e-3 * self.accuracy * size {
                 break;
             }
             found = GirderValue {

@@ -14,7 +14,7 @@ use trains::{PassedLoads, SectionSide};
 use super::distributed::Quantities;
 use super::fibres::DIRECT;
 use super::peaks::largest;
-use super::refine::{EVALUATIONS, GirderValue, NEAR, ROUNDS, Refinement, offer};
+use super::refine::{GirderValue, NEAR, ROUNDS, Refinement, offer};
 use super::spans::SpanValue;
 
 /// Stresses on both sides of a wheel that count as equal, relative to their size.
@@ -294,7 +294,8 @@ impl Refinement<'_> {
         let mut found = GirderValue { is_after: None, ..from };
         for _ in 0..ROUNDS {
             let known = (size(found.x, found.position), found.x);
-            let (signed, x) = largest(near, known, EVALUATIONS, &mut |x| size(x, found.position));
+            let (signed, x) =
+                largest(near, known, self.search_end(from.signed), &mut |x| size(x, found.position));
             if signed <= (1.0 + 1e-3 * self.accuracy) * found.signed {
                 break;
             }

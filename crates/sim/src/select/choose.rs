@@ -68,6 +68,9 @@ const START: (f64, usize) = (0.125, 2);
 /// Estimate for the number of modes of this repetition, relative to that of the run itself, and the largest ratio with
 /// which the error of the repetition is extrapolated.
 const START_RATIO: [f64; 2] = [0.3, 0.5];
+/// Number of modes, relative to that of the run, and the least number, from which a further reduction of the estimate is not
+/// waited for.
+const START_MODES: (usize, usize) = (3, 24);
 /// Accuracy of this repetition, relative to that of the run, and the error of its steps, relative to those of the run.
 const START_ACCURACY: (f64, f64) = (0.1, 0.2);
 /// Share of the error at the start, or of the tolerance, by the steps from which a run is repeated with finer ones.
@@ -80,6 +83,8 @@ const UNKNOWN: f64 = 3.0;
 const MODAL_RUNS: usize = 3;
 /// Accuracy of a run that only checks influence functions, relative to the tolerance.
 const CHECK_ACCURACY: f64 = 0.1;
+/// Factor on the number of modes that a further run needs by its estimates, where more modes hardly reduce these.
+const SPARE: usize = 2;
 /// Samples for each period of the fastest bounce, and the largest number of samples of a run.
 const SAMPLES: [f64; 2] = [10.0, 40_000.0];
 /// Stages of a run from which its cost counts: shorter runs take some hundredths of a second.
@@ -175,11 +180,15 @@ impl Open {
         found.map(|tail| tail.kept).or(whole)
     }
 
-    /// The same; where there is none, the smallest number whose estimate, times `factor`, is within the tolerance with
+    /// The same; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the tolerance with
     /// the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far beyond the
     /// tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
-    fn count_for(&self, limit: f64, factor: f64, least: usize) -> Option<usize> {
-        let within = || self.sufficient_count(SAFE / factor * self.tolerance, least);
+    fn count_for(&self, limit: f64, factor: f64, least: usize, spare: usize) -> Option<usize> {
+        let within = || {
+            let count = self.sufficient_count(SAFE / factor * self.tolerance, least)?;
+            let more = self.tails.iter().map(|tail| tail.kept).find(|kept| *kept >= spare * count);
+            Some(more.unwrap_or(count))
+        };
         let most = || {
             let last = self.tails.last().filter(|last| last.kept >= least)?;
             if is_unreachable(last.error, self.tolerance) {
@@ -205,7 +214,9 @@ impl Open {
         if count == 0 || known <= count || own == 0.0 {
             return None;
         }
-        let found = self.tails.iter().find(|tail| tail.kept > count && tail.error <= START_RATIO[0] * own);
+        let many = START_MODES.1.max(START_MODES.0 * count);
+        let suffices = |tail: &&TailError| tail.error <= START_RATIO[0] * own || tail.kept >= many;
+        let found = self.tails.iter().filter(|tail| tail.kept > count).find(suffices);
         let (more, error) = found.map_or((known, self.tail(known).error), |tail| (tail.kept, tail.error));
         Some((more, (error / own).min(START_RATIO[1])))
     }
@@ -372,7 +383,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         (frequency, enough): (f64, f64),
     ) -> (Vec<usize>, bool) {
         for own in open.iter_mut() {
-            self.estimate(own, first, compliances, 0, f64::INFINITY);
+            self.estimate(own, first, compliances, 0, [f64::INFINITY; 2]);
         }
         let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
         let mut counts = vec![0; open.len()];
@@ -381,11 +392,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
             if own.tail(0).error > enough * own.tolerance {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
-                self.estimate(own, first, compliances, 1, limit);
+                self.estimate(own, first, compliances, 1, [limit, SAFE / UNKNOWN * own.tolerance]);
                 // a run that only checks influence need not be within the tolerance itself
                 let found = |limit: f64| match own.sufficient_count(limit, 1) {
                     None if !is_hopeless => own.no_worse_count(1),
-                    None => own.count_for(limit, UNKNOWN, 1),
+                    None => own.count_for(limit, UNKNOWN, 1, 1),
                     found => found,
                 };
                 let needed = |limit: f64| found(limit).unwrap_or(own.known());
@@ -407,7 +418,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 return self.repeated(&open, lower, bounces);
             };
             for (own, count) in open.iter_mut().zip(&counts) {
-                self.estimate(own, &higher, &compliances, *count, f64::INFINITY);
+                self.estimate(own, &higher, &compliances, *count, [f64::INFINITY; 2]);
             }
             let apart = difference(&lower.record, &higher.record, strictest.measure, bounces);
             let factor = apart.largest / lacking.max(f64::MIN_POSITIVE);
@@ -453,9 +464,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut raised = counts.to_vec();
         for (own, count) in open.iter_mut().zip(&mut raised) {
             if factor * own.tail(*count).error > SAFE * own.tolerance {
-                let limit = AIM * own.tolerance / factor;
-                self.estimate(own, higher, compliances, *count + 1, limit);
-                *count = own.count_for(limit, factor, *count).unwrap_or(*count);
+                let [limit, enough] = [AIM, SAFE].map(|share| share * own.tolerance / factor);
+                self.estimate(own, higher, compliances, *count + 1, [limit, enough]);
+                *count = own.count_for(limit, factor, *count, SPARE).unwrap_or(*count);
             }
         }
         raised
@@ -601,7 +612,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for round in 1..=MODAL_RUNS {
             let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
             for (own, count) in open.iter_mut().zip(&counts) {
-                self.estimate(own, &trial, &compliances, *count, SAFE / UNKNOWN * own.tolerance);
+                self.estimate(own, &trial, &compliances, *count, [SAFE / UNKNOWN * own.tolerance; 2]);
             }
             self.note_tails(&open, &counts, UNKNOWN, &trial);
             last = trial;
@@ -678,15 +689,18 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
-    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is two thirds of them.
+    /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is two thirds of them. The
+    /// search ends as well where the least estimate of such numbers is at most `enough`, and more modes have hardly reduced it
+    /// ([`NO_BETTER`]).
     fn estimate(
         &mut self,
         own: &mut Open,
         trial: &Trial,
         compliances: &[Foundation],
         least: usize,
-        limit: f64,
+        [limit, enough]: [f64; 2],
     ) {
+        let mut last_best = None;
         loop {
             let known = own.known();
             if own.tails_of != Some((trial.number, known)) {
@@ -702,11 +716,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 own.tails = tail_errors(&loaded, &own.basis).unwrap_or_default();
                 own.tails_of = Some((trial.number, known));
             }
-            let found = own.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
-            let is_known = found.is_some_and(|tail| BEYOND * tail.kept as f64 <= known as f64);
+            let usable = |tail: &&TailError| tail.kept >= least && BEYOND * tail.kept as f64 <= known as f64;
+            let best = own.tails.iter().filter(usable).map(|tail| tail.error).reduce(f64::min);
+            let is_known = best.is_some_and(|best| {
+                let is_level = last_best.is_some_and(|last: f64| last <= NO_BETTER * best);
+                best <= limit || (best <= enough && is_level)
+            });
             if is_known || own.basis.is_whole || known >= MODES[1] {
                 return;
             }
+            last_best = best;
             match self.provider.modes(own.structure, (2 * known).min(MODES[1])) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > known => own.basis = basis,
                 _ => return,
