@@ -392,8 +392,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
             if own.tail(0).error > enough * own.tolerance {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
-                self.estimate(own, first, compliances, 1, [limit, SAFE / UNKNOWN * own.tolerance]);
                 // a run that only checks influence need not be within the tolerance itself
+                let enough = if is_hopeless { SAFE / UNKNOWN * own.tolerance } else { f64::INFINITY };
+                self.estimate(own, first, compliances, 1, [limit, enough]);
                 let found = |limit: f64| match own.sufficient_count(limit, 1) {
                     None if !is_hopeless => own.no_worse_count(1),
                     None => own.count_for(limit, UNKNOWN, 1, 1),

@@ -396,7 +396,13 @@ impl<'a> Outlined<'a> {
         Some(Outlined { record, windows, scales, outlines })
     }
 
-    /// Difference of other values of quantity `index` from its own, relative to its scale.
+    /// Scale of the differences of quantity `index`.
+    pub fn scale(&self, index: usize) -> f64 {
+        self.scales[index]
+    }
+
+    /// Difference of other values of quantity `index` from its own, relative to its scale: at most the largest difference of
+    /// two values at equal times.
     pub fn difference(&self, index: usize, values: &[f64]) -> f64 {
         let own =
             self.outlines[index].get_or_init(|| self.windows.outline(&self.record.quantities[index].values));

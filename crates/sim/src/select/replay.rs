@@ -451,10 +451,9 @@ impl<'a> Replay<'a> {
             if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 }
         };
         // the largest of the errors of single quantities
-        let largest = |kept: usize, error: &mut dyn FnMut(&Slot) -> f64| {
+        let largest = |kept: usize, errors: &mut dyn Iterator<Item = (&Slot, f64)>| {
             let mut found = TailError { kept, error: 0.0, quantity: String::new() };
-            for slot in &slots {
-                let error = error(slot);
+            for (slot, error) in errors {
                 if error > found.error || error.is_nan() {
                     found.error = if error.is_nan() { f64::INFINITY } else { error };
                     found.quantity.clone_from(&record.quantities[slot.quantity].name);
@@ -472,12 +471,13 @@ impl<'a> Replay<'a> {
         if measure == Measure::History {
             let scales = record.scales();
             let pointwise = |(index, kept): (usize, usize)| {
-                largest(kept, &mut |slot| match &slot.lacking {
+                let error = |slot: &Slot| match &slot.lacking {
                     Lacking::Largest(most) if most[index] != 0.0 => {
                         beyond(slot, kept) * most[index] / scales[slot.quantity]
                     }
                     _ => 0.0,
-                })
+                };
+                largest(kept, &mut slots.iter().map(|slot| (slot, error(slot))))
             };
             return counts.map(pointwise).collect();
         }
@@ -493,15 +493,42 @@ impl<'a> Replay<'a> {
             return counts.map(together).collect();
         };
         let mut values = Vec::new();
-        let each = |count: (usize, usize)| {
-            largest(count.1, &mut |slot| {
-                values.clone_from(&record.quantities[slot.quantity].values);
-                complete(slot, count, &mut values);
-                outlined.difference(slot.quantity, &values)
-            })
+        let each = |(index, kept): (usize, usize)| {
+            // extremes change by no more than the values: quantities that lack little need no comparison
+            let most = |slot: &Slot| {
+                let Lacking::Series(series) = &slot.lacking else { return 0.0 };
+                let rows = record.time.len();
+                let largest = sup_norm(&series[index * rows..(index + 1) * rows]);
+                beyond(slot, kept) * largest / outlined.scale(slot.quantity)
+            };
+            let mut bounds: Vec<(f64, &Slot)> = slots.iter().map(|slot| (most(slot), slot)).collect();
+            bounds.sort_by(|a, b| b.0.total_cmp(&a.0));
+            let mut known = 0.0;
+            largest(
+                kept,
+                &mut bounds.into_iter().map(|(bound, slot)| {
+                    if bound <= known {
+                        return (slot, 0.0);
+                    }
+                    values.clone_from(&record.quantities[slot.quantity].values);
+                    complete(slot, (index, kept), &mut values);
+                    let error = outlined.difference(slot.quantity, &values);
+                    known = error.max(known);
+                    (slot, error)
+                }),
+            )
         };
         counts.map(each).collect()
     }
+}
+
+/// Largest absolute value; not a number where one of the values is none.
+fn sup_norm(values: &[f32]) -> f64 {
+    let largest = values.iter().fold(0.0_f32, |most, value| {
+        let is_known = value.abs() <= most || most.is_nan();
+        if is_known { most } else { value.abs() }
+    });
+    f64::from(largest)
 }
 
 /// All wheels after a share of an interval, see [`Interval::at`].
