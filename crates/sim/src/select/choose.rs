@@ -87,6 +87,9 @@ const CHECK_ACCURACY: f64 = 0.1;
 const SPARE: usize = 2;
 /// Samples for each period of the fastest bounce, and the largest number of samples of a run.
 const SAMPLES: [f64; 2] = [10.0, 40_000.0];
+/// Stages of a run for each of its samples from which its steps are so short that further runs are sampled more densely, and
+/// the largest factor between the numbers of samples.
+const DENSER: (u64, usize) = (3, 8);
 /// Stages of a run from which its cost counts: shorter runs take some hundredths of a second.
 const LONG: u64 = 10_000;
 /// Ratio of the costs of two runs from which the run of the costlier one, once made, is kept.
@@ -347,6 +350,16 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
     }
 
+    /// Samples further runs more densely where the steps of the run `first` were shorter than the time between its samples: a
+    /// wheel that lands on its rail passes a peak of its force within a fraction of a bounce, and modes of short periods follow
+    /// it.
+    fn sample_as_stepped(&mut self, first: &Trial) {
+        let rows = first.record.time.len().max(1);
+        let wanted = (first.run.counts.stages as u64 / DENSER.0) as usize / rows;
+        let most = (SAMPLES[1] as usize / rows).min(DENSER.1 * self.scene.output_parts);
+        self.scene.output_parts = self.scene.output_parts.max(wanted.min(most));
+    }
+
     /// Steps 2 to 4 of the head of this module, from the run `first` with influence functions.
     fn search(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
         match first.run.status {
@@ -356,6 +369,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             // On other foundations the wheels would leave their rails as well.
             Status::Stopped | Status::Failed(..) => return Ok(first),
         }
+        self.sample_as_stepped(&first);
         let bounces = self.bounces(&first);
         let compliances = std::mem::take(&mut first.foundations);
         let frequency = 2.0 * std::f64::consts::PI / fastest_bounce(&self.scene);
