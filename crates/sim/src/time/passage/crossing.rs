@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use super::path::Path;
-use super::series::{Contacts, Matrix, Series, TERMS, Values, subtract};
+use super::series::{Contacts, Impulse, Matrix, Series, TERMS, Values, subtract};
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::mobility::Mobility;
@@ -47,6 +47,9 @@ const STIFF: f64 = 20.0;
 
 /// Number of steps, estimated from the current step length, above which a series is not used.
 const MANY: f64 = 1e4;
+
+/// Number of samples that are evaluated together.
+const TOGETHER: usize = 4;
 
 /// Abscissae and weights of Lobatto quadrature on [0, 1], exact to degree 13; the weight at 0 and at 1 is [`ENDS`].
 const LOBATTO: [[f64; 2]; 6] = [
@@ -255,6 +258,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let allowed = LAST * scene.accuracy.min(COARSEST)
             / (self.bounces(quickest).min(MOST_BOUNCES) / BOUNCES).max(1.0);
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
+        let mut due = scene.output_time(next);
         for end in self.breaks() {
             let path =
                 Path::new(system, &mut self.geometry, &self.state, [t, end], self.travel.speed, softness)?;
@@ -287,11 +291,18 @@ impl<'a, const P: usize> Crossing<'a, P> {
                     return Ok(None);
                 }
                 let to = if count == 1.0 { end } else { t + h };
-                while scene.output_time(next) <= to {
-                    let at = scene.output_time(next);
-                    self.sample(at, (at - t) / scale, &compliance);
-                    recorder.record(system, &self.geometry, &self.state)?;
-                    next += 1;
+                while due <= to {
+                    let (mut times, mut count) = ([due; TOGETHER], 0);
+                    while due <= to && count < TOGETHER {
+                        times[count..].fill(due);
+                        (count, next) = (count + 1, next + 1);
+                        due = scene.output_time(next);
+                    }
+                    if let ([time, ..], 1) = (times, count) {
+                        self.record(&mut recorder, t, &[time], &compliance)?;
+                    } else {
+                        self.record(&mut recorder, t, &times, &compliance)?;
+                    }
                 }
                 if !self.step(h) {
                     return Ok(None);
@@ -326,9 +337,9 @@ impl<'a, const P: usize> Crossing<'a, P> {
         recorder: Recorder,
         (counts, bounces): (Counts, f64),
     ) -> Result<Crossed, Error> {
-        let [at] = self.series.at([self.length / self.series.scale]);
+        let [at] = self.series.at(&[self.length / self.series.scale]);
         let (q, v) = (self.q, self.v);
-        self.fill(t, &q, &v, &at);
+        self.fill(t, &q, &v, &at.force);
         self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
         self.audit.end = stored(self.system, &self.geometry, &self.state);
         let (history, audit) = (recorder.into_history(), self.audit);
@@ -406,45 +417,49 @@ impl<'a, const P: usize> Crossing<'a, P> {
     /// Starts the audit at the start of the first step; returns false if a contact is not pressed there.
     fn begin(&mut self, compliance: &Matrix<P>) -> bool {
         let look = self.series.first();
-        let (p, _) = self.penetration(&look);
+        let p = self.penetration(&look.force, &look.rate);
         let presses = |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
         if !(0..self.system.elements.len()).all(presses) {
             return false;
         }
         let (q, v) = (self.q, self.v);
-        self.fill(0.0, &q, &v, &look);
+        self.fill(0.0, &q, &v, &look.force);
         self.fill_compliance(compliance);
         self.audit.start = stored(self.system, &self.geometry, &self.state);
         self.energy_at_start = self.energy(&q, &v, &look)[0];
         true
     }
 
-    /// Penetration p = F/k - r w' and its rate.
-    fn penetration(&self, at: &Values<P>) -> ([f64; P], [f64; P]) {
-        let Contacts { mobile, free, ratio, softness, .. } = &self.contacts;
-        let mut lift = *free;
-        subtract(mobile, &at.force, &mut lift);
-        (
-            std::array::from_fn(|i| at.force[i] * softness[i] - ratio[i] * at.rate[i]),
-            std::array::from_fn(|i| at.force_rate[i] * softness[i] - ratio[i] * lift[i]),
-        )
+    /// Penetration p = F/k - r w' under the forces `force` at the rates of the approaches `rate`.
+    fn penetration(&self, force: &[f64; P], rate: &[f64; P]) -> [f64; P] {
+        let Contacts { ratio, softness, .. } = &self.contacts;
+        std::array::from_fn(|i| force[i] * softness[i] - ratio[i] * rate[i])
+    }
+
+    /// Rate of the penetration.
+    fn penetration_rate(&self, at: &Values<P>) -> [f64; P] {
+        let mut lift = self.contacts.free;
+        subtract(&self.contacts.mobile, &at.force, &mut lift);
+        self.penetration(&at.force_rate, &lift)
     }
 
     /// Displacements and speeds of the degrees of freedom at the scaled time `s` of the step.
-    fn moved(&self, s: f64) -> [[f64; P]; 2] {
+    fn moved(&self, s: f64, impulse: &Impulse<P>) -> [[f64; P]; 2] {
         let time = s * self.series.scale;
-        let [once, twice] = self.series.impulse(s);
-        let mut q =
-            std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.matrices.free_fall[k]));
-        let mut v = std::array::from_fn(|k| self.v[k] + time * self.matrices.free_fall[k]);
-        subtract(&self.matrices.spread, &twice, &mut q);
-        subtract(&self.matrices.spread, &once, &mut v);
+        let [mut q, mut v] = [[0.0; P]; 2];
+        for k in 0..P {
+            let fall = time * self.matrices.free_fall[k];
+            q[k] = self.q[k] + time * (self.v[k] + 0.5 * fall);
+            v[k] = self.v[k] + fall;
+        }
+        subtract(&self.matrices.spread, &impulse.twice, &mut q);
+        subtract(&self.matrices.spread, &impulse.once, &mut v);
         [q, v]
     }
 
     /// Stored energy without its constant part, and the elastic part of it.
     fn energy(&self, q: &[f64; P], v: &[f64; P], at: &Values<P>) -> [f64; 2] {
-        let (p, _) = self.penetration(at);
+        let p = self.penetration(&at.force, &at.rate);
         let (mut elastic, mut rest) = (0.0, 0.0);
         for (i, p) in p.iter().enumerate() {
             elastic += 0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
@@ -468,27 +483,28 @@ impl<'a, const P: usize> Crossing<'a, P> {
             drives += h * weight * power[1];
         };
         let [a, b, c, d, e, f] = LOBATTO.map(|[place, _]| place * end);
-        let looks = self.series.at([a, b, c, d, e, f, end]);
+        let (inside, [further @ .., at]) = (self.series.at(&[a, b, c, d]), self.series.at(&[e, f, end]));
+        let looks = || inside.iter().chain(&further);
         book(&self.series.first(), ENDS);
-        for (at, weight) in looks.iter().zip(LOBATTO.map(|[_, weight]| weight).into_iter().chain([ENDS])) {
-            book(at, weight);
-        }
+        looks().zip(LOBATTO).for_each(|(at, [_, weight])| book(at, weight));
+        book(&at, ENDS);
         self.audit.exchanged.dampers += dampers;
         self.audit.exchanged.drives += drives;
-        let [.., at] = &looks;
-        [self.q, self.v] = self.moved(end);
-        let [total, elastic] = self.energy(&self.q, &self.v, at);
+        let [impulse] = self.series.impulses(&[end]);
+        [self.q, self.v] = self.moved(end, &impulse);
+        let [total, elastic] = self.energy(&self.q, &self.v, &at);
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
         let imbalance = (total + self.audit.exchanged.net_loss() - self.energy_at_start).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
-        let pulls = |i: usize| looks.iter().any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
+        let pulls =
+            |i: usize| looks().chain([&at]).any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
     }
 
     /// Power dissipated in the dampers, c w' p', and power supplied by the travel, -1/2 F dG/dt F, where u = w - p is
     /// the deflection and F dG/dt F = F u' - u F'.
     fn power(&self, at: &Values<P>) -> [f64; 2] {
-        let (p, p_rate) = self.penetration(at);
+        let (p, p_rate) = (self.penetration(&at.force, &at.rate), self.penetration_rate(at));
         let (mut dampers, mut drives) = (0.0, 0.0);
         for (i, (p, p_rate)) in p.iter().zip(&p_rate).enumerate() {
             let (give, give_rate) = (at.approach[i] - p, at.rate[i] - p_rate);
@@ -498,11 +514,34 @@ impl<'a, const P: usize> Crossing<'a, P> {
         [dampers, drives]
     }
 
-    /// Sets state and geometry to time `t`, at the scaled time `s` of the step.
-    fn sample(&mut self, t: f64, s: f64, compliance: &[Matrix<P>; TERMS]) {
-        let [look] = self.series.at([s]);
-        let [q, v] = self.moved(s);
-        self.fill(t, &q, &v, &look);
+    /// Records the state at `times` in the step that began at `start`. Of times that are equal the first alone is recorded.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails at the gauges.
+    fn record<const N: usize>(
+        &mut self,
+        recorder: &mut Recorder,
+        start: f64,
+        times: &[f64; N],
+        compliance: &[Matrix<P>; TERMS],
+    ) -> Result<(), Error> {
+        let places = times.map(|time| (time - start) / self.series.scale);
+        let mut last = f64::NAN;
+        for ((time, s), at) in times.iter().zip(places).zip(self.series.impulses(&places)) {
+            if *time == last {
+                break;
+            }
+            last = *time;
+            let [q, v] = self.moved(s, &at);
+            self.fill(*time, &q, &v, &at.force);
+            self.tilt(s, &at.force, compliance);
+            recorder.record(self.system, &self.geometry, &self.state)?;
+        }
+        Ok(())
+    }
+
+    /// Sets the slopes of the rails at the scaled time `s` under the forces `force`.
+    fn tilt(&mut self, s: f64, force: &[f64; P], compliance: &[Matrix<P>; TERMS]) {
         if self.travel.root.is_none() {
             return;
         }
@@ -512,29 +551,34 @@ impl<'a, const P: usize> Crossing<'a, P> {
             return;
         }
         // Half of dG/dx times the forces; its product with the forces is the longitudinal force of all wheels.
-        let mut slope = [0.0; P];
-        let mut power = -0.5 / (self.series.scale * self.travel.speed);
-        for (k, matrix) in compliance.iter().enumerate().skip(1) {
-            let scaled = look.force.map(|force| force * power * k as f64);
-            subtract(matrix, &scaled, &mut slope);
-            power *= s;
+        let (mut value, mut rate) = (compliance[TERMS - 1], [[0.0; P]; P]);
+        for matrix in compliance[..TERMS - 1].iter().rev() {
+            for ((value, rate), entries) in value.iter_mut().zip(&mut rate).zip(matrix) {
+                for i in 0..P {
+                    rate[i] = rate[i] * s + value[i];
+                    value[i] = value[i] * s + entries[i];
+                }
+            }
         }
+        let half = -0.5 / (self.series.scale * self.travel.speed);
+        let mut slope = [0.0; P];
+        subtract(&rate, &force.map(|force| half * force), &mut slope);
         let count = self.system.elements.len();
         self.geometry.set_rail_slope(&slope[..count]);
     }
 
-    fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], look: &Values<P>) {
-        let (p, p_rate) = self.penetration(look);
-        let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
+    /// Sets the state to the degrees of freedom `q`, their rates `v` and the forces `force` at time `t`, and the places of the
+    /// wheels with it.
+    fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], force: &[f64; P]) {
+        let p = self.penetration(force, &self.approach(v, false));
         let mut a = self.matrices.free_fall;
-        subtract(&self.matrices.spread, &look.force, &mut a);
+        subtract(&self.matrices.spread, force, &mut a);
         self.state.t = t;
-        self.state.q.as_mut_slice().copy_from_slice(&q[..n]);
-        self.state.v.as_mut_slice().copy_from_slice(&v[..n]);
-        self.state.a.as_mut_slice().copy_from_slice(&a[..n]);
-        self.state.p.copy_from_slice(&p[..m]);
-        self.state.p_rate.copy_from_slice(&p_rate[..m]);
-        self.state.force.copy_from_slice(&look.force[..m]);
+        put(q, self.state.q.as_mut_slice());
+        put(v, self.state.v.as_mut_slice());
+        put(&a, self.state.a.as_mut_slice());
+        put(&p, &mut self.state.p);
+        put(force, &mut self.state.force);
         self.geometry.move_uniformly(
             self.system,
             &self.travel.places,
@@ -546,6 +590,14 @@ impl<'a, const P: usize> Crossing<'a, P> {
 
     fn fill_compliance(&mut self, compliance: &Matrix<P>) {
         self.geometry.set_compliance(compliance.iter());
+    }
+}
+
+/// Copies the leading values, or all of them at once where `to` is not padded.
+fn put<const P: usize>(values: &[f64; P], to: &mut [f64]) {
+    match to.first_chunk_mut::<P>() {
+        Some(to) => *to = *values,
+        None => to.copy_from_slice(&values[..to.len()]),
     }
 }
 
