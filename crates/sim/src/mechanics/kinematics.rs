@@ -10,7 +10,7 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::scene::body::parents_first;
 use crate::scene::dof::arm_rows;
-use crate::{Body, Error, Foundation, Profile, Scene, Travel};
+use crate::{Body, Error, Foundation, Scene};
 
 /// Indices of degrees of freedom and their coefficients in one displacement.
 pub(crate) type Terms = Vec<(usize, f64)>;
@@ -153,51 +153,32 @@ impl<'a> Kinematics<'a> {
 
     /// Displacements and velocities of body `b` in all six degrees of freedom at time `t`.
     pub fn motion(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
-        self.motion_by(b, |profile, _| profile.at(t), q, v)
-    }
-
-    /// The same for a `travel` of the roots that is known.
-    pub fn motion_at(
-        &self,
-        b: usize,
-        travel: &[Travel],
-        q: &DVector<f64>,
-        v: &DVector<f64>,
-    ) -> ([f64; 6], [f64; 6]) {
-        self.motion_by(b, |_, root| travel[root], q, v)
-    }
-
-    #[inline]
-    fn motion_by(
-        &self,
-        b: usize,
-        travel: impl Fn(&Profile, usize) -> Travel,
-        q: &DVector<f64>,
-        v: &DVector<f64>,
-    ) -> ([f64; 6], [f64; 6]) {
         let body = &self.scene.bodies[b];
         if body.pinned.is_some() {
-            let (mut displacement, mut speed) = (self.apply(b, q), self.apply(b, v));
-            displacement.iter_mut().zip(&self.constant[b]).for_each(|(sum, constant)| *sum += constant);
-            let root = self.root[b];
-            if let Some(profile) = &self.scene.bodies[root].motion {
-                let at = travel(profile, root);
-                displacement[0] += at.x;
-                speed[0] += at.v;
-            }
-            return (displacement, speed);
+            return self.pinned_motion(b, t, q, v);
         }
         let (mut displacement, mut speed) = (body.start, [0.0; 6]);
-        for (i, number) in self.numbers[b].iter().enumerate() {
-            if let Some(number) = *number {
+        for i in 0..6 {
+            if let Some(number) = self.numbers[b][i] {
                 displacement[i] = q[number];
                 speed[i] = v[number];
             }
         }
         if let Some(profile) = &body.motion {
-            let at = travel(profile, b);
+            let at = profile.at(t);
             displacement[0] = at.x;
             speed[0] = at.v;
+        }
+        (displacement, speed)
+    }
+
+    fn pinned_motion(&self, b: usize, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> ([f64; 6], [f64; 6]) {
+        let (mut displacement, mut speed) = (self.apply(b, q), self.apply(b, v));
+        displacement.iter_mut().zip(&self.constant[b]).for_each(|(sum, constant)| *sum += constant);
+        if let Some(profile) = &self.scene.bodies[self.root[b]].motion {
+            let at = profile.at(t);
+            displacement[0] += at.x;
+            speed[0] += at.v;
         }
         (displacement, speed)
     }

@@ -36,6 +36,10 @@ pub(crate) struct Recorder {
     lengths: Vec<(usize, usize)>,
     /// Number of columns for channels of the elements' own.
     own_columns: usize,
+    /// A row with what never changes: displacements that are fixed, and zeros.
+    blank: Vec<f64>,
+    /// Columns of displacements of bodies that are degrees of freedom, with the numbers of these.
+    free: Vec<(usize, usize)>,
     wheels: Vec<WheelColumns>,
     /// Working memory for the gauges.
     gauges: Vec<f64>,
@@ -82,7 +86,21 @@ impl Recorder {
         };
         let wheels = system.mechanics.wheels.iter().enumerate().map(of_wheel).collect();
         let shape = vec![0.0; 2 * system.mechanics.dofs];
+        let (mut blank, mut free) = (vec![0.0; channels.len()], Vec::new());
+        let bodies = system.scene.bodies.iter().enumerate();
+        for (b, body) in bodies {
+            let first = 1 + OF_BODY * b;
+            blank[first..first + 6].copy_from_slice(&body.start);
+            // The sum of no forces is -0.0, the sum of an empty iterator.
+            blank[first + 12..first + OF_BODY].fill(-0.0);
+            if body.pinned.is_none() {
+                let numbers = system.mechanics.kinematics.numbers[b].iter().enumerate();
+                free.extend(numbers.filter_map(|(i, number)| Some((first + i, (*number)?))));
+            }
+        }
         Recorder {
+            blank,
+            free,
             history: History::new(channels),
             forces,
             lengths,
@@ -141,20 +159,26 @@ impl Recorder {
             moved.push(self.displacement(system, geometry, at, gauge)?);
         }
         let frame = geometry.frame(system, at);
-        values.resize(first + self.history.channels().len(), 0.0);
+        values.extend_from_slice(&self.blank);
         let row = &mut values[first..];
         row[0] = at.t;
+        let (q, v) = (at.q.as_slice(), at.v.as_slice());
+        for &(column, number) in &self.free {
+            row[column] = q[number];
+            row[column + 6] = v[number];
+        }
         let (of_bodies, others) = row[1..].split_at_mut(bodies);
-        for ((b, body), own) in
-            system.scene.bodies.iter().enumerate().zip(of_bodies.chunks_exact_mut(OF_BODY))
-        {
-            let travel = &geometry.places().travel;
-            let (displacement, speed) = mechanics.kinematics.motion_at(b, travel, &at.q, &at.v);
-            own[..6].copy_from_slice(&displacement);
-            own[6..12].copy_from_slice(&speed);
-            // The sum of no forces is -0.0, the sum of an empty iterator.
-            own[12] = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
-            own[13] = -0.0;
+        let each = system.scene.bodies.iter().enumerate().zip(of_bodies.as_chunks_mut::<OF_BODY>().0);
+        for ((b, body), own) in each {
+            if body.pinned.is_some() {
+                let (displacement, speed) = mechanics.kinematics.motion(b, at.t, &at.q, &at.v);
+                own[..6].copy_from_slice(&displacement);
+                own[6..12].copy_from_slice(&speed);
+            } else if body.motion.is_some() {
+                let travel = geometry.places().travel[b];
+                (own[0], own[6]) = (travel.x, travel.v);
+                own[12] = motion_force(system, &frame, b);
+            }
         }
         let all = self.wheels.iter().enumerate().zip(others.as_chunks_mut::<OF_WHEEL>().0);
         for ((w, wheel), own) in all {

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use super::path::Path;
-use super::series::{Contacts, Impulse, Matrix, Series, TERMS, Values, subtract};
+use super::series::{Contacts, Impulse, Matrix, ORDER, Series, TERMS, Values, subtract};
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::mobility::Mobility;
@@ -109,7 +109,7 @@ pub(crate) struct Crossed {
 /// As [`crate::run()`].
 pub(crate) fn run(
     system: &System,
-    start: &State,
+    start: State,
     placed: bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Crossed>, Error> {
@@ -132,6 +132,8 @@ struct Crossing<'a, const P: usize> {
     q: [f64; P],
     v: [f64; P],
     series: Series<P>,
+    /// G over the scaled time of the step.
+    compliance: [Matrix<P>; TERMS],
     /// Length of the last step.
     length: f64,
     audit: Audit,
@@ -143,8 +145,8 @@ struct Crossing<'a, const P: usize> {
 
 /// The uniform travel of a crossing.
 struct UniformTravel {
-    /// The body with prescribed travel, and its speed.
-    root: Option<usize>,
+    /// The body with prescribed travel and its position at time 0, and its speed.
+    root: Option<(usize, f64)>,
     speed: f64,
     /// Positions of the wheels along the rail at time 0.
     places: Vec<f64>,
@@ -165,15 +167,16 @@ struct Matrices<const P: usize> {
 }
 
 impl<'a, const P: usize> Crossing<'a, P> {
-    fn new(system: &'a System<'a>, start: &State) -> Result<Self, Error> {
+    fn new(system: &'a System<'a>, start: State) -> Result<Self, Error> {
         let (n, m) = (system.mechanics.dofs, system.elements.len());
+        let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
+        let (q, v) = (pad(start.q.as_slice()), pad(start.v.as_slice()));
         let mut geometry = Geometry::new(system);
         geometry.update(system, 0.0, &start.q, &start.force)?;
         let zero = [[0.0; P]; P];
         let (mut rows, mut spread, mut mobile, mut mass) = (zero, zero, zero, zero);
         let mobility = Mobility::new(&system.mechanics)?;
         let mut free_fall = [0.0; P];
-        let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
         mobility.apply(system.mechanics.gravity.as_slice(), &mut free_fall[..n]);
         for (j, row) in geometry.rows().approach.chunks_exact(n).enumerate() {
             mobility.apply(row, &mut spread[j][..n]);
@@ -203,7 +206,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
             softness[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
         }
         let root = system.scene.bodies.iter().position(|body| body.motion.is_some());
-        let speed = root.map_or(0.0, |root| geometry.places().travel[root].v);
+        let begun = root.map(|root| geometry.places().travel[root]).unwrap_or_default();
         let mut travel_inertia = [0.0; P];
         for &(number, inertia) in
             root.iter().flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
@@ -212,7 +215,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
         }
         let constant = pad(&geometry.rows().approach_offset);
         Ok(Crossing {
-            travel: UniformTravel { root, speed, places: geometry.places().x.clone() },
+            travel: UniformTravel {
+                root: root.map(|root| (root, begun.x)),
+                speed: begun.v,
+                places: geometry.places().x.clone(),
+            },
             matrices: Matrices {
                 rows,
                 constant,
@@ -222,11 +229,12 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 weight: pad(system.mechanics.gravity.as_slice()),
                 travel_inertia,
             },
-            q: pad(start.q.as_slice()),
-            v: pad(start.v.as_slice()),
-            series: Series::new(order(system.scene.accuracy)),
+            q,
+            v,
+            series: Series::new(),
+            compliance: [zero; TERMS],
             contacts: Contacts { mobile, free, ratio, damping, softness },
-            state: start.clone(),
+            state: start,
             audit: Audit::default(),
             energy_at_start: 0.0,
             length: 0.0,
@@ -267,18 +275,19 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 return Ok(None);
             }
             while t < end {
-                let compliance = path.about(t, scale);
+                self.compliance = path.about(t, scale);
                 let approach = self.approach(&self.q, true);
                 let rate = self.approach(&self.v, false);
                 self.largest_approach =
                     approach.iter().fold(self.largest_approach, |max, w| max.max(w.abs()));
-                if self.series.expand(&self.contacts, &compliance, scale, [&approach, &rate]).is_none() {
+                let starts = [&approach, &rate];
+                if self.series.expand(&self.contacts, &self.compliance, scale, starts).is_none() {
                     return Ok(None);
                 }
                 let force = self.series.first().force;
                 self.largest_force = force.iter().fold(self.largest_force, |max, force| max.max(force.abs()));
                 // An error of an approach by this much changes a force by the fraction of the largest one.
-                let yielding = self.yielding(&compliance[0]).min(self.largest_approach);
+                let yielding = self.yielding(&self.compliance[0]).min(self.largest_approach);
                 let wanted =
                     scale * self.series.reach(allowed * yielding, FORCES * allowed * self.largest_force);
                 let count = ((end - t) / wanted).ceil().max(1.0);
@@ -287,7 +296,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
                     return Ok(None);
                 }
                 let h = (end - t) / count;
-                if t == 0.0 && !self.begin(&compliance[0]) {
+                if t == 0.0 && !self.begin() {
                     return Ok(None);
                 }
                 let to = if count == 1.0 { end } else { t + h };
@@ -299,25 +308,25 @@ impl<'a, const P: usize> Crossing<'a, P> {
                         due = scene.output_time(next);
                     }
                     if let ([time, ..], 1) = (times, count) {
-                        self.record(&mut recorder, t, &[time], &compliance)?;
+                        self.record(&mut recorder, t, &[time])?;
                     } else {
-                        self.record(&mut recorder, t, &times, &compliance)?;
+                        self.record(&mut recorder, t, &times)?;
                     }
                 }
                 if !self.step(h) {
                     return Ok(None);
                 }
                 counts.steps += 1;
-                counts.stages += self.series.order;
+                counts.stages += ORDER;
                 (t, scale) = (to, h);
                 if watch(t).is_break() {
                     let bounces = self.bounces(quickest);
-                    return self.finish(true, t, recorder, (counts, bounces)).map(Some);
+                    return Ok(Some(self.finish(true, t, recorder, (counts, bounces))));
                 }
             }
         }
         let bounces = self.bounces(quickest);
-        self.finish(false, t, recorder, (counts, bounces)).map(Some)
+        Ok(Some(self.finish(false, t, recorder, (counts, bounces))))
     }
 
     /// Number of bounces in the run over which errors add up, with `quickest` the reciprocal square of the
@@ -336,14 +345,16 @@ impl<'a, const P: usize> Crossing<'a, P> {
         t: f64,
         recorder: Recorder,
         (counts, bounces): (Counts, f64),
-    ) -> Result<Crossed, Error> {
-        let [at] = self.series.at(&[self.length / self.series.scale]);
+    ) -> Crossed {
+        let s = self.length / self.series.scale;
+        let [at] = self.series.at(&[s]);
         let (q, v) = (self.q, self.v);
         self.fill(t, &q, &v, &at.force);
-        self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
+        let [compliance, _] = self.compliance_at(s);
+        self.geometry.set_compliance(compliance.iter());
         self.audit.end = stored(self.system, &self.geometry, &self.state);
         let (history, audit) = (recorder.into_history(), self.audit);
-        Ok(Crossed { is_stopped, history, audit, counts, bounces })
+        Crossed { is_stopped, history, audit, counts, bounces }
     }
 
     /// Approach of the stiffest contact under the largest force on each contact: the smallest row sum of G + 1/k, times
@@ -415,7 +426,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Starts the audit at the start of the first step; returns false if a contact is not pressed there.
-    fn begin(&mut self, compliance: &Matrix<P>) -> bool {
+    fn begin(&mut self) -> bool {
         let look = self.series.first();
         let p = self.penetration(&look.force, &look.rate);
         let presses = |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
@@ -424,7 +435,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         }
         let (q, v) = (self.q, self.v);
         self.fill(0.0, &q, &v, &look.force);
-        self.fill_compliance(compliance);
+        self.geometry.set_compliance(self.compliance[0].iter());
         self.audit.start = stored(self.system, &self.geometry, &self.state);
         self.energy_at_start = self.energy(&q, &v, &look)[0];
         true
@@ -484,9 +495,13 @@ impl<'a, const P: usize> Crossing<'a, P> {
         };
         let [a, b, c, d, e, f] = LOBATTO.map(|[place, _]| place * end);
         let (inside, [further @ .., at]) = (self.series.at(&[a, b, c, d]), self.series.at(&[e, f, end]));
-        let looks = || inside.iter().chain(&further);
         book(&self.series.first(), ENDS);
-        looks().zip(LOBATTO).for_each(|(at, [_, weight])| book(at, weight));
+        for (at, [_, weight]) in inside.iter().zip(&LOBATTO[..4]) {
+            book(at, *weight);
+        }
+        for (at, [_, weight]) in further.iter().zip(&LOBATTO[4..]) {
+            book(at, *weight);
+        }
         book(&at, ENDS);
         self.audit.exchanged.dampers += dampers;
         self.audit.exchanged.drives += drives;
@@ -496,8 +511,13 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
         let imbalance = (total + self.audit.exchanged.net_loss() - self.energy_at_start).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
-        let pulls =
-            |i: usize| looks().chain([&at]).any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
+        let mut least = at.force;
+        for at in inside.iter().chain(&further) {
+            for i in 0..P {
+                least[i] = least[i].min(at.force[i]);
+            }
+        }
+        let pulls = |i: usize| least[i] < 0.0 && !self.system.law(i).bilateral;
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
     }
 
@@ -523,9 +543,10 @@ impl<'a, const P: usize> Crossing<'a, P> {
         recorder: &mut Recorder,
         start: f64,
         times: &[f64; N],
-        compliance: &[Matrix<P>; TERMS],
     ) -> Result<(), Error> {
-        let places = times.map(|time| (time - start) / self.series.scale);
+        let per_time = 1.0 / self.series.scale;
+        let mut places = *times;
+        places.iter_mut().for_each(|place| *place = (*place - start) * per_time);
         let mut last = f64::NAN;
         for ((time, s), at) in times.iter().zip(places).zip(self.series.impulses(&places)) {
             if *time == last {
@@ -534,14 +555,14 @@ impl<'a, const P: usize> Crossing<'a, P> {
             last = *time;
             let [q, v] = self.moved(s, &at);
             self.fill(*time, &q, &v, &at.force);
-            self.tilt(s, &at.force, compliance);
+            self.tilt(s, &at.force);
             recorder.record(self.system, &self.geometry, &self.state)?;
         }
         Ok(())
     }
 
     /// Sets the slopes of the rails at the scaled time `s` under the forces `force`.
-    fn tilt(&mut self, s: f64, force: &[f64; P], compliance: &[Matrix<P>; TERMS]) {
+    fn tilt(&mut self, s: f64, force: &[f64; P]) {
         if self.travel.root.is_none() {
             return;
         }
@@ -551,8 +572,17 @@ impl<'a, const P: usize> Crossing<'a, P> {
             return;
         }
         // Half of dG/dx times the forces; its product with the forces is the longitudinal force of all wheels.
-        let (mut value, mut rate) = (compliance[TERMS - 1], [[0.0; P]; P]);
-        for matrix in compliance[..TERMS - 1].iter().rev() {
+        let [_, rate] = self.compliance_at(s);
+        let half = -0.5 / (self.series.scale * self.travel.speed);
+        let mut slope = [0.0; P];
+        subtract(&rate, &force.map(|force| half * force), &mut slope);
+        self.geometry.set_rail_slope(&slope);
+    }
+
+    /// G at the scaled time `s` of the step, and its derivative by the scaled time.
+    fn compliance_at(&self, s: f64) -> [Matrix<P>; 2] {
+        let (mut value, mut rate) = (self.compliance[TERMS - 1], [[0.0; P]; P]);
+        for matrix in self.compliance[..TERMS - 1].iter().rev() {
             for ((value, rate), entries) in value.iter_mut().zip(&mut rate).zip(matrix) {
                 for i in 0..P {
                     rate[i] = rate[i] * s + value[i];
@@ -560,11 +590,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 }
             }
         }
-        let half = -0.5 / (self.series.scale * self.travel.speed);
-        let mut slope = [0.0; P];
-        subtract(&rate, &force.map(|force| half * force), &mut slope);
-        let count = self.system.elements.len();
-        self.geometry.set_rail_slope(&slope[..count]);
+        [value, rate]
     }
 
     /// Sets the state to the degrees of freedom `q`, their rates `v` and the forces `force` at time `t`, and the places of the
@@ -579,17 +605,8 @@ impl<'a, const P: usize> Crossing<'a, P> {
         put(&a, self.state.a.as_mut_slice());
         put(&p, &mut self.state.p);
         put(force, &mut self.state.force);
-        self.geometry.move_uniformly(
-            self.system,
-            &self.travel.places,
-            self.travel.speed,
-            t,
-            self.travel.root,
-        );
-    }
-
-    fn fill_compliance(&mut self, compliance: &Matrix<P>) {
-        self.geometry.set_compliance(compliance.iter());
+        let UniformTravel { root, speed, places } = &self.travel;
+        self.geometry.move_uniformly(places, *speed, t, *root);
     }
 }
 
@@ -599,11 +616,4 @@ fn put<const P: usize>(values: &[f64; P], to: &mut [f64]) {
         Some(to) => *to = *values,
         None => to.copy_from_slice(&values[..to.len()]),
     }
-}
-
-/// Number of coefficients of the forces for an accuracy: a multiple of 4 plus 2. Taylor methods of other orders need
-/// shorter steps along the imaginary axis, where the eigenvalues of oscillations lie.
-fn order(accuracy: f64) -> usize {
-    let more = ((-accuracy.log10() - 2.5) / 2.5).clamp(0.0, 3.0) as usize;
-    10 + 4 * more
 }
