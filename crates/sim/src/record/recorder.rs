@@ -192,7 +192,7 @@ impl Recorder {
         }
         let (gauges, structures) =
             row[1 + bodies + wheels + self.own_columns..].split_at_mut(system.scene.gauges.len());
-        gauges.copy_from_slice(&moved);
+        gauges.iter_mut().zip(&moved).for_each(|(column, moved)| *column = *moved);
         self.gauges = moved;
         let (moves, mut next) = (system.scene.analysis == Analysis::Dynamic, 0);
         for (_, range) in recorded(system) {

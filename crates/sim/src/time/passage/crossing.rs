@@ -610,10 +610,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 }
 
-/// Copies the leading values, or all of them at once where `to` is not padded.
+/// Copies the leading values, two at a time: a call that copies two numbers takes longer.
 fn put<const P: usize>(values: &[f64; P], to: &mut [f64]) {
-    match to.first_chunk_mut::<P>() {
-        Some(to) => *to = *values,
-        None => to.copy_from_slice(&values[..to.len()]),
+    let (pairs, last) = to.as_chunks_mut::<2>();
+    if let ([last], Some(value)) = (last, values.get(2 * pairs.len())) {
+        *last = *value;
     }
+    pairs.iter_mut().zip(values.as_chunks::<2>().0).for_each(|(to, from)| *to = *from);
 }
