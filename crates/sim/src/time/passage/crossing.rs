@@ -49,7 +49,7 @@ const STIFF: f64 = 20.0;
 const MANY: f64 = 1e4;
 
 /// Number of samples that are evaluated together.
-const TOGETHER: usize = 4;
+const TOGETHER: usize = 3;
 
 /// Abscissae and weights of Lobatto quadrature on [0, 1], exact to degree 13; the weight at 0 and at 1 is [`ENDS`].
 const LOBATTO: [[f64; 2]; 6] = [
@@ -493,13 +493,12 @@ impl<'a, const P: usize> Crossing<'a, P> {
             dampers += h * weight * power[0];
             drives += h * weight * power[1];
         };
-        let [a, b, c, d, e, f] = LOBATTO.map(|[place, _]| place * end);
-        let (inside, [further @ .., at]) = (self.series.at(&[a, b, c, d]), self.series.at(&[e, f, end]));
+        // Three places at a time: their sums fit into the registers.
+        let (first, second) = LOBATTO.split_at(3);
+        let of = |places: &[[f64; 2]]| self.series.at::<3>(&std::array::from_fn(|k| places[k][0] * end));
+        let (before, after, [at]) = (of(first), of(second), self.series.at(&[end]));
         book(&self.series.first(), ENDS);
-        for (at, [_, weight]) in inside.iter().zip(&LOBATTO[..4]) {
-            book(at, *weight);
-        }
-        for (at, [_, weight]) in further.iter().zip(&LOBATTO[4..]) {
+        for (at, [_, weight]) in before.iter().chain(&after).zip(&LOBATTO) {
             book(at, *weight);
         }
         book(&at, ENDS);
@@ -512,7 +511,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let imbalance = (total + self.audit.exchanged.net_loss() - self.energy_at_start).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
         let mut least = at.force;
-        for at in inside.iter().chain(&further) {
+        for at in before.iter().chain(&after) {
             for i in 0..P {
                 least[i] = least[i].min(at.force[i]);
             }
