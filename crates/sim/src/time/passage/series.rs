@@ -41,8 +41,7 @@ pub(super) struct Contacts<const P: usize> {
 /// Power series of the scaled time (t - start)/`scale`.
 pub(super) struct Series<const P: usize> {
     pub scale: f64,
-    /// The coefficients of the forces, after [`BEFORE`] zeros.
-    force: [[f64; P]; BEFORE + ORDER + MORE],
+    force: [[f64; P]; ORDER + MORE],
     approach: [[f64; P]; ORDER + 2],
 }
 
@@ -69,7 +68,7 @@ impl<const P: usize> Series<P> {
     pub fn new() -> Self {
         Series {
             scale: 1.0,
-            force: [[0.0; P]; BEFORE + ORDER + MORE],
+            force: [[0.0; P]; ORDER + MORE],
             approach: [[0.0; P]; ORDER + 2],
         }
     }
@@ -102,14 +101,15 @@ impl<const P: usize> Series<P> {
         let by_rate = product(&inverse, &by_rate);
         let by_approach = product(&inverse, &contacts.mobile);
         let last = ORDER + MORE - 1;
+        // the last forces, the latest first
+        let mut latest = [[0.0; P]; BEFORE];
         for k in 0..=last {
             // the approach that the forces are evaluated for ends with its coefficient `ORDER` + 1
             let rate_share = if k < last { 1.0 } else { 0.0 };
             let mut force = [0.0; P];
             for j in (2..BEFORE).rev() {
-                subtract(&memory[j], &self.force[BEFORE + k - 1 - j], &mut force);
+                subtract(&memory[j], &latest[j], &mut force);
             }
-            let [before, previous] = [2, 1].map(|back| self.force[BEFORE + k - back]);
             if k < 3 {
                 let mut right = [0.0; P];
                 let per_time = (k + 1) as f64 / scale;
@@ -117,14 +117,18 @@ impl<const P: usize> Series<P> {
                     right[i] = -self.approach[k][i] - contacts.ratio[i] * per_time * self.approach[k + 1][i];
                 }
                 subtract(&inverse, &right, &mut force);
-                subtract(&memory[1], &before, &mut force);
-                subtract(&memory[0], &previous, &mut force);
+                subtract(&memory[1], &latest[1], &mut force);
+                subtract(&memory[0], &latest[0], &mut force);
             } else {
                 let (first, second) = (rate_share * FIRST[k - 1], scale * scale * SECOND[k - 2]);
-                subtract(&sum(&memory[1], second, &by_approach), &before, &mut force);
-                subtract(&sum(&memory[0], first, &by_rate), &previous, &mut force);
+                subtract(&sum(&memory[1], second, &by_approach), &latest[1], &mut force);
+                subtract(&sum(&memory[0], first, &by_rate), &latest[0], &mut force);
             }
-            self.force[BEFORE + k] = force;
+            self.force[k] = force;
+            for j in (1..BEFORE).rev() {
+                latest[j] = latest[j - 1];
+            }
+            latest[0] = force;
             if k < ORDER {
                 let mut free_fall = if k == 0 { contacts.free } else { [0.0; P] };
                 subtract(&contacts.mobile, &force, &mut free_fall);
@@ -135,25 +139,20 @@ impl<const P: usize> Series<P> {
         Some(())
     }
 
-    /// The coefficients of the forces.
-    fn forces(&self) -> &[[f64; P]; ORDER + MORE] {
-        self.force.last_chunk().expect("zeros before them are the rest of the array")
-    }
-
     /// Length, relative to `scale`, of the longest step whose last two terms are at most `approach` and `force`.
     pub fn reach(&self, approach: f64, force: f64) -> f64 {
         let longest = |terms: &[[f64; P]], allowed: f64, k: usize| {
             let size = terms[k].iter().fold(f64::MIN_POSITIVE, |max, term| max.max(term.abs()));
             (allowed / size).ln() / k as f64
         };
-        let by_force = [ORDER - 2, ORDER - 1].map(|k| longest(self.forces(), force, k));
+        let by_force = [ORDER - 2, ORDER - 1].map(|k| longest(&self.force, force, k));
         let by_approach = [ORDER, ORDER + 1].map(|k| longest(&self.approach, approach, k));
         by_force.into_iter().chain(by_approach).fold(f64::INFINITY, f64::min).exp()
     }
 
     /// Values at each of the scaled times `places`.
     pub fn at<const N: usize>(&self, places: &[f64; N]) -> [Values<P>; N] {
-        let (force, force_rate) = look(self.forces(), places);
+        let (force, force_rate) = look(&self.force, places);
         let (approach, rate) = look(&self.approach, places);
         let per_time = 1.0 / self.scale;
         std::array::from_fn(|at| Values {
@@ -167,10 +166,9 @@ impl<const P: usize> Series<P> {
     /// Values at the start.
     pub fn first(&self) -> Values<P> {
         let per_time = 1.0 / self.scale;
-        let forces = self.forces();
         Values {
-            force: forces[0],
-            force_rate: forces[1].map(|rate| rate * per_time),
+            force: self.force[0],
+            force_rate: self.force[1].map(|rate| rate * per_time),
             approach: self.approach[0],
             rate: self.approach[1].map(|rate| rate * per_time),
         }
@@ -179,7 +177,7 @@ impl<const P: usize> Series<P> {
     /// Forces and their integrals from the start to each of the scaled times `places`.
     pub fn impulses<const N: usize>(&self, places: &[f64; N]) -> [Impulse<P>; N] {
         let [mut force, mut once, mut twice] = [[[0.0; P]; N]; 3];
-        let (moving, more) = self.forces().split_at(ORDER);
+        let (moving, more) = self.force.split_at(ORDER);
         for term in more.iter().rev() {
             for (s, force) in places.iter().zip(&mut force) {
                 for i in 0..P {
