@@ -87,8 +87,6 @@ pub(crate) struct CompliancePath {
     offset: Vec<f64>,
     /// Pairs of groups (i, j) with j <= i, row by row.
     pairs: Vec<Pair>,
-    /// Whether two groups act on one element, so that their entries are summed.
-    shares_elements: bool,
     /// Scratch: the groups of the elements that are wanted.
     rows: Vec<usize>,
     is_set: bool,
@@ -121,9 +119,6 @@ impl CompliancePath {
             members.push(Member { group, probe: place, weight: *weight });
         }
         let count = groups.len();
-        let is_second =
-            |(k, group): (usize, &Group)| groups[..k].iter().any(|known| known.element == group.element);
-        let shares_elements = groups.iter().enumerate().any(is_second);
         let square = || vec![0.0; count * count];
         let node = || PathNode { x: vec![0.0; count], value: square(), slope: square() };
         Some(CompliancePath {
@@ -137,7 +132,6 @@ impl CompliancePath {
             offset: vec![0.0; count],
             pairs: Vec::with_capacity(count * (count + 1) / 2),
             rows: Vec::with_capacity(count),
-            shares_elements,
             groups,
             is_set: false,
         })
@@ -290,29 +284,17 @@ impl CompliancePath {
         if farthest > reach {
             return false;
         }
+        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
         self.rows.clear();
-        let wanted = self.groups.iter().enumerate().filter(|(_, group)| elements.has(group.element));
-        self.rows.extend(wanted.map(|(number, _)| number));
-        if self.shares_elements {
-            for &number in &self.rows {
-                let Group { element, tangential, .. } = self.groups[number];
-                matrices.value[element * m..(element + 1) * m].fill(0.0);
-                matrices.slope[element * m..(element + 1) * m].fill(0.0);
-                if let Some(own) = tangential {
-                    matrices.tangential[own * m..(own + 1) * m].fill(0.0);
-                }
+        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| elements.has(group.element))
+        {
+            self.rows.push(number);
+            sums[group.element * m..(group.element + 1) * m].fill(0.0);
+            rates[group.element * m..(group.element + 1) * m].fill(0.0);
+            if let Some(own) = group.tangential {
+                tangential[own * m..(own + 1) * m].fill(0.0);
             }
-            self.write(s, (m, matrices), |sum, entry| *sum += entry);
-        } else {
-            self.write(s, (m, matrices), |sum, entry| *sum = entry);
         }
-        true
-    }
-
-    /// Calls `put` with each entry of the matrices over `m` elements and its value at `s`, between the groups that are wanted.
-    #[inline]
-    fn write(&self, s: f64, (m, matrices): (usize, &mut RailMatrices), put: impl Fn(&mut f64, f64)) {
-        let RailMatrices { value: values, slope: slopes, tangential } = matrices;
         for (place, &i) in self.rows.iter().enumerate() {
             let (row, offset) = (&self.groups[i], self.offset[i]);
             let (first, last) = (row.element * m, row.element);
@@ -321,23 +303,24 @@ impl CompliancePath {
                 let (column, [value, slope, back]) =
                     (&self.groups[j], pairs[j].at(s, [offset, self.offset[j]]));
                 let (there, mirrored) = (first + column.element, column.element * m + last);
-                put(&mut values[there], value);
-                put(&mut values[mirrored], value);
-                put(&mut slopes[there], slope);
-                put(&mut slopes[mirrored], back);
+                sums[there] += value;
+                sums[mirrored] += value;
+                rates[there] += slope;
+                rates[mirrored] += back;
                 if let Some(own) = row.tangential {
-                    put(&mut tangential[own * m + column.element], slope);
+                    tangential[own * m + column.element] += slope;
                 }
                 if let Some(own) = column.tangential {
-                    put(&mut tangential[own * m + last], back);
+                    tangential[own * m + last] += back;
                 }
             }
             let [value, slope, _] = pairs[i].at(s, [offset; 2]);
-            put(&mut values[first + last], value);
-            put(&mut slopes[first + last], slope);
+            sums[first + last] += value;
+            rates[first + last] += slope;
             if let Some(own) = row.tangential {
-                put(&mut tangential[own * m + last], slope);
+                tangential[own * m + last] += slope;
             }
         }
+        true
     }
 }
