@@ -512,9 +512,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
         let mut least = at.force;
         for at in before.iter().chain(&after) {
-            for i in 0..P {
-                least[i] = least[i].min(at.force[i]);
-            }
+            least.iter_mut().zip(&at.force).for_each(|(least, force)| *least = least.min(*force));
         }
         let pulls = |i: usize| least[i] < 0.0 && !self.system.law(i).bilateral;
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
