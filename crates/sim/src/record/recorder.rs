@@ -174,8 +174,8 @@ impl Recorder {
                 let (displacement, speed) = mechanics.kinematics.motion(b, at.t, &at.q, &at.v);
                 own[..6].copy_from_slice(&displacement);
                 own[6..12].copy_from_slice(&speed);
-            } else if body.motion.is_some() {
-                let travel = geometry.places().travel[b];
+            } else if let Some(motion) = &body.motion {
+                let travel = motion.at(at.t);
                 (own[0], own[6]) = (travel.x, travel.v);
                 own[12] = motion_force(system, &frame, b);
             }
