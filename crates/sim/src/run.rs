@@ -181,14 +181,11 @@ fn attempt(
     if let Some(found) = step.filter(|step| !(*step > 0.0 && step.is_finite())) {
         return Err(Error::Number { what: "step", wanted: "positive", found });
     }
-    let mut state = system.state();
-    set(&system, &mut state.q, |body| body.start);
-    set(&system, &mut state.v, |body| body.start_speed);
     let mut method = method;
     if method == Method::Series {
         if step.is_none()
             && scene.analysis == Analysis::Dynamic
-            && let Some(crossed) = crossing::run(&system, &state, placed(&system), watch)?
+            && let Some(crossed) = crossing::run(&system, starting(&system), placed(&system), watch)?
         {
             return Ok(Run {
                 status: if crossed.is_stopped { Status::Stopped } else { Status::Done },
@@ -205,6 +202,7 @@ fn attempt(
         }
         method = Method::Radau;
     }
+    let mut state = starting(&system);
     let mut solver = Solver::new(&system, RailMemory::Known)?;
     locate_wheels(&mut solver, &state)?;
     state.v.fill(0.0);
@@ -213,6 +211,14 @@ fn attempt(
         Analysis::QuasiStatic => sweep(&system, &mut solver, state, watch),
         Analysis::Dynamic => integrate(Stepping { method, step }, &system, &mut solver, state, watch),
     }
+}
+
+/// The state with the starting displacements and speeds of the bodies.
+fn starting(system: &System) -> State {
+    let mut state = system.state();
+    set(system, &mut state.q, |body| body.start);
+    set(system, &mut state.v, |body| body.start_speed);
+    state
 }
 
 /// Checks that `scene` has a static equilibrium at its start on `foundations`, without integrating it. A scene with a

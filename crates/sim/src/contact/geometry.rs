@@ -476,28 +476,23 @@ impl Geometry {
     }
 
     /// Sets the rail coordinates of wheels that cross at constant `speed` from their coordinates `start`, at time
-    /// `t`. No other data are updated, except the travel of body `root`.
-    pub fn move_uniformly(
-        &mut self,
-        system: &System,
-        start: &[f64],
-        speed: f64,
-        t: f64,
-        root: Option<usize>,
-    ) {
+    /// `t`. No other data are updated, except the travel of a body whose index and start are `root`.
+    pub fn move_uniformly(&mut self, start: &[f64], speed: f64, t: f64, root: Option<(usize, f64)>) {
+        let way = speed * t;
         for (x, place) in self.places.x.iter_mut().zip(start) {
-            *x = place + speed * t;
+            *x = place + way;
         }
-        if let Some(root) = root {
+        if let Some((root, from)) = root {
             let travel = &mut self.places.travel[root];
-            travel.x = system.scene.bodies[root].motion.as_ref().map_or(0.0, |motion| motion.at(t).x);
-            travel.v = speed;
+            (travel.x, travel.v) = (from + way, speed);
         }
     }
 
-    /// Sets slopes of the deflected rails that were computed elsewhere.
+    /// Sets slopes of the deflected rails that were computed elsewhere; `slope` may be longer than there are elements.
     pub fn set_rail_slope(&mut self, slope: &[f64]) {
-        self.rail_slope.copy_from_slice(slope);
+        for (own, slope) in self.rail_slope.iter_mut().zip(slope) {
+            *own = *slope;
+        }
     }
 
     /// Sets a compliance that was computed elsewhere, row by row.

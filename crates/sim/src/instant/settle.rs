@@ -19,13 +19,15 @@ use crate::numerics::complementarity::complementarity;
 /// Any error from evaluating the rails.
 pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
     let count = solver.system().verticals();
-    if !solver.system().springs().is_empty() {
-        solver.update(at)?;
-        solver.settle_springs(at);
-    }
-    guess_active(solver, at)?;
-    for _ in 0..4 * count + 8 {
-        if !solver.instant(at)? {
+    solver.update(at)?;
+    solver.settle_springs(at);
+    guess_active(solver, at);
+    for sweep in 0..4 * count + 8 {
+        if sweep > 0 {
+            // the forces, and with them the slopes of the rails, are others
+            solver.update(at)?;
+        }
+        if !solver.instant_here(at, 0.0)? {
             return Ok(false);
         }
         let weakest = (0..count)
@@ -126,16 +128,16 @@ fn closing_rate(solver: &Solver, i: usize, at: &State) -> f64 {
 
 /// Estimates the active contacts from the complementarity problem (G + 1/k) F - e >= 0, F >= 0, if every law is
 /// linear and undamped. The sweeps of [`settle`] start from its solution.
-fn guess_active(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+/// The geometry must belong to `at`.
+fn guess_active(solver: &mut Solver, at: &State) {
     let system = solver.system();
     let (m, count) = (system.elements.len(), system.verticals());
     if !system.traits.has_linear_laws
         || !system.traits.is_symmetric
         || (0..count).any(|i| system.law(i).damping > 0.0 || system.law(i).bilateral)
     {
-        return Ok(());
+        return;
     }
-    solver.update(at)?;
     let share = |i: usize| solver.geometry().fraction(i);
     let felt: Vec<usize> = (0..count).filter(|&i| share(i) > 0.0).collect();
     let mut matrix: Vec<f64> = felt
@@ -156,5 +158,4 @@ fn guess_active(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
             solver.set_active(i, f > 0.0);
         }
     }
-    Ok(())
 }

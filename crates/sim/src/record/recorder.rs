@@ -7,6 +7,7 @@ use splines::{Influence, Probe};
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
+use crate::mechanics::wheels::WheelPoint;
 use crate::numerics::dense::dot;
 use crate::record::energy::{motion_force, spin_moment};
 use crate::record::history::History;
@@ -35,12 +36,26 @@ pub(crate) struct Recorder {
     lengths: Vec<(usize, usize)>,
     /// Number of columns for channels of the elements' own.
     own_columns: usize,
-    /// Height of the hub of each wheel by the displacements of its body.
-    arms: Vec<[f64; 6]>,
+    /// A row with what never changes: displacements that are fixed, and zeros.
+    blank: Vec<f64>,
+    /// Columns of displacements of bodies that are degrees of freedom, with the numbers of these.
+    free: Vec<(usize, usize)>,
+    wheels: Vec<WheelColumns>,
     /// Working memory for the gauges.
     gauges: Vec<f64>,
     probes: Vec<Probe>,
     shape: Vec<f64>,
+}
+
+/// What the columns of a wheel need, looked up once.
+struct WheelColumns {
+    body: usize,
+    /// The groups that the wheel belongs to.
+    groups: Range<usize>,
+    /// Height of its hub by the displacements of its body.
+    arms: [f64; 6],
+    /// Whether it has a spin, free or prescribed.
+    turns: bool,
 }
 
 /// A column to which the force of an element, divided by `divisor`, is added.
@@ -63,14 +78,34 @@ impl Recorder {
             lengths.extend(length.and_then(|channel| column(&channel)).map(|column| (i, column)));
         }
         let own_columns = system.elements.iter().map(|element| element.own_channels().len()).sum();
-        let arms = system.mechanics.wheels.iter().map(|wheel| arm_rows(wheel.hub)[1]).collect();
+        let of_wheel = |(w, wheel): (usize, &WheelPoint)| WheelColumns {
+            body: wheel.body,
+            groups: system.mechanics.groups_of(w),
+            arms: arm_rows(wheel.hub)[1],
+            turns: wheel.spin.is_some() || wheel.turn.is_some(),
+        };
+        let wheels = system.mechanics.wheels.iter().enumerate().map(of_wheel).collect();
         let shape = vec![0.0; 2 * system.mechanics.dofs];
+        let (mut blank, mut free) = (vec![0.0; channels.len()], Vec::new());
+        let bodies = system.scene.bodies.iter().enumerate();
+        for (b, body) in bodies {
+            let first = 1 + OF_BODY * b;
+            blank[first..first + 6].copy_from_slice(&body.start);
+            // The sum of no forces is -0.0, the sum of an empty iterator.
+            blank[first + 12..first + OF_BODY].fill(-0.0);
+            if body.pinned.is_none() {
+                let numbers = system.mechanics.kinematics.numbers[b].iter().enumerate();
+                free.extend(numbers.filter_map(|(i, number)| Some((first + i, (*number)?))));
+            }
+        }
         Recorder {
+            blank,
+            free,
             history: History::new(channels),
             forces,
             lengths,
             own_columns,
-            arms,
+            wheels,
             gauges: Vec::new(),
             probes: Vec::new(),
             shape,
@@ -117,30 +152,37 @@ impl Recorder {
         values: &mut Vec<f64>,
     ) -> Result<(), Error> {
         let (first, mechanics) = (values.len(), &system.mechanics);
-        let (bodies, wheels) = (OF_BODY * system.scene.bodies.len(), OF_WHEEL * mechanics.wheels.len());
+        let (bodies, wheels) = (OF_BODY * system.scene.bodies.len(), OF_WHEEL * self.wheels.len());
         let mut moved = std::mem::take(&mut self.gauges);
         moved.clear();
         for gauge in &system.scene.gauges {
             moved.push(self.displacement(system, geometry, at, gauge)?);
         }
         let frame = geometry.frame(system, at);
-        values.resize(first + self.history.channels().len(), 0.0);
+        values.extend_from_slice(&self.blank);
         let row = &mut values[first..];
         row[0] = at.t;
-        let (of_bodies, others) = row[1..].split_at_mut(bodies);
-        for ((b, body), own) in
-            system.scene.bodies.iter().enumerate().zip(of_bodies.chunks_exact_mut(OF_BODY))
-        {
-            let (displacement, speed) = mechanics.body(b, at.t, &at.q, &at.v);
-            own[..6].copy_from_slice(&displacement);
-            own[6..12].copy_from_slice(&speed);
-            // The sum of no forces is -0.0, the sum of an empty iterator.
-            own[12] = body.motion.as_ref().map_or(-0.0, |_| motion_force(system, &frame, b));
-            own[13] = -0.0;
+        let (q, v) = (at.q.as_slice(), at.v.as_slice());
+        for &(column, number) in &self.free {
+            row[column] = q[number];
+            row[column + 6] = v[number];
         }
-        for (w, own) in others[..wheels].chunks_exact_mut(OF_WHEEL).enumerate() {
-            let displacement = &of_bodies[OF_BODY * mechanics.wheels[w].body..][..6];
-            own.copy_from_slice(&wheel_values(system, geometry, at, w, (displacement, &self.arms[w])));
+        let (of_bodies, others) = row[1..].split_at_mut(bodies);
+        let each = system.scene.bodies.iter().enumerate().zip(of_bodies.as_chunks_mut::<OF_BODY>().0);
+        for ((b, body), own) in each {
+            if body.pinned.is_some() {
+                let (displacement, speed) = mechanics.kinematics.motion(b, at.t, &at.q, &at.v);
+                own[..6].copy_from_slice(&displacement);
+                own[6..12].copy_from_slice(&speed);
+            } else if let Some(motion) = &body.motion {
+                let travel = motion.at(at.t);
+                (own[0], own[6]) = (travel.x, travel.v);
+                own[12] = motion_force(system, &frame, b);
+            }
+        }
+        let all = self.wheels.iter().enumerate().zip(others.as_chunks_mut::<OF_WHEEL>().0);
+        for ((w, wheel), own) in all {
+            write_wheel(system, geometry, at, (w, wheel), of_bodies, own);
         }
         for &ForceColumn { element, column, divisor } in &self.forces {
             row[column] += 0.0 + at.force[element] / divisor;
@@ -150,7 +192,7 @@ impl Recorder {
         }
         let (gauges, structures) =
             row[1 + bodies + wheels + self.own_columns..].split_at_mut(system.scene.gauges.len());
-        gauges.copy_from_slice(&moved);
+        gauges.iter_mut().zip(&moved).for_each(|(column, moved)| *column = *moved);
         self.gauges = moved;
         let (moves, mut next) = (system.scene.analysis == Analysis::Dynamic, 0);
         for (_, range) in recorded(system) {
@@ -231,27 +273,33 @@ fn channels_of(system: &System) -> Vec<Channel> {
     channels
 }
 
-/// The values of wheel `w`, whose body has a displacement by which its hub rises with the given arms. The forces are zero
-/// here and are added by the elements.
-fn wheel_values(
+/// Writes the columns of wheel `w`, whose body has its displacements in the columns `of_bodies`. The forces are left: they are
+/// added by the elements.
+fn write_wheel(
     system: &System,
     geometry: &Geometry,
     at: &State,
-    w: usize,
-    (displacement, arms): (&[f64], &[f64; 6]),
-) -> [f64; OF_WHEEL] {
+    (w, wheel): (usize, &WheelColumns),
+    of_bodies: &[f64],
+    own: &mut [f64; OF_WHEEL],
+) {
     let (mechanics, places) = (&system.mechanics, geometry.places());
-    let wheel = &mechanics.wheels[w];
-    let pressed = mechanics.groups_of(w).filter(|&i| geometry.fraction(i) > 0.0);
+    let pressed = wheel.groups.clone().filter(|&i| geometry.fraction(i) > 0.0);
     let deepest = pressed.map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
     let shape = if system.traits.is_uneven { mechanics.irregularity(w) } else { None };
-    let own = shape.map_or(0.0, |shape| shape.vertical(places.piece[w], places.x[w])[0]);
-    let down = own - dot(arms, displacement);
-    let (angle, speed) = match (wheel.spin, mechanics.turn(w, at.t)) {
-        (Some(number), _) => (at.q[number], at.v[number]),
-        (None, Some(turn)) => (turn.x, turn.v),
-        (None, None) => (0.0, 0.0),
+    let irregular = shape.map_or(0.0, |shape| shape.vertical(places.piece[w], places.x[w])[0]);
+    let down = irregular - dot(&wheel.arms, &of_bodies[OF_BODY * wheel.body..][..6]);
+    own[0] = places.x[w];
+    own[4] = deepest;
+    own[5] = down - deepest;
+    if !wheel.turns {
+        return;
+    }
+    [own[6], own[7]] = match (mechanics.wheels[w].spin, mechanics.turn(w, at.t)) {
+        (Some(number), _) => [at.q[number], at.v[number]],
+        (None, turn) => turn.map_or([0.0; 2], |turn| [turn.x, turn.v]),
     };
-    let moment = if wheel.turn.is_some() { spin_moment(system, geometry, at, w) } else { 0.0 };
-    [places.x[w], 0.0, 0.0, 0.0, deepest, down - deepest, angle, speed, moment]
+    if mechanics.wheels[w].turn.is_some() {
+        own[8] = spin_moment(system, geometry, at, w);
+    }
 }

@@ -94,9 +94,11 @@ impl Scene {
     /// Time of sample `k`. It is exactly the end time where the product differs from it by rounding only.
     pub(crate) fn output_time(&self, k: u64) -> f64 {
         let parts = self.output_parts.max(1) as u64;
-        let mut t = (k / parts) as f64 * self.output_dt;
-        if !k.is_multiple_of(parts) {
-            t += (k % parts) as f64 / parts as f64 * self.output_dt;
+        // an integer division takes as long as ten products
+        let (whole, part) = if parts == 1 { (k, 0) } else { (k / parts, k % parts) };
+        let mut t = whole as f64 * self.output_dt;
+        if part != 0 {
+            t += part as f64 / parts as f64 * self.output_dt;
         }
         if (t - self.end).abs() <= 1e-12 * self.end { self.end } else { t }
     }

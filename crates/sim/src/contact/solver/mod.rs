@@ -307,11 +307,19 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Errors of the rail models.
     pub fn instant_within(&mut self, at: &mut State, slack: f64) -> Result<bool, Error> {
+        self.update(at)?;
+        self.instant_here(at, slack)
+    }
+
+    /// As [`Solver::instant_within`], where the geometry already belongs to `at`.
+    ///
+    /// # Errors
+    /// Errors of the rail models.
+    pub fn instant_here(&mut self, at: &mut State, slack: f64) -> Result<bool, Error> {
         let system = self.system;
         self.problem.seek_all();
         self.factored_for = None;
         self.problem.slack = slack;
-        self.update(at)?;
         for pass in 0..PASSES {
             self.fill_instant(at);
             self.problem.is_repeated = pass > 0;

@@ -10,7 +10,7 @@ use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
 use super::path::Path;
-use super::series::{Contacts, Matrix, Series, TERMS, Values, subtract};
+use super::series::{Contacts, Impulse, Matrix, ORDER, Series, TERMS, Values, subtract};
 use crate::contact::geometry::Geometry;
 use crate::contact::system::System;
 use crate::mechanics::mobility::Mobility;
@@ -47,6 +47,9 @@ const STIFF: f64 = 20.0;
 
 /// Number of steps, estimated from the current step length, above which a series is not used.
 const MANY: f64 = 1e4;
+
+/// Number of samples that are evaluated together.
+const TOGETHER: usize = 3;
 
 /// Abscissae and weights of Lobatto quadrature on [0, 1], exact to degree 13; the weight at 0 and at 1 is [`ENDS`].
 const LOBATTO: [[f64; 2]; 6] = [
@@ -106,7 +109,7 @@ pub(crate) struct Crossed {
 /// As [`crate::run()`].
 pub(crate) fn run(
     system: &System,
-    start: &State,
+    start: State,
     placed: bool,
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Crossed>, Error> {
@@ -129,6 +132,8 @@ struct Crossing<'a, const P: usize> {
     q: [f64; P],
     v: [f64; P],
     series: Series<P>,
+    /// G over the scaled time of the step.
+    compliance: [Matrix<P>; TERMS],
     /// Length of the last step.
     length: f64,
     audit: Audit,
@@ -140,8 +145,8 @@ struct Crossing<'a, const P: usize> {
 
 /// The uniform travel of a crossing.
 struct UniformTravel {
-    /// The body with prescribed travel, and its speed.
-    root: Option<usize>,
+    /// The body with prescribed travel and its position at time 0, and its speed.
+    root: Option<(usize, f64)>,
     speed: f64,
     /// Positions of the wheels along the rail at time 0.
     places: Vec<f64>,
@@ -162,15 +167,16 @@ struct Matrices<const P: usize> {
 }
 
 impl<'a, const P: usize> Crossing<'a, P> {
-    fn new(system: &'a System<'a>, start: &State) -> Result<Self, Error> {
+    fn new(system: &'a System<'a>, start: State) -> Result<Self, Error> {
         let (n, m) = (system.mechanics.dofs, system.elements.len());
+        let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
+        let (q, v) = (pad(start.q.as_slice()), pad(start.v.as_slice()));
         let mut geometry = Geometry::new(system);
         geometry.update(system, 0.0, &start.q, &start.force)?;
         let zero = [[0.0; P]; P];
         let (mut rows, mut spread, mut mobile, mut mass) = (zero, zero, zero, zero);
         let mobility = Mobility::new(&system.mechanics)?;
         let mut free_fall = [0.0; P];
-        let pad = |values: &[f64]| std::array::from_fn(|i| values.get(i).copied().unwrap_or(0.0));
         mobility.apply(system.mechanics.gravity.as_slice(), &mut free_fall[..n]);
         for (j, row) in geometry.rows().approach.chunks_exact(n).enumerate() {
             mobility.apply(row, &mut spread[j][..n]);
@@ -200,7 +206,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
             softness[i] = 1.0 / (law.stiffness * system.mechanics.groups[i].count());
         }
         let root = system.scene.bodies.iter().position(|body| body.motion.is_some());
-        let speed = root.map_or(0.0, |root| geometry.places().travel[root].v);
+        let begun = root.map(|root| geometry.places().travel[root]).unwrap_or_default();
         let mut travel_inertia = [0.0; P];
         for &(number, inertia) in
             root.iter().flat_map(|&root| system.mechanics.kinematics.travel_inertia(root))
@@ -209,7 +215,11 @@ impl<'a, const P: usize> Crossing<'a, P> {
         }
         let constant = pad(&geometry.rows().approach_offset);
         Ok(Crossing {
-            travel: UniformTravel { root, speed, places: geometry.places().x.clone() },
+            travel: UniformTravel {
+                root: root.map(|root| (root, begun.x)),
+                speed: begun.v,
+                places: geometry.places().x.clone(),
+            },
             matrices: Matrices {
                 rows,
                 constant,
@@ -219,11 +229,12 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 weight: pad(system.mechanics.gravity.as_slice()),
                 travel_inertia,
             },
-            q: pad(start.q.as_slice()),
-            v: pad(start.v.as_slice()),
-            series: Series::new(order(system.scene.accuracy)),
+            q,
+            v,
+            series: Series::new(),
+            compliance: [zero; TERMS],
             contacts: Contacts { mobile, free, ratio, damping, softness },
-            state: start.clone(),
+            state: start,
             audit: Audit::default(),
             energy_at_start: 0.0,
             length: 0.0,
@@ -255,6 +266,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         let allowed = LAST * scene.accuracy.min(COARSEST)
             / (self.bounces(quickest).min(MOST_BOUNCES) / BOUNCES).max(1.0);
         let (mut t, mut scale, mut next) = (0.0, quickest.sqrt(), 0_u64);
+        let mut due = scene.output_time(next);
         for end in self.breaks() {
             let path =
                 Path::new(system, &mut self.geometry, &self.state, [t, end], self.travel.speed, softness)?;
@@ -263,18 +275,19 @@ impl<'a, const P: usize> Crossing<'a, P> {
                 return Ok(None);
             }
             while t < end {
-                let compliance = path.about(t, scale);
+                self.compliance = path.about(t, scale);
                 let approach = self.approach(&self.q, true);
                 let rate = self.approach(&self.v, false);
                 self.largest_approach =
                     approach.iter().fold(self.largest_approach, |max, w| max.max(w.abs()));
-                if self.series.expand(&self.contacts, &compliance, scale, [&approach, &rate]).is_none() {
+                let starts = [&approach, &rate];
+                if self.series.expand(&self.contacts, &self.compliance, scale, starts).is_none() {
                     return Ok(None);
                 }
                 let force = self.series.first().force;
                 self.largest_force = force.iter().fold(self.largest_force, |max, force| max.max(force.abs()));
                 // An error of an approach by this much changes a force by the fraction of the largest one.
-                let yielding = self.yielding(&compliance[0]).min(self.largest_approach);
+                let yielding = self.yielding(&self.compliance[0]).min(self.largest_approach);
                 let wanted =
                     scale * self.series.reach(allowed * yielding, FORCES * allowed * self.largest_force);
                 let count = ((end - t) / wanted).ceil().max(1.0);
@@ -283,30 +296,37 @@ impl<'a, const P: usize> Crossing<'a, P> {
                     return Ok(None);
                 }
                 let h = (end - t) / count;
-                if t == 0.0 && !self.begin(&compliance[0]) {
+                if t == 0.0 && !self.begin() {
                     return Ok(None);
                 }
                 let to = if count == 1.0 { end } else { t + h };
-                while scene.output_time(next) <= to {
-                    let at = scene.output_time(next);
-                    self.sample(at, (at - t) / scale, &compliance);
-                    recorder.record(system, &self.geometry, &self.state)?;
-                    next += 1;
+                while due <= to {
+                    let (mut times, mut count) = ([due; TOGETHER], 0);
+                    while due <= to && count < TOGETHER {
+                        times[count..].fill(due);
+                        (count, next) = (count + 1, next + 1);
+                        due = scene.output_time(next);
+                    }
+                    if let ([time, ..], 1) = (times, count) {
+                        self.record(&mut recorder, t, &[time])?;
+                    } else {
+                        self.record(&mut recorder, t, &times)?;
+                    }
                 }
                 if !self.step(h) {
                     return Ok(None);
                 }
                 counts.steps += 1;
-                counts.stages += self.series.order;
+                counts.stages += ORDER;
                 (t, scale) = (to, h);
                 if watch(t).is_break() {
                     let bounces = self.bounces(quickest);
-                    return self.finish(true, t, recorder, (counts, bounces)).map(Some);
+                    return Ok(Some(self.finish(true, t, recorder, (counts, bounces))));
                 }
             }
         }
         let bounces = self.bounces(quickest);
-        self.finish(false, t, recorder, (counts, bounces)).map(Some)
+        Ok(Some(self.finish(false, t, recorder, (counts, bounces))))
     }
 
     /// Number of bounces in the run over which errors add up, with `quickest` the reciprocal square of the
@@ -325,14 +345,16 @@ impl<'a, const P: usize> Crossing<'a, P> {
         t: f64,
         recorder: Recorder,
         (counts, bounces): (Counts, f64),
-    ) -> Result<Crossed, Error> {
-        let [at] = self.series.at([self.length / self.series.scale]);
+    ) -> Crossed {
+        let s = self.length / self.series.scale;
+        let [at] = self.series.at(&[s]);
         let (q, v) = (self.q, self.v);
-        self.fill(t, &q, &v, &at);
-        self.geometry.update(self.system, t.next_down(), &self.state.q, &self.state.force)?;
+        self.fill(t, &q, &v, &at.force);
+        let [compliance, _] = self.compliance_at(s);
+        self.geometry.set_compliance(compliance.iter());
         self.audit.end = stored(self.system, &self.geometry, &self.state);
         let (history, audit) = (recorder.into_history(), self.audit);
-        Ok(Crossed { is_stopped, history, audit, counts, bounces })
+        Crossed { is_stopped, history, audit, counts, bounces }
     }
 
     /// Approach of the stiffest contact under the largest force on each contact: the smallest row sum of G + 1/k, times
@@ -404,47 +426,51 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Starts the audit at the start of the first step; returns false if a contact is not pressed there.
-    fn begin(&mut self, compliance: &Matrix<P>) -> bool {
+    fn begin(&mut self) -> bool {
         let look = self.series.first();
-        let (p, _) = self.penetration(&look);
+        let p = self.penetration(&look.force, &look.rate);
         let presses = |i: usize| (look.force[i] >= 0.0 && p[i] > 0.0) || self.system.law(i).bilateral;
         if !(0..self.system.elements.len()).all(presses) {
             return false;
         }
         let (q, v) = (self.q, self.v);
-        self.fill(0.0, &q, &v, &look);
-        self.fill_compliance(compliance);
+        self.fill(0.0, &q, &v, &look.force);
+        self.geometry.set_compliance(self.compliance[0].iter());
         self.audit.start = stored(self.system, &self.geometry, &self.state);
         self.energy_at_start = self.energy(&q, &v, &look)[0];
         true
     }
 
-    /// Penetration p = F/k - r w' and its rate.
-    fn penetration(&self, at: &Values<P>) -> ([f64; P], [f64; P]) {
-        let Contacts { mobile, free, ratio, softness, .. } = &self.contacts;
-        let mut lift = *free;
-        subtract(mobile, &at.force, &mut lift);
-        (
-            std::array::from_fn(|i| at.force[i] * softness[i] - ratio[i] * at.rate[i]),
-            std::array::from_fn(|i| at.force_rate[i] * softness[i] - ratio[i] * lift[i]),
-        )
+    /// Penetration p = F/k - r w' under the forces `force` at the rates of the approaches `rate`.
+    fn penetration(&self, force: &[f64; P], rate: &[f64; P]) -> [f64; P] {
+        let Contacts { ratio, softness, .. } = &self.contacts;
+        std::array::from_fn(|i| force[i] * softness[i] - ratio[i] * rate[i])
+    }
+
+    /// Rate of the penetration.
+    fn penetration_rate(&self, at: &Values<P>) -> [f64; P] {
+        let mut lift = self.contacts.free;
+        subtract(&self.contacts.mobile, &at.force, &mut lift);
+        self.penetration(&at.force_rate, &lift)
     }
 
     /// Displacements and speeds of the degrees of freedom at the scaled time `s` of the step.
-    fn moved(&self, s: f64) -> [[f64; P]; 2] {
+    fn moved(&self, s: f64, impulse: &Impulse<P>) -> [[f64; P]; 2] {
         let time = s * self.series.scale;
-        let [once, twice] = self.series.impulse(s);
-        let mut q =
-            std::array::from_fn(|k| self.q[k] + time * (self.v[k] + 0.5 * time * self.matrices.free_fall[k]));
-        let mut v = std::array::from_fn(|k| self.v[k] + time * self.matrices.free_fall[k]);
-        subtract(&self.matrices.spread, &twice, &mut q);
-        subtract(&self.matrices.spread, &once, &mut v);
+        let [mut q, mut v] = [[0.0; P]; 2];
+        for k in 0..P {
+            let fall = time * self.matrices.free_fall[k];
+            q[k] = self.q[k] + time * (self.v[k] + 0.5 * fall);
+            v[k] = self.v[k] + fall;
+        }
+        subtract(&self.matrices.spread, &impulse.twice, &mut q);
+        subtract(&self.matrices.spread, &impulse.once, &mut v);
         [q, v]
     }
 
     /// Stored energy without its constant part, and the elastic part of it.
     fn energy(&self, q: &[f64; P], v: &[f64; P], at: &Values<P>) -> [f64; 2] {
-        let (p, _) = self.penetration(at);
+        let p = self.penetration(&at.force, &at.rate);
         let (mut elastic, mut rest) = (0.0, 0.0);
         for (i, p) in p.iter().enumerate() {
             elastic += 0.5 * (p * p / self.contacts.softness[i] + at.force[i] * (at.approach[i] - p));
@@ -467,28 +493,35 @@ impl<'a, const P: usize> Crossing<'a, P> {
             dampers += h * weight * power[0];
             drives += h * weight * power[1];
         };
-        let [a, b, c, d, e, f] = LOBATTO.map(|[place, _]| place * end);
-        let looks = self.series.at([a, b, c, d, e, f, end]);
+        // Three places at a time: their sums fit into the registers.
+        let (first, second) = LOBATTO.split_at(3);
+        let of = |places: &[[f64; 2]]| self.series.at::<3>(&std::array::from_fn(|k| places[k][0] * end));
+        let (before, after, [at]) = (of(first), of(second), self.series.at(&[end]));
         book(&self.series.first(), ENDS);
-        for (at, weight) in looks.iter().zip(LOBATTO.map(|[_, weight]| weight).into_iter().chain([ENDS])) {
-            book(at, weight);
+        for (at, [_, weight]) in before.iter().chain(&after).zip(&LOBATTO) {
+            book(at, *weight);
         }
+        book(&at, ENDS);
         self.audit.exchanged.dampers += dampers;
         self.audit.exchanged.drives += drives;
-        let [.., at] = &looks;
-        [self.q, self.v] = self.moved(end);
-        let [total, elastic] = self.energy(&self.q, &self.v, at);
+        let [impulse] = self.series.impulses(&[end]);
+        [self.q, self.v] = self.moved(end, &impulse);
+        let [total, elastic] = self.energy(&self.q, &self.v, &at);
         self.audit.peak_stored = self.audit.peak_stored.max(elastic);
         let imbalance = (total + self.audit.exchanged.net_loss() - self.energy_at_start).abs();
         self.audit.imbalance = self.audit.imbalance.max(imbalance);
-        let pulls = |i: usize| looks.iter().any(|at| at.force[i] < 0.0) && !self.system.law(i).bilateral;
+        let mut least = at.force;
+        for at in before.iter().chain(&after) {
+            least.iter_mut().zip(&at.force).for_each(|(least, force)| *least = least.min(*force));
+        }
+        let pulls = |i: usize| least[i] < 0.0 && !self.system.law(i).bilateral;
         total.is_finite() && !(0..self.system.elements.len()).any(pulls)
     }
 
     /// Power dissipated in the dampers, c w' p', and power supplied by the travel, -1/2 F dG/dt F, where u = w - p is
     /// the deflection and F dG/dt F = F u' - u F'.
     fn power(&self, at: &Values<P>) -> [f64; 2] {
-        let (p, p_rate) = self.penetration(at);
+        let (p, p_rate) = (self.penetration(&at.force, &at.rate), self.penetration_rate(at));
         let (mut dampers, mut drives) = (0.0, 0.0);
         for (i, (p, p_rate)) in p.iter().zip(&p_rate).enumerate() {
             let (give, give_rate) = (at.approach[i] - p, at.rate[i] - p_rate);
@@ -498,11 +531,35 @@ impl<'a, const P: usize> Crossing<'a, P> {
         [dampers, drives]
     }
 
-    /// Sets state and geometry to time `t`, at the scaled time `s` of the step.
-    fn sample(&mut self, t: f64, s: f64, compliance: &[Matrix<P>; TERMS]) {
-        let [look] = self.series.at([s]);
-        let [q, v] = self.moved(s);
-        self.fill(t, &q, &v, &look);
+    /// Records the state at `times` in the step that began at `start`. Of times that are equal the first alone is recorded.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails at the gauges.
+    fn record<const N: usize>(
+        &mut self,
+        recorder: &mut Recorder,
+        start: f64,
+        times: &[f64; N],
+    ) -> Result<(), Error> {
+        let per_time = 1.0 / self.series.scale;
+        let mut places = *times;
+        places.iter_mut().for_each(|place| *place = (*place - start) * per_time);
+        let mut last = f64::NAN;
+        for ((time, s), at) in times.iter().zip(places).zip(self.series.impulses(&places)) {
+            if *time == last {
+                break;
+            }
+            last = *time;
+            let [q, v] = self.moved(s, &at);
+            self.fill(*time, &q, &v, &at.force);
+            self.tilt(s, &at.force);
+            recorder.record(self.system, &self.geometry, &self.state)?;
+        }
+        Ok(())
+    }
+
+    /// Sets the slopes of the rails at the scaled time `s` under the forces `force`.
+    fn tilt(&mut self, s: f64, force: &[f64; P]) {
         if self.travel.root.is_none() {
             return;
         }
@@ -512,46 +569,49 @@ impl<'a, const P: usize> Crossing<'a, P> {
             return;
         }
         // Half of dG/dx times the forces; its product with the forces is the longitudinal force of all wheels.
+        let [_, rate] = self.compliance_at(s);
+        let half = -0.5 / (self.series.scale * self.travel.speed);
         let mut slope = [0.0; P];
-        let mut power = -0.5 / (self.series.scale * self.travel.speed);
-        for (k, matrix) in compliance.iter().enumerate().skip(1) {
-            let scaled = look.force.map(|force| force * power * k as f64);
-            subtract(matrix, &scaled, &mut slope);
-            power *= s;
+        subtract(&rate, &force.map(|force| half * force), &mut slope);
+        self.geometry.set_rail_slope(&slope);
+    }
+
+    /// G at the scaled time `s` of the step, and its derivative by the scaled time.
+    fn compliance_at(&self, s: f64) -> [Matrix<P>; 2] {
+        let (mut value, mut rate) = (self.compliance[TERMS - 1], [[0.0; P]; P]);
+        for matrix in self.compliance[..TERMS - 1].iter().rev() {
+            for ((value, rate), entries) in value.iter_mut().zip(&mut rate).zip(matrix) {
+                for i in 0..P {
+                    rate[i] = rate[i] * s + value[i];
+                    value[i] = value[i] * s + entries[i];
+                }
+            }
         }
-        let count = self.system.elements.len();
-        self.geometry.set_rail_slope(&slope[..count]);
+        [value, rate]
     }
 
-    fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], look: &Values<P>) {
-        let (p, p_rate) = self.penetration(look);
-        let (n, m) = (self.system.mechanics.dofs, self.system.elements.len());
+    /// Sets the state to the degrees of freedom `q`, their rates `v` and the forces `force` at time `t`, and the places of the
+    /// wheels with it.
+    fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], force: &[f64; P]) {
+        let p = self.penetration(force, &self.approach(v, false));
         let mut a = self.matrices.free_fall;
-        subtract(&self.matrices.spread, &look.force, &mut a);
+        subtract(&self.matrices.spread, force, &mut a);
         self.state.t = t;
-        self.state.q.as_mut_slice().copy_from_slice(&q[..n]);
-        self.state.v.as_mut_slice().copy_from_slice(&v[..n]);
-        self.state.a.as_mut_slice().copy_from_slice(&a[..n]);
-        self.state.p.copy_from_slice(&p[..m]);
-        self.state.p_rate.copy_from_slice(&p_rate[..m]);
-        self.state.force.copy_from_slice(&look.force[..m]);
-        self.geometry.move_uniformly(
-            self.system,
-            &self.travel.places,
-            self.travel.speed,
-            t,
-            self.travel.root,
-        );
-    }
-
-    fn fill_compliance(&mut self, compliance: &Matrix<P>) {
-        self.geometry.set_compliance(compliance.iter());
+        put(q, self.state.q.as_mut_slice());
+        put(v, self.state.v.as_mut_slice());
+        put(&a, self.state.a.as_mut_slice());
+        put(&p, &mut self.state.p);
+        put(force, &mut self.state.force);
+        let UniformTravel { root, speed, places } = &self.travel;
+        self.geometry.move_uniformly(places, *speed, t, *root);
     }
 }
 
-/// Number of coefficients of the forces for an accuracy: a multiple of 4 plus 2. Taylor methods of other orders need
-/// shorter steps along the imaginary axis, where the eigenvalues of oscillations lie.
-fn order(accuracy: f64) -> usize {
-    let more = ((-accuracy.log10() - 2.5) / 2.5).clamp(0.0, 3.0) as usize;
-    10 + 4 * more
+/// Copies the leading values, two at a time: a call that copies two numbers takes longer.
+fn put<const P: usize>(values: &[f64; P], to: &mut [f64]) {
+    let (pairs, last) = to.as_chunks_mut::<2>();
+    if let ([last], Some(value)) = (last, values.get(2 * pairs.len())) {
+        *last = *value;
+    }
+    pairs.iter_mut().zip(values.as_chunks::<2>().0).for_each(|(to, from)| *to = *from);
 }
