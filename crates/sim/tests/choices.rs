@@ -23,6 +23,9 @@ struct Beam {
     asked: Vec<usize>,
     /// Fidelity and accuracy of each run.
     runs: Vec<(Fidelity, f64)>,
+    /// Samples in an output interval of each run, and its stages; how many are added to them.
+    sampled: Vec<(usize, usize)>,
+    more_stages: usize,
     /// Duration of a run, and the fidelities of those that ended before.
     end: f64,
     starts: Vec<Fidelity>,
@@ -72,12 +75,15 @@ impl FoundationProvider for Beam {
         watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
     ) -> Result<Run, Error> {
         self.accuracy = scene.accuracy;
+        let mut run = sim::run(scene, foundations, watch)?;
+        run.counts.stages += self.more_stages;
         if scene.end < self.end {
             self.starts.extend(self.fidelity);
         } else {
             self.runs.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
+            self.sampled.push((scene.output_parts, run.counts.stages));
         }
-        sim::run(scene, foundations, watch)
+        Ok(run)
     }
 
     fn observe(&mut self, history: &History) -> Result<Record, Error> {
@@ -134,6 +140,20 @@ fn runs_that_only_check_are_coarse_and_the_run_of_the_result_is_not() {
             "{:?}",
             provider.runs
         );
+    }
+}
+
+/// A first run of short steps, three stages for each sample: the next run has as many samples as it had steps.
+#[test]
+fn further_runs_are_sampled_as_densely_as_the_first_was_stepped() {
+    let rows = 201;
+    for more_stages in [0, 1500, 30_000] {
+        let mut provider = Beam { more_stages, ..Beam::default() };
+        chosen(0.25, EXTREMES, &mut provider);
+        let [(parts, stages), (next, _)] = provider.sampled[..2] else { panic!("{:?}", provider.sampled) };
+        let wanted = (stages / 3 / rows).min(8 * parts);
+        assert_eq!(next, parts.max(wanted), "{more_stages}: {:?}", provider.sampled);
+        assert_eq!(next > parts, more_stages > 0, "{more_stages}: {:?}", provider.sampled);
     }
 }
 

@@ -2,7 +2,8 @@
 //!
 //! 1. The scene is run with influence functions. This costs least of all flexible foundations.
 //! 2. The wheel forces of this run act on the natural modes ([`tail_errors`]). This costs little and estimates the
-//!    error of leaving out all modes but the lowest m, for each m, m = 0 being the run itself. If the estimate for
+//!    error of leaving out all modes but the lowest m, for each m, m = 0 being the run itself. The runs of the next steps are
+//!    sampled as densely as this one was stepped. If the estimate for
 //!    m = 0 is a tenth of the tolerance or less, the choice ends here. Wheels that remember n of their bounces may amplify
 //!    what the rails lack by n: from n = 8 on it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
 //! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a tenth of the tolerance. The
