@@ -364,12 +364,11 @@ mod tests {
     /// Analytic: a cosine, a corner and a peak beside an end, each to what is enough, in fewer evaluations.
     #[test]
     fn a_search_ends_where_more_would_gain_no_more_than_is_enough() {
-        let cases: [(fn(f64) -> f64, f64); 3] = [
-            (|x| (3.0 * (x - 0.4)).cos(), 1.0),
-            (|x| 1.0 - (x - 0.6183).abs(), 1.0),
-            (|x| 1.0 - (x - 0.02).powi(2) + (x - 0.02).powi(3), 1.0),
-        ];
-        for (k, (function, exact)) in cases.into_iter().enumerate() {
+        let cosine = |x: f64| (3.0 * (x - 0.4)).cos();
+        let corner = |x: f64| 1.0 - (x - 0.6183).abs();
+        let beside = |x: f64| 1.0 - (x - 0.02).powi(2) + (x - 0.02).powi(3);
+        let (cases, exact): ([&dyn Fn(f64) -> f64; 3], f64) = ([&cosine, &corner, &beside], 1.0);
+        for (k, function) in cases.into_iter().enumerate() {
             for enough in [1e-3, 1e-5] {
                 let mut count = 0;
                 let mut counted = |x: f64| {

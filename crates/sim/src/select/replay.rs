@@ -83,15 +83,10 @@ pub(super) struct Loaded<'a> {
 /// What one quantity lacks without the lowest modes, for each of the numbers of modes kept.
 struct Slot {
     quantity: usize,
-    lacking: Lacking,
-}
-
-/// What the measure of the errors needs of it.
-enum Lacking {
-    /// Largest absolute values at the times of the record.
-    Largest(Vec<f64>),
-    /// Values at the times of the record, number by number.
-    Series(Vec<f32>),
+    /// Largest absolute value at the times of the record; not a number where one of the values is none.
+    largest: Vec<f64>,
+    /// For the measure of extremes the values at these times, by time and number of modes.
+    series: Vec<f32>,
 }
 
 impl Slot {
@@ -99,17 +94,17 @@ impl Slot {
     /// modes kept.
     fn note(&mut self, counts: &[usize], row: usize, term: impl Fn(usize) -> f64, modes: usize) {
         let (mut sum, mut above) = (0.0_f64, modes);
+        let mut at_row = self.series.get_mut(row * counts.len()..(row + 1) * counts.len());
         for (k, count) in counts.iter().enumerate().rev() {
             while above > *count {
                 above -= 1;
                 sum += term(above);
             }
-            match &mut self.lacking {
-                Lacking::Largest(largest) => largest[k] = largest[k].max(sum.abs()),
-                Lacking::Series(series) => {
-                    let rows = series.len() / counts.len();
-                    series[k * rows + row] = sum as f32;
-                }
+            let largest = &mut self.largest[k];
+            let is_known = sum.abs() <= *largest || largest.is_nan();
+            *largest = if is_known { *largest } else { sum.abs() };
+            if let Some(own) = &mut at_row {
+                own[k] = sum as f32;
             }
         }
     }
@@ -178,12 +173,11 @@ impl<'a> Replay<'a> {
     fn new(loaded: &'a Loaded<'a>, basis: &'a ModalBasis, counts: Vec<usize>) -> Result<Self, Error> {
         let Loaded { scene, structure, foundations, history, record, .. } = *loaded;
         let n = basis.structure.dynamics.dofs();
-        let slot = |quantity: usize| {
-            let lacking = match loaded.measure {
-                Measure::History => Lacking::Largest(vec![0.0; counts.len()]),
-                Measure::Extremes => Lacking::Series(vec![0.0; record.time.len() * counts.len()]),
-            };
-            Slot { quantity, lacking }
+        let times = if loaded.measure == Measure::Extremes { record.time.len() } else { 0 };
+        let slot = |quantity: usize| Slot {
+            quantity,
+            largest: vec![0.0; counts.len()],
+            series: vec![0.0; times * counts.len()],
         };
         let of_channel = |channel: Channel| {
             let has = |quantity: &RecordedQuantity| quantity.channel == Some(channel);
@@ -462,20 +456,18 @@ impl<'a> Replay<'a> {
             found
         };
         // adds what a quantity lacks to its values
+        let numbers = self.counts.len();
         let complete = |slot: &Slot, (index, kept): (usize, usize), values: &mut [f64]| {
-            let (Lacking::Series(series), rows) = (&slot.lacking, record.time.len()) else { return };
-            let (lacking, share) = (&series[index * rows..(index + 1) * rows], beyond(slot, kept));
+            let (lacking, share) = (slot.series.iter().skip(index).step_by(numbers), beyond(slot, kept));
             values.iter_mut().zip(lacking).for_each(|(value, own)| *value += share * f64::from(*own));
         };
         let counts = self.counts.iter().copied().enumerate();
         if measure == Measure::History {
             let scales = record.scales();
             let pointwise = |(index, kept): (usize, usize)| {
-                let error = |slot: &Slot| match &slot.lacking {
-                    Lacking::Largest(most) if most[index] != 0.0 => {
-                        beyond(slot, kept) * most[index] / scales[slot.quantity]
-                    }
-                    _ => 0.0,
+                let error = |slot: &Slot| match slot.largest[index] {
+                    0.0 => 0.0,
+                    most => beyond(slot, kept) * most / scales[slot.quantity],
                 };
                 largest(kept, &mut slots.iter().map(|slot| (slot, error(slot))))
             };
@@ -495,12 +487,7 @@ impl<'a> Replay<'a> {
         let mut values = Vec::new();
         let each = |(index, kept): (usize, usize)| {
             // extremes change by no more than the values: quantities that lack little need no comparison
-            let most = |slot: &Slot| {
-                let Lacking::Series(series) = &slot.lacking else { return 0.0 };
-                let rows = record.time.len();
-                let largest = sup_norm(&series[index * rows..(index + 1) * rows]);
-                beyond(slot, kept) * largest / outlined.scale(slot.quantity)
-            };
+            let most = |slot: &Slot| beyond(slot, kept) * slot.largest[index] / outlined.scale(slot.quantity);
             let mut bounds: Vec<(f64, &Slot)> = slots.iter().map(|slot| (most(slot), slot)).collect();
             bounds.sort_by(|a, b| b.0.total_cmp(&a.0));
             let mut known = 0.0;
@@ -520,15 +507,6 @@ impl<'a> Replay<'a> {
         };
         counts.map(each).collect()
     }
-}
-
-/// Largest absolute value; not a number where one of the values is none.
-fn sup_norm(values: &[f32]) -> f64 {
-    let largest = values.iter().fold(0.0_f32, |most, value| {
-        let is_known = value.abs() <= most || most.is_nan();
-        if is_known { most } else { value.abs() }
-    });
-    f64::from(largest)
 }
 
 /// All wheels after a share of an interval, see [`Interval::at`].

@@ -1,6 +1,7 @@
 //! Thread time.
 
 use std::ops::ControlFlow;
+use std::time::Instant;
 
 /// Thread time, s, since an arbitrary instant: time that other jobs of the machine take does not count.
 #[cfg(unix)]
@@ -20,7 +21,18 @@ pub fn seconds() -> f64 {
 }
 
 /// Runs `job` with a callback that stops it once this thread has worked for `limit` seconds.
+///
+/// A thread works no longer than time passes. Its own clock, which takes a call of the system, is asked only when so much
+/// time has passed that the limit may have been reached.
 pub fn limited<T>(limit: f64, job: impl FnOnce(&mut dyn FnMut(f64) -> ControlFlow<()>) -> T) -> T {
-    let start = seconds();
-    job(&mut |_| if seconds() - start > limit { ControlFlow::Break(()) } else { ControlFlow::Continue(()) })
+    let (start, begun, mut due) = (seconds(), Instant::now(), limit);
+    job(&mut |_| {
+        let passed = begun.elapsed().as_secs_f64();
+        if passed <= due {
+            return ControlFlow::Continue(());
+        }
+        let left = limit - (seconds() - start);
+        due = passed + left;
+        if left < 0.0 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })
 }

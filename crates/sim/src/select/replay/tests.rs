@@ -22,18 +22,18 @@ fn accelerations_of_a_carrier_are_differences_of_its_speeds() {
 }
 
 /// Analytic: what is lacking without the lowest m modes is the sum of the others; by values the largest of all samples counts,
-/// by extremes the values at the rows of the record are kept.
+/// by extremes the values at the rows of the record are kept. A value that is no number is not forgotten.
 #[test]
 fn the_sums_over_the_modes_left_out_are_noted() {
     let counts = [0, 1, 3];
     let notes = [[8.0, -4.0, 2.0, 1.0], [0.0, 0.0, 0.0, -3.0]];
-    let noted = |lacking: Lacking| {
-        let mut slot = Slot { quantity: 0, lacking };
+    for times in [0, 2] {
+        let mut slot = Slot { quantity: 0, largest: vec![0.0; 3], series: vec![0.0; 3 * times] };
         notes.iter().enumerate().for_each(|(row, terms)| slot.note(&counts, row, |r| terms[r], 4));
-        slot.lacking
-    };
-    let Lacking::Largest(largest) = noted(Lacking::Largest(vec![0.0; 3])) else { panic!("of one kind") };
-    assert_eq!(largest, [7.0, 3.0, 3.0]);
-    let Lacking::Series(series) = noted(Lacking::Series(vec![0.0; 6])) else { panic!("of one kind") };
-    assert_eq!(series, [7.0, -3.0, -1.0, -3.0, 1.0, -3.0]);
+        assert_eq!(slot.largest, [7.0, 3.0, 3.0]);
+        assert_eq!(slot.series, [7.0, -1.0, 1.0, -3.0, -3.0, -3.0][..3 * times]);
+        slot.note(&counts, 0, |r| if r == 1 { f64::NAN } else { 0.0 }, 4);
+        slot.note(&counts, 1, |_| 1.0, 4);
+        assert!(slot.largest[0].is_nan() && slot.largest[1].is_nan() && slot.largest[2] == 3.0);
+    }
 }
