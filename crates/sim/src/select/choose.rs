@@ -19,9 +19,8 @@
 //!    extremes in a long run they count as far as the end of the run cuts extremes off.
 //!    Where the error exceeds the tolerance and the steps cause more than half of it, the new run is repeated with that
 //!    finer accuracy.
-//! 5. The first run is chosen if the difference and the error of the new run together are within the tolerance (within 0.8
-//!    of it in reactions and internal forces, where the errors of the steps of both runs are larger), and otherwise the new
-//!    run if its error is within 0.8 of the tolerance (within the tolerance where no further run would help), and so is that
+//! 5. The first run is chosen if the difference and the error of the new run together are within 0.7 of the tolerance, and
+//!    otherwise the new run if its error is within 0.8 of it (within the tolerance where no further run would help), and so is that
 //!    of its start. If neither is, the number of modes is raised to one whose new estimate is within the tolerance, or else to
 //!    the largest known one, and steps 3 and 4 are repeated, up to three times. After that the error is reported as exceeding
 //!    the tolerance. Where even the largest number leaves an error far beyond the tolerance, more modes are not tried.
@@ -50,6 +49,9 @@ const BEYOND: f64 = 1.5;
 const AIM: f64 = 0.1;
 /// Fraction of the tolerance that an estimated error may reach.
 const SAFE: f64 = 0.8;
+/// Fraction of the tolerance that the difference from a run with more modes, with the error of that run, may reach: on random
+/// scenes errors were up to 1.43 times as large where more than half of the tolerance was found.
+const BESIDE: f64 = 0.7;
 /// Estimate for influence functions, relative to the tolerance, above which they are not expected to suffice.
 const HOPELESS: f64 = 10.0;
 /// Estimate for which the number of modes is chosen in a run that only checks influence functions, relative to their own.
@@ -443,8 +445,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let error = apart.largest + factor * lacking;
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
-            let is_safe = apart.effects + factor * lacking <= SAFE * strictest.value;
-            if error <= strictest.value && is_safe {
+            if error <= BESIDE * strictest.value {
                 let error = TailError { kept: 0, error, quantity: apart.quantity };
                 return self.choose_lower(&open, lower, higher, (&error, bounces));
             }

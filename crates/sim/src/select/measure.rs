@@ -162,8 +162,6 @@ pub struct Difference {
     pub largest: f64,
     /// Name of that quantity; empty where all are equal.
     pub quantity: String,
-    /// The largest difference of a quantity without a channel of its own: a reaction or an internal force.
-    pub effects: f64,
 }
 
 /// Bounces of bodies on their wheels.
@@ -187,16 +185,16 @@ impl Bounces {
 /// runs reach.
 #[must_use]
 pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) -> Difference {
-    let unknown = Difference { largest: f64::INFINITY, quantity: String::new(), effects: f64::INFINITY };
+    let unknown = Difference { largest: f64::INFINITY, quantity: String::new() };
     if a.quantities.len() != b.quantities.len() || a.time.is_empty() || b.time.is_empty() {
         return unknown;
     }
     let last = |record: &Record| record.time[record.time.len() - 1];
     let (ends, count) = ([last(a), last(b)], a.time.len().min(b.time.len()));
     let duration = (ends[0] - ends[1]).abs() / ends[0].max(ends[1]).max(f64::MIN_POSITIVE);
-    let mut found = Difference { largest: 0.0, quantity: String::new(), effects: 0.0 };
+    let mut found = Difference { largest: 0.0, quantity: String::new() };
     if a.time.len() != b.time.len() && duration > 0.0 {
-        found = Difference { largest: duration, quantity: "time of the end".to_owned(), effects: 0.0 };
+        found = Difference { largest: duration, quantity: "time of the end".to_owned() };
     }
     let is_long = bounces.are_many();
     let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
@@ -215,11 +213,8 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
             Measure::Extremes => windows.outline(values[0]).difference(&windows.outline(values[1])),
         };
         let relative = if largest == 0.0 { 0.0 } else { largest / scale };
-        if other.channel.is_none() {
-            found.effects = found.effects.max(relative);
-        }
         if relative > found.largest || relative.is_nan() {
-            found = Difference { largest: relative, quantity: other.name.clone(), ..found };
+            found = Difference { largest: relative, quantity: other.name.clone() };
         }
     }
     if found.largest.is_nan() { unknown } else { found }
