@@ -174,6 +174,8 @@ impl PeakRows {
 
 /// The smaller part of the golden section.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
+/// Gain that is still followed, relative to what is enough.
+const GAIN: f64 = 1e-7;
 /// Distance of two places at which values are compared, relative to the interval: the square of it is the relative error
 /// of a value at a smooth peak.
 const NEAR: f64 = 1e-6;
@@ -183,7 +185,7 @@ const NEAR: f64 = 1e-6;
 pub(super) struct SearchEnd {
     /// Largest number of evaluations between the ends.
     pub evaluations: usize,
-    /// Difference of values that does not matter.
+    /// Difference of the two best values from which the parabola through them is trusted.
     pub enough: f64,
 }
 
@@ -192,8 +194,8 @@ pub(super) struct SearchEnd {
 ///
 /// Each next place is the vertex of the parabola through the three best places so far; where that would leave the
 /// interval, or moves by more than half of the step before the last, it divides the larger part by the golden section. The
-/// search ends where the vertex is higher than the best value by no more than what is enough, and so is that value than the
-/// second.
+/// search ends where the best value is above the second by no more than what is enough, and the vertex above the best one by no
+/// more than the fraction [`GAIN`] of that.
 ///
 /// # Source
 /// Brent, Algorithms for Minimization without Derivatives (1973), chapter 5, procedure localmin.
@@ -237,7 +239,8 @@ pub(super) fn largest_between(
         }
         let vertex =
             vertex(&best).filter(|(to, _)| (to - x).abs() < 0.5 * before.abs() && *to > a && *to < b);
-        if vertex.is_some_and(|(_, gain)| gain.max(best[0].0 - best[1].0) <= end.enough) {
+        let is_near = best[0].0 - best[1].0 <= end.enough;
+        if is_near && vertex.is_some_and(|(_, gain)| gain <= GAIN * end.enough) {
             break;
         }
         before = step;
@@ -361,9 +364,10 @@ mod tests {
         assert_eq!(largest([0.0, 1.0], (0.5, 0.5), rounding(20), &mut |x| x), (1.0, 1.0));
     }
 
-    /// Analytic: a cosine, a corner and a peak beside an end, each to what is enough, in fewer evaluations.
+    /// Analytic: a cosine, a corner and a peak beside an end, in fewer evaluations the looser the end; smooth peaks far better
+    /// than what is enough.
     #[test]
-    fn a_search_ends_where_more_would_gain_no_more_than_is_enough() {
+    fn a_search_ends_where_more_would_gain_little() {
         let cosine = |x: f64| (3.0 * (x - 0.4)).cos();
         let corner = |x: f64| 1.0 - (x - 0.6183).abs();
         let beside = |x: f64| 1.0 - (x - 0.02).powi(2) + (x - 0.02).powi(3);
@@ -377,8 +381,9 @@ mod tests {
                 };
                 let end = SearchEnd { evaluations: 60, enough };
                 let (value, _) = largest_between([0.0, 1.0], (function(0.5), 0.5), end, &mut counted);
-                assert!(value <= exact && value > exact - 3.0 * enough, "case {k}, {enough}: {value}");
-                assert!(count <= if k == 1 { 30 } else { 9 }, "case {k}, {enough}: {count} evaluations");
+                let near = if k == 1 { 1e-5 } else { 1e-4 * enough };
+                assert!(value <= exact && value > exact - near, "case {k}, {enough}: {value}");
+                assert!(count <= if k == 1 { 40 } else { 11 }, "case {k}, {enough}: {count} evaluations");
             }
         }
     }

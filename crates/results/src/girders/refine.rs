@@ -10,7 +10,8 @@ use super::scan::Scan;
 
 /// Largest number of evaluations for the peak between two rows.
 const EVALUATIONS: usize = 20;
-/// Difference of values that does not matter for a peak, relative to the accuracy and the largest value of its kind.
+/// Height of a vertex above a value up to which it is not looked for, and difference of values from which a parabola is trusted,
+/// relative to the accuracy and the largest value of its kind.
 const ENOUGH: f64 = 1e-2;
 /// Rounds of refinement over time and along the girder in turn.
 pub(super) const ROUNDS: usize = 3;
