@@ -220,7 +220,8 @@ impl Open {
         if count == 0 || known <= count || own == 0.0 {
             return None;
         }
-        let many = START_MODES.1.max(START_MODES.0 * count);
+        let most = self.tails.last().map_or(known, |last| last.kept);
+        let many = START_MODES.1.max(START_MODES.0 * count).min(most);
         let suffices = |tail: &&TailError| tail.error <= START_RATIO[0] * own || tail.kept >= many;
         let found = self.tails.iter().filter(|tail| tail.kept > count).find(suffices);
         let (more, error) = found.map_or((known, self.tail(known).error), |tail| (tail.kept, tail.error));
@@ -353,12 +354,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         }
     }
 
-    /// Samples further runs more densely where the steps of the run `first` were shorter than the time between its samples: a
+    /// Samples further runs more densely where the steps of the run `last` were shorter than the time between its samples: a
     /// wheel that lands on its rail passes a peak of its force within a fraction of a bounce, and modes of short periods follow
     /// it.
-    fn sample_as_stepped(&mut self, first: &Trial) {
-        let rows = first.record.time.len().max(1);
-        let wanted = (first.run.counts.stages as u64 / DENSER.0) as usize / rows;
+    fn sample_as_stepped(&mut self, last: &Trial) {
+        let rows = last.record.time.len().max(1);
+        let wanted = (last.run.counts.stages as u64 / DENSER.0) as usize / rows;
         let most = (SAMPLES[1] as usize / rows).min(DENSER.1 * self.scene.output_parts);
         self.scene.output_parts = self.scene.output_parts.max(wanted.min(most));
     }
@@ -463,6 +464,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 self.settle_higher(&open, &counts, factor, start, &higher, round == MODAL_RUNS);
                 return self.repeated(&open, higher, bounces);
             }
+            self.sample_as_stepped(&higher);
             (lower, counts, accuracy) = (higher, raised, self.accuracy);
         }
         Ok(lower)
