@@ -93,7 +93,7 @@ fn build_on_ground(
             |rail: &formats::spec::RailOutline| Extent { range: Some(rail.range), breaks: Vec::new() };
         structure.rails.iter().map(extent).collect::<Vec<_>>()
     };
-    let excitation = excitation(structure, lateral);
+    let excitation = Excitation::of(structure, lateral);
     match structure.foundation {
         scene::Foundation::Rigid => Ok(Foundation { rails: extents(), ..Foundation::rigid() }.into()),
         scene::Foundation::Influence => Ok(influence(structure, solved)?.into()),
@@ -148,12 +148,7 @@ pub(super) fn coarse_modes(
     lateral: bool,
     count: usize,
 ) -> Result<BuiltFoundation, Error> {
-    cache.coarse(&structure.name, solved, count, structure.damping, excitation(structure, lateral))
-}
-
-/// The forces that excite a structure.
-pub(super) fn excitation(structure: &Structure, lateral: bool) -> Excitation {
-    Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier }
+    cache.coarse(&structure.name, solved, count, structure.damping, Excitation::of(structure, lateral))
 }
 
 fn required_solution<'s>(

@@ -52,7 +52,7 @@ fn check_mesh(structure: &Structure, lateral: bool) -> Result<(), Error> {
     };
     let Origin::Spec { spec, .. } = &structure.origin else { return Ok(()) };
     let Ok((model, rails)) = spec.model() else { return Ok(()) };
-    let excitation = Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier };
+    let excitation = Excitation::of(structure, lateral);
     match fea::check_full_modes(&model, &rails, &excitation.forces(), elements) {
         Err(source @ (fea::Error::TooManyModes { .. } | fea::Error::Elements { .. })) => {
             Err(Error::Modes { structure: structure.name.clone(), source })

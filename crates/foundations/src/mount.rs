@@ -56,6 +56,11 @@ impl Excitation {
     /// Vertical wheel forces on a structure on the ground.
     pub const VERTICAL: Excitation = Excitation { lateral: false, longitudinal: false, carrier: None };
 
+    /// That of a structure of a scene; `lateral` is whether its wheels have flanges or other lateral forces.
+    pub fn of(structure: &Structure, lateral: bool) -> Excitation {
+        Excitation { lateral, longitudinal: structure.longitudinal, carrier: structure.carrier }
+    }
+
     /// Directions of the wheel forces.
     pub fn axes(self) -> Vec<Axis> {
         let loaded =

@@ -11,10 +11,11 @@ use sim::{
     Choice, Fidelity, FoundationProvider, History, ModalBasis, Reason, Record, Run, Tolerance, TrialCheck,
 };
 
-use crate::build::{build_with_modes, coarse_modes, excitation};
+use crate::build::{build_with_modes, coarse_modes};
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
 use crate::modal::{ACCURACY, ModeCache};
+use crate::mount::Excitation;
 use crate::solved::{SolvedStructure, solution_of};
 use formats::scene::{Foundation, Scene, Structure};
 
@@ -166,7 +167,8 @@ impl SceneFoundations<'_> {
         let solved = solution_of(self.known, &own.origin);
         let accuracy = match (fidelity, solved) {
             (Fidelity::Modal(count), Some(solved)) if own.auto => {
-                let (counts, excitation) = ([count, kept.unwrap_or(count)], excitation(&own, self.lateral));
+                let (counts, excitation) =
+                    ([count, kept.unwrap_or(count)], Excitation::of(&own, self.lateral));
                 let tolerance = (own.tolerance, own.measure);
                 let found = cache.accuracy(tolerance, self.duration, counts, (solved, excitation));
                 found.map_err(Error::modes(&own.name))?

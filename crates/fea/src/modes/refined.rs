@@ -75,7 +75,7 @@ impl RefinedModes {
         if all.iter().all(|mode| mode.between.is_empty()) {
             return Ok(());
         }
-        let directions = member_directions(&self.frame, &self.model, Some(forces), &self.parts)?;
+        let directions = member_directions(&self.frame, &self.model, forces, &self.parts)?;
         let error = |mode: &Mode| largest_error(m, &self.parts, &directions, mode.omega);
         let least = (LEAST_RESOLVED * all.len() as f64).ceil() as usize;
         let count = all.iter().take_while(|mode| error(mode) <= RESOLVED).count().max(least);
@@ -102,7 +102,7 @@ impl RefinedModes {
     /// # Errors
     /// As [`FactoredFrame::modes`].
     pub fn iterated_error(&self, m: &Model, forces: &ExcitingForces, omega: f64) -> Result<f64, Error> {
-        let directions = member_directions(&self.frame, &self.model, Some(forces), &self.parts)?;
+        let directions = member_directions(&self.frame, &self.model, forces, &self.parts)?;
         let divided = errors_of_members(m, &self.parts, &directions, omega, PartError::iterated);
         Ok(divided.max(undivided_error(m, &directions, omega)))
     }
@@ -181,17 +181,14 @@ fn refine(
     accuracy: f64,
 ) -> Result<RefinedModes, Error> {
     let mut parts = first_parts(m, rails, FIRST_PARTS)?;
-    let allowed = match forces {
-        Some(_) => AllowedError::before_iteration(accuracy),
-        None => AllowedError { sheared: accuracy, others: accuracy },
-    };
-    let directions = match forces {
-        Some(_) => {
+    let (directions, allowed) = match forces {
+        Some(forces) => {
             let (model, rails) = cut_members(m, rails, &parts);
             let frame = FactoredFrame::with_accuracy(&model, &rails, MESH_ACCURACY)?;
-            member_directions(&frame, &model, forces, &parts)?
+            let directions = member_directions(&frame, &model, forces, &parts)?;
+            (directions, AllowedError::before_iteration(accuracy))
         }
-        None => vec![Directions::ALL; parts.len()],
+        None => (vec![Directions::ALL; parts.len()], AllowedError { sheared: accuracy, others: accuracy }),
     };
     if let Some(omega) = asymptotic_frequency(m, &directions, count) {
         let cut = m.members.iter().zip(&directions).zip(&mut parts);
@@ -233,10 +230,9 @@ fn refine(
 fn member_directions(
     frame: &FactoredFrame,
     model: &Model,
-    forces: Option<&ExcitingForces>,
+    forces: &ExcitingForces,
     parts: &[usize],
 ) -> Result<Vec<Directions>, Error> {
-    let Some(forces) = forces else { return Ok(vec![Directions::ALL; parts.len()]) };
     let of_parts = frame.moved_directions(model, forces)?;
     let mut rest = of_parts.as_slice();
     let members = parts.iter().map(|&count| {

@@ -2,10 +2,10 @@
 //!
 //! 1. The scene is run with influence functions. This costs least of all flexible foundations.
 //! 2. The wheel forces of this run act on the natural modes ([`tail_errors`]). This costs little and estimates the
-//!    error of leaving out all modes but the lowest m, for each m, m = 0 being the run itself. The runs of the next steps are
-//!    sampled as densely as this one was stepped. If the estimate for
-//!    m = 0 is a tenth of the tolerance or less, the choice ends here. Wheels that remember n of their bounces may amplify
-//!    what the rails lack by n: from n = 8 on it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
+//!    error of leaving out all modes but the lowest m, for each m, m = 0 being the run itself. The runs of the next steps
+//!    are sampled as densely as the run before them was stepped. If the estimate for m = 0 is a tenth of the tolerance or
+//!    less, the choice ends here. Wheels that remember n of their bounces may amplify what the rails lack by n: from n = 8 on
+//!    it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
 //! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a tenth of the tolerance. The
 //!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
 //!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
@@ -186,9 +186,9 @@ impl Open {
         found.map(|tail| tail.kept).or(whole)
     }
 
-    /// The same; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the tolerance with
-    /// the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far beyond the
-    /// tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
+    /// The same; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the
+    /// tolerance with the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far
+    /// beyond the tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
     fn count_for(&self, limit: f64, factor: f64, least: usize, spare: usize) -> Option<usize> {
         let within = || {
             let count = self.sufficient_count(SAFE / factor * self.tolerance, least)?;
