@@ -312,7 +312,12 @@ def judged(found, reference, measure, bounces):
             return max(abs(a - b) for a, b in zip(ends(found[1], group), ends(columns, group)))
         return difference(found[1][i][:rows], columns[i][:rows], measure, around)
 
-    return max((of_column(i, name) / size, name) for i, (name, size) in enumerate(zip(names[1:], sizes), 1) if size > 0)
+    def scale(name, own):
+        group = of_a_wheel(name) if measure == "extremes" and bounces > MANY else None
+        return max(size for other, size in zip(names[1:], sizes) if of_a_wheel(other) == group) if group else own
+
+    return max((of_column(i, name) / scale(name, size), name)
+               for i, (name, size) in enumerate(zip(names[1:], sizes), 1) if scale(name, size) > 0)
 
 
 class Folder:

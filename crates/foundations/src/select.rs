@@ -272,6 +272,7 @@ pub fn check_name(check: TrialCheck) -> String {
         TrialCheck::Start(fidelity) => {
             format!("the first eighth of {}, finer steps", fidelity_name(fidelity))
         }
+        TrialCheck::Whole(fidelity) => format!("the motion of {}, longer steps", fidelity_name(fidelity)),
     }
 }
 

@@ -134,6 +134,12 @@ fn fidelities_and_checks_are_named() {
     assert_eq!(names.map(fidelity_name), ["rigid", "influence", "modal, 1 mode", "modal, 12 modes"]);
     assert_eq!(check_name(TrialCheck::Replay(24)), "24 natural modes under its wheel forces");
     assert_eq!(check_name(TrialCheck::Run(Fidelity::Modal(12))), "modal, 12 modes");
+    let start = check_name(TrialCheck::Start(Fidelity::Modal(12)));
+    assert_eq!(start, "the first eighth of modal, 12 modes, finer steps");
+    assert_eq!(
+        check_name(TrialCheck::Whole(Fidelity::Modal(1))),
+        "the motion of modal, 1 mode, longer steps"
+    );
 }
 
 #[test]

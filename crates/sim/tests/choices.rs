@@ -10,8 +10,9 @@ use std::ops::ControlFlow;
 
 use common::modes::{beam, oscillator};
 use sim::{
-    Bounces, Choice, Dynamics, Error, Fidelity, Foundation, FoundationProvider, History, Measure, ModalBasis,
-    Reason, Record, RecordedQuantity, Run, Scene, Selection, Structure, Tolerance, choose, difference,
+    Bounces, Choice, Dynamics, Error, Fidelity, FidelityTrial, Foundation, FoundationProvider, History,
+    Measure, ModalBasis, Reason, Record, RecordedQuantity, Run, Scene, Selection, Structure, Tolerance,
+    TrialCheck, choose, difference,
 };
 
 /// The beam at every fidelity, with what was asked for.
@@ -29,6 +30,9 @@ struct Beam {
     /// Duration of a run, and the fidelities of those that ended before.
     end: f64,
     starts: Vec<Fidelity>,
+    /// Whether the next run only shows what another lacks; fidelity and accuracy of such runs that did not end before.
+    is_repetition: bool,
+    wholes: Vec<(Fidelity, f64)>,
     fidelity: Option<Fidelity>,
     /// Factor on the forces that are observed in runs with influence functions.
     exaggerated: Option<f64>,
@@ -60,12 +64,18 @@ impl FoundationProvider for Beam {
     }
 
     fn foundation(&mut self, _: usize, fidelity: Fidelity) -> Result<Foundation, Error> {
-        self.fidelity = Some(fidelity);
+        (self.fidelity, self.is_repetition) = (Some(fidelity), false);
         Ok(match fidelity {
             Fidelity::Rigid => Foundation { rails: beam(0, true).rails, ..Foundation::rigid() },
             Fidelity::Influence => beam(0, true),
             Fidelity::Modal(modes) => beam(modes, true),
         })
+    }
+
+    fn finer_foundation(&mut self, structure: usize, modes: usize, _: usize) -> Result<Foundation, Error> {
+        let foundation = self.foundation(structure, Fidelity::Modal(modes));
+        self.is_repetition = true;
+        foundation
     }
 
     fn run(
@@ -79,6 +89,8 @@ impl FoundationProvider for Beam {
         run.counts.stages += self.more_stages;
         if scene.end < self.end {
             self.starts.extend(self.fidelity);
+        } else if self.is_repetition {
+            self.wholes.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
         } else {
             self.runs.extend(self.fidelity.map(|fidelity| (fidelity, scene.accuracy)));
             self.sampled.push((scene.output_parts, run.counts.stages));
@@ -106,7 +118,7 @@ fn chosen(alpha: f64, tolerance: Tolerance, provider: &mut Beam) -> Choice {
     let watch = &mut |_| ControlFlow::Continue(());
     let Selection { mut choices, runs, .. } =
         choose(&scene, &[Some(tolerance)], provider, watch).expect("a valid scene");
-    assert_eq!(runs, provider.runs.len() + provider.starts.len());
+    assert_eq!(runs, provider.runs.len() + provider.starts.len() + provider.wholes.len());
     choices.remove(0)
 }
 
@@ -185,6 +197,34 @@ fn influence_functions_suffice_at_once_where_bounces_cannot_amplify_what_they_la
         assert!((found / share - 1.0).abs() < 0.2, "{found} for {share}");
         assert_eq!(!provider.counts().is_empty(), is_checked, "{alpha}, {found}: {:?}", provider.runs);
     }
+}
+
+/// By the rule: a run with modes is repeated with more of them and 25 times its accuracy where its wheel remembers n = 1/(4
+/// alpha) of its bounces, n from 8 on, and the error of its motion is more than 0.8/n of the tolerance.
+#[test]
+fn a_whole_run_is_repeated_where_bounces_may_amplify_what_its_start_does_not_show() {
+    let mut repeated = [0, 0];
+    for (alpha, value) in
+        [(0.02, 5e-4), (0.02, 4e-3), (0.003, 1e-4), (0.003, 1e-3), (0.25, 1e-3), (0.5, 1e-3)]
+    {
+        let (tolerance, mut provider) = (Tolerance { value, ..EXTREMES }, Beam::default());
+        let choice = chosen(alpha, tolerance, &mut provider);
+        let Fidelity::Modal(count) = choice.fidelity else { panic!("{choice:?}") };
+        let is_earlier = |own: &&FidelityTrial| {
+            own.fidelity == choice.fidelity && !matches!(own.against, TrialCheck::Whole(_))
+        };
+        let told = choice.tried.iter().filter(is_earlier).map(|own| own.estimate).fold(0.0, f64::max);
+        let bounces = 1.0 / (4.0 * alpha);
+        let is_repeated = bounces >= 8.0 && told * bounces.min(30.0) > 0.8 * value;
+        assert_eq!(!provider.wholes.is_empty(), is_repeated, "{alpha}: {choice:?}");
+        repeated[usize::from(is_repeated)] += 1;
+        for &(fidelity, accuracy) in &provider.wholes {
+            assert!(matches!(fidelity, Fidelity::Modal(more) if more > count), "{fidelity:?}, {count}");
+            let own = tolerance.run_accuracy();
+            assert!((accuracy / (25.0 * own) - 1.0).abs() < 1e-12, "{accuracy} for {own}");
+        }
+    }
+    assert!(repeated.iter().all(|count| *count > 0), "{repeated:?}");
 }
 
 impl Beam {

@@ -6,10 +6,10 @@
 //!    are sampled as densely as the run before them was stepped. If the estimate for m = 0 is a tenth of the tolerance or
 //!    less, the choice ends here. Wheels that remember n of their bounces may amplify what the rails lack by n: from n = 8 on
 //!    it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
-//! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a tenth of the tolerance. The
-//!    difference of the two runs is the error of the first one; its ratio to the estimate of step 2 is the factor by
-//!    which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes again: the tail
-//!    beyond m modes times that factor is the error of the new run.
+//! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a fifth of the tolerance, or a tenth
+//!    at equal times. The difference of the two runs is the error of the first one; its ratio to the estimate of step 2
+//!    is the factor by which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes
+//!    again: the tail beyond m modes times that factor is the error of the new run.
 //! 4. The start of the motion, an eighth of the run, is repeated with more modes and with a tenth of the accuracy, before
 //!    the new run is chosen. There the wheels meet a structure at rest, modes that are left out would begin to move at
 //!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
@@ -19,11 +19,15 @@
 //!    extremes in a long run they count as far as the end of the run cuts extremes off.
 //!    Where the error exceeds the tolerance and the steps cause more than half of it, the new run is repeated with that
 //!    finer accuracy.
-//! 5. The first run is chosen if the difference and the error of the new run together are within 0.7 of the tolerance, and
-//!    otherwise the new run if its error is within 0.8 of it (within the tolerance where no further run would help), and so is that
-//!    of its start. If neither is, the number of modes is raised to one whose new estimate is within the tolerance, or else to
-//!    the largest known one, and steps 3 and 4 are repeated, up to three times. After that the error is reported as exceeding
-//!    the tolerance. Where even the largest number leaves an error far beyond the tolerance, more modes are not tried.
+//! 5. Wheels that remember n of their bounces, n from 8 on, may amplify later what they hardly show at the start. Where the
+//!    error of motions and wheel forces found so far is more than 0.8/n of the tolerance (0.027 from n = 30 on), the whole new
+//!    run is repeated with more modes and longer steps, and the motions and wheel forces of both are compared.
+//! 6. The first run is chosen if the difference and the error of the new run together are within 0.7 of the tolerance, and
+//!    otherwise the new run if its error is within 0.8 of it (within the tolerance where no further run would help), and so are
+//!    those of its repetitions. If neither is, the number of modes is raised to one whose new estimate is within the
+//!    tolerance, or else to the largest known one, and steps 3 to 5 are repeated, up to three times. After that the error is
+//!    reported as exceeding the tolerance. Where even the largest number leaves an error far beyond the tolerance, more modes
+//!    are not tried.
 //!
 //! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
 //! where the estimate of step 2 leaves it open whether they suffice, have only the accuracy of a tenth of the tolerance;
@@ -33,11 +37,16 @@
 //!
 //! Every structure has its own modes and its own number of them, and all structures are raised in the same run.
 
+mod open;
+mod repetition;
+
 use std::ops::ControlFlow;
 
-use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, remembered_time, slowest_bounce};
-use super::measure::{Bounces, MANY, Measure, Record, difference, drift};
-use super::replay::{Loaded, ModalBasis, TailError, tail_errors};
+use self::open::{NO_BETTER, Open, SAFE, is_unreachable, largest};
+
+use super::fidelity::{Fidelity, fastest_bounce, remembered_bounces, slowest_bounce};
+use super::measure::{Bounces, MANY, Measure, Record, difference};
+use super::replay::{Loaded, TailError, tail_errors};
 use super::selection::{Choice, FidelityTrial, FoundationProvider, Reason, Selection, Tolerance, TrialCheck};
 use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
@@ -45,10 +54,11 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 const MODES: [usize; 2] = [24, 144];
 /// Least ratio of the number of known modes to the number for which an estimate is used.
 const BEYOND: f64 = 1.5;
-/// Estimate for which a number of modes is chosen, relative to the tolerance.
-const AIM: f64 = 0.1;
-/// Fraction of the tolerance that an estimated error may reach.
-const SAFE: f64 = 0.8;
+/// Estimates for which a number of modes is chosen first, and when it is raised, relative to the tolerance, by extremes: these
+/// change by no more than the amplitudes that are estimated.
+const AIM: [f64; 2] = [0.2, 0.4];
+/// The same at equal times, where phases that are not quite those of a run with more modes count as well.
+const AIM_AT_EQUAL_TIMES: [f64; 2] = [0.1, 0.1];
 /// Fraction of the tolerance that the difference from a run with more modes, with the error of that run, may reach: on random
 /// scenes errors were up to 1.43 times as large where more than half of the tolerance was found.
 const BESIDE: f64 = 0.7;
@@ -60,26 +70,10 @@ const CHECKED: f64 = 0.015;
 const ABOVE_CONTACT: f64 = 3.0;
 /// Estimate, relative to the one that is aimed at, for which modes do not interact with wheels either.
 const NEGLIGIBLE: f64 = 0.1;
-/// Estimate for the largest number of modes, relative to the tolerance, above which no number is expected to suffice.
-const UNREACHABLE: f64 = 10.0;
-/// Ratio of the estimates for two numbers of modes up to which the larger number is no better, where neither suffices.
-const NO_BETTER: f64 = 1.5;
+/// Numbers of bounces that wheels remember from which, and up to which, they may amplify what the rails lack.
+const REMEMBERED: [f64; 2] = [8.0, 30.0];
 /// Limits of the factor between the error of a run and the estimate from the modes that it lacks.
 const AMPLIFICATION: [f64; 2] = [1.0, 30.0];
-/// Part of the run that is repeated with more modes, and the least number of its output steps.
-const START: (f64, usize) = (0.125, 2);
-/// Estimate for the number of modes of this repetition, relative to that of the run itself, and the largest ratio with
-/// which the error of the repetition is extrapolated.
-const START_RATIO: [f64; 2] = [0.3, 0.5];
-/// Number of modes, relative to that of the run, and the least number, from which a further reduction of the estimate is not
-/// waited for.
-const START_MODES: (usize, usize) = (3, 24);
-/// Accuracy of this repetition, relative to that of the run, and the error of its steps, relative to those of the run.
-const START_ACCURACY: (f64, f64) = (0.1, 0.2);
-/// Share of the error at the start, or of the tolerance, by the steps from which a run is repeated with finer ones.
-const BY_STEPS: f64 = 0.5;
-/// Largest number of repetitions of a run with finer steps.
-const REPETITIONS: usize = 3;
 /// The factor where there are no two runs to compare.
 const UNKNOWN: f64 = 3.0;
 /// Largest number of runs with modes.
@@ -160,87 +154,6 @@ struct Refinement {
     compliances: Vec<Foundation>,
 }
 
-/// A structure whose fidelity is to be chosen.
-struct Open {
-    structure: usize,
-    tolerance: f64,
-    basis: ModalBasis,
-    /// Estimates from the wheel forces of the last run, the number of this run, and the number of modes.
-    tails: Vec<TailError>,
-    tails_of: Option<(usize, usize)>,
-    /// Index of its choice.
-    choice: usize,
-}
-
-impl Open {
-    /// Number of modes that are known.
-    fn known(&self) -> usize {
-        self.basis.structure.dynamics.dofs()
-    }
-
-    /// Smallest number of modes, at least `least`, whose estimate is at most `limit`; all modes if there is none and they
-    /// are the whole structure.
-    fn sufficient_count(&self, limit: f64, least: usize) -> Option<usize> {
-        let found = self.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
-        let whole = Some(self.known()).filter(|_| self.basis.is_whole);
-        found.map(|tail| tail.kept).or(whole)
-    }
-
-    /// The same; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the
-    /// tolerance with the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far
-    /// beyond the tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
-    fn count_for(&self, limit: f64, factor: f64, least: usize, spare: usize) -> Option<usize> {
-        let within = || {
-            let count = self.sufficient_count(SAFE / factor * self.tolerance, least)?;
-            let more = self.tails.iter().map(|tail| tail.kept).find(|kept| *kept >= spare * count);
-            Some(more.unwrap_or(count))
-        };
-        let most = || {
-            let last = self.tails.last().filter(|last| last.kept >= least)?;
-            if is_unreachable(last.error, self.tolerance) {
-                self.no_worse_count(least)
-            } else {
-                Some(last.kept)
-            }
-        };
-        self.sufficient_count(limit, least).or_else(within).or_else(most)
-    }
-
-    /// Smallest number of modes, at least `least`, whose estimate is that for the largest number or less, but for the factor
-    /// [`NO_BETTER`].
-    fn no_worse_count(&self, least: usize) -> Option<usize> {
-        self.sufficient_count(NO_BETTER * self.tails.last()?.error, least)
-    }
-
-    /// Number of modes with which the start of a run with `count` modes is repeated, and the ratio of the estimates for the
-    /// two numbers; `None` where no more modes are known.
-    fn beyond(&self, count: usize) -> Option<(usize, f64)> {
-        let known = self.known();
-        let own = self.tail(count).error;
-        if count == 0 || known <= count || own == 0.0 {
-            return None;
-        }
-        let most = self.tails.last().map_or(known, |last| last.kept);
-        let many = START_MODES.1.max(START_MODES.0 * count).min(most);
-        let suffices = |tail: &&TailError| tail.error <= START_RATIO[0] * own || tail.kept >= many;
-        let found = self.tails.iter().filter(|tail| tail.kept > count).find(suffices);
-        let (more, error) = found.map_or((known, self.tail(known).error), |tail| (tail.kept, tail.error));
-        Some((more, (error / own).min(START_RATIO[1])))
-    }
-
-    /// Number of known modes with frequencies below `omega`.
-    fn modes_below(&self, omega: f64) -> usize {
-        self.basis.structure.dynamics.frequencies().iter().filter(|own| **own < omega).count()
-    }
-
-    /// The estimate for `kept` modes; for all known ones it is that of the largest number that has one.
-    fn tail(&self, kept: usize) -> TailError {
-        let found = self.tails.iter().find(|tail| tail.kept == kept).cloned();
-        let beyond = || self.tails.last().filter(|_| !self.basis.is_whole).cloned();
-        found.or_else(beyond).unwrap_or(TailError { kept, error: 0.0, quantity: String::new() })
-    }
-}
-
 struct Search<'a, L: FoundationProvider> {
     /// The scene with the sampling of the trials.
     scene: Scene,
@@ -288,8 +201,11 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             match self.provider.modes(structure, MODES[0]) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > 0 => {
+                    let is_by_extremes = tolerance.measure == Measure::Extremes;
+                    let shares = if is_by_extremes { AIM } else { AIM_AT_EQUAL_TIMES };
+                    let aims = shares.map(|share| share * tolerance.value);
                     let (tolerance, tails) = (tolerance.value, Vec::new());
-                    open.push(Open { structure, tolerance, basis, tails, tails_of: None, choice });
+                    open.push(Open { structure, tolerance, aims, basis, tails, tails_of: None, choice });
                 }
                 // no mode that wheels excite: nothing of the mass moves
                 Ok(Some(_)) => {
@@ -378,7 +294,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let compliances = std::mem::take(&mut first.foundations);
         let frequency = 2.0 * std::f64::consts::PI / fastest_bounce(&self.scene);
         // wheels amplify what the rails lack by as many times as they remember bounces
-        let enough = SAFE / bounces.remembered.clamp(SAFE / AIM, AMPLIFICATION[1]);
+        let enough = SAFE / bounces.remembered.clamp(REMEMBERED[0], REMEMBERED[1]);
         let (counts, is_hopeless) = self.first_counts(&mut open, &first, &compliances, (frequency, enough));
         self.note_tails(&open, &vec![0; open.len()], 1.0, &first);
         if counts.iter().any(|count| *count > 0) {
@@ -406,8 +322,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
         let mut counts = vec![0; open.len()];
         for (own, count) in open.iter_mut().zip(&mut counts) {
-            let aim = AIM * own.tolerance;
-            let limit = if is_hopeless { aim } else { aim.max(CHECKED * own.tail(0).error) };
+            let limit = if is_hopeless { own.aims[0] } else { own.aims[0].max(CHECKED * own.tail(0).error) };
             if own.tail(0).error > enough * own.tolerance {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
                 // a run that only checks influence need not be within the tolerance itself
@@ -419,7 +334,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                     found => found,
                 };
                 let needed = |limit: f64| found(limit).unwrap_or(own.known());
-                *count = needed(limit).max(least.min(needed(NEGLIGIBLE * aim)));
+                *count = needed(limit).max(least.min(needed(NEGLIGIBLE * own.aims[0])));
             }
         }
         (counts, is_hopeless)
@@ -447,21 +362,22 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= BESIDE * strictest.value {
-                let error = TailError { kept: 0, error, quantity: apart.quantity };
+                let error = TailError { error, quantity: apart.quantity, ..TailError::none(0) };
                 return self.choose_lower(&open, lower, higher, (&error, bounces));
             }
-            let mut start = None;
+            let mut repeated = None;
             let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
             if raised == counts && !is_unreachable(factor * lacking, strictest.value) {
-                (higher, start) = self.check_start(&open, &counts, higher, strictest, bounces)?;
-                let found = start.as_ref().map_or(0.0, |start| start.error);
+                (higher, repeated) =
+                    self.check_by_repetitions(&open, (&counts, factor), higher, strictest, bounces)?;
+                let found = repeated.as_ref().map_or(0.0, |repeated| repeated.error);
                 if found > strictest.value {
                     factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
                     raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
                 }
             }
             if raised == counts || round == MODAL_RUNS {
-                self.settle_higher(&open, &counts, factor, start, &higher, round == MODAL_RUNS);
+                self.settle_higher(&open, &counts, factor, repeated, &higher, round == MODAL_RUNS);
                 return self.repeated(&open, higher, bounces);
             }
             self.sample_as_stepped(&higher);
@@ -483,99 +399,12 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let mut raised = counts.to_vec();
         for (own, count) in open.iter_mut().zip(&mut raised) {
             if factor * own.tail(*count).error > SAFE * own.tolerance {
-                let [limit, enough] = [AIM, SAFE].map(|share| share * own.tolerance / factor);
+                let [limit, enough] = [own.aims[1], SAFE * own.tolerance].map(|error| error / factor);
                 self.estimate(own, higher, compliances, *count + 1, [limit, enough]);
                 *count = own.count_for(limit, factor, *count, SPARE).unwrap_or(*count);
             }
         }
         raised
-    }
-
-    /// Step 4 of the head of this module: the run `higher` with `counts` modes, repeated where its steps are too coarse, and
-    /// the error at its start.
-    fn check_start(
-        &mut self,
-        open: &[Open],
-        counts: &[usize],
-        mut higher: Trial,
-        Tolerance { value, measure }: Tolerance,
-        bounces: Bounces,
-    ) -> Result<(Trial, Option<TailError>), L::Error> {
-        // the errors of the steps of a run that only checks exceed what is to be found
-        if higher.accuracy > self.accuracy {
-            higher = self.trial(&higher.fidelities, self.accuracy, true)?;
-        }
-        let Some(start) = self.start_error(open, counts, &higher, measure, bounces) else {
-            return Ok((higher, None));
-        };
-        if start.error > value {
-            let same = vec![0; open.len()];
-            let by_steps = self.start_error(open, &same, &higher, measure, bounces);
-            if by_steps.is_some_and(|by_steps| by_steps.error > BY_STEPS * start.error) {
-                self.accuracy *= START_ACCURACY.0;
-                let finer = self.trial(&higher.fidelities, self.accuracy, true)?;
-                let error = START_ACCURACY.1 * start.error;
-                return Ok((finer, Some(TailError { error, ..start })));
-            }
-        }
-        Ok((higher, Some(start)))
-    }
-
-    /// Error at the start of the run `higher` with `counts` modes: the change of its quantities where its start is replaced
-    /// by that of a run with more modes and finer steps, D, as D / (1 - r) with the larger one of the ratios r of the
-    /// estimates for the two numbers of modes and of the errors of the steps. The number of modes stays where none are left
-    /// out (a count of 0) or no more are known. `None` where the finer run fails.
-    fn start_error(
-        &mut self,
-        open: &[Open],
-        counts: &[usize],
-        higher: &Trial,
-        measure: Measure,
-        bounces: Bounces,
-    ) -> Option<TailError> {
-        let (mut fidelities, mut ratio) = (higher.fidelities.clone(), START_ACCURACY.1);
-        let mut kept = Vec::new();
-        for (own, count) in open.iter().zip(counts) {
-            if let Some((more, own_ratio)) = own.beyond(*count) {
-                fidelities[own.structure] = Fidelity::Modal(more);
-                kept.push((own.structure, *count));
-                ratio = ratio.max(own_ratio);
-            }
-        }
-        let steps = (START.0 * higher.record.time.len() as f64).ceil().max(START.1 as f64);
-        let (end, start) = (self.scene.end, steps * self.scene.output_dt);
-        if start >= end {
-            return None;
-        }
-        // its forces do not act on the modes: the times of the record suffice
-        let parts = std::mem::replace(&mut self.scene.output_parts, 1);
-        self.scene.end = start;
-        let finer = self.checking_trial(&fidelities, &kept, START_ACCURACY.0 * higher.accuracy, true);
-        (self.scene.end, self.scene.output_parts) = (end, parts);
-        let finer = finer.ok()?;
-        if finer.run.status != Status::Done || finer.record.quantities.len() != higher.record.quantities.len()
-        {
-            return None;
-        }
-        let replaced = higher.record.with_start_of(&finer.record, finer.record.time.len());
-        let apart = difference(&replaced, &higher.record, measure, bounces);
-        let times = [start, remembered_time(&self.scene)];
-        let drift = drift(&replaced, &higher.record, measure, bounces, times);
-        let (apart, quantity) = if drift.0 > apart.largest { drift } else { (apart.largest, apart.quantity) };
-        let error = TailError { kept: 0, error: apart / (1.0 - ratio), quantity };
-        for own in open {
-            let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
-            if fidelity != Fidelity::Influence {
-                self.choices[own.choice].tried.push(FidelityTrial {
-                    fidelity,
-                    estimate: error.error,
-                    quantity: error.quantity.clone(),
-                    against: TrialCheck::Start(against),
-                    stages: finer.run.counts.stages as u64,
-                });
-            }
-        }
-        Some(error)
     }
 
     /// Chooses the lower one of two runs, whose error is small enough, unless the higher one costs so much more
@@ -597,14 +426,14 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         self.repeated(open, chosen, bounces)
     }
 
-    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`, or the error at its
-    /// `start` where that is larger; `is_last` where no further run is allowed.
+    /// Enters a run with `counts` modes in the choices, with its estimated errors times `factor`, or the error found where it
+    /// was `repeated` where that is larger; `is_last` where no further run is allowed.
     fn settle_higher(
         &mut self,
         open: &[Open],
         counts: &[usize],
         factor: f64,
-        start: Option<TailError>,
+        repeated: Option<TailError>,
         higher: &Trial,
         is_last: bool,
     ) {
@@ -612,7 +441,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         for (own, &count) in open.iter().zip(counts) {
             let tail = own.tail(count);
             let tail = TailError { error: factor * tail.error, ..tail };
-            let error = start.clone().filter(|start| start.error > tail.error).unwrap_or(tail);
+            let error = repeated.clone().filter(|repeated| repeated.error > tail.error).unwrap_or(tail);
             // the margin decides whether another run is worth its cost, which is over here
             let reason = if error.error <= own.tolerance { Reason::Sufficient } else { insufficient };
             self.settle(own, higher.fidelities[own.structure], reason, &error);
@@ -656,27 +485,6 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             self.settle(own, fidelity, reason, &tail);
         }
         Ok(last)
-    }
-
-    /// A trial, repeated with the accuracy of the result if it was made with a coarser one. Where that changes its quantities
-    /// by more than [`BY_STEPS`] of the tolerance, it is repeated with finer steps, at most [`REPETITIONS`] times.
-    fn repeated(&mut self, open: &[Open], mut trial: Trial, bounces: Bounces) -> Result<Trial, L::Error> {
-        let strictest = self.strictest(open, &vec![1; open.len()]);
-        // the forces of a result do not act on the modes: the times of the record suffice
-        self.scene.output_parts = 1;
-        for _ in 0..REPETITIONS {
-            if trial.accuracy <= self.accuracy {
-                break;
-            }
-            let finer = self.trial(&trial.fidelities, self.accuracy, true)?;
-            let is_complete = finer.run.status.is_complete();
-            let by_steps = difference(&trial.record, &finer.record, strictest.measure, bounces);
-            if is_complete && by_steps.largest > BY_STEPS * strictest.value {
-                self.accuracy *= START_ACCURACY.0;
-            }
-            trial = finer;
-        }
-        Ok(trial)
     }
 
     /// The smallest tolerance of the structures that have modes, in the stricter measure.
@@ -810,7 +618,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         if apart.largest > SAFE * strictest.value {
             return self.repeated(open, first, bounces);
         }
-        let error = TailError { kept: 0, error: apart.largest, quantity: apart.quantity };
+        let error = TailError { error: apart.largest, quantity: apart.quantity, ..TailError::none(0) };
         for own in open {
             self.settle(own, Fidelity::Rigid, Reason::Sufficient, &error);
         }
@@ -831,17 +639,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 }
 
-/// Whether an error is so far beyond a tolerance, or a whole range, that more modes are not expected to bring it within.
-fn is_unreachable(error: f64, tolerance: f64) -> bool {
-    error > (UNREACHABLE * tolerance).min(1.0)
-}
-
 /// The least tolerance of all structures.
 fn least(tolerances: &[Option<Tolerance>]) -> f64 {
     tolerances.iter().flatten().fold(f64::INFINITY, |least, own| least.min(own.value))
-}
-
-/// Largest estimate of the structures with these numbers of modes.
-fn largest(open: &[Open], counts: &[usize]) -> f64 {
-    open.iter().zip(counts).map(|(own, count)| own.tail(*count).error).fold(0.0, f64::max)
 }

@@ -20,9 +20,10 @@
 //! Windows keep an error late in a run from hiding behind an early peak. In a run of more than [`MANY`] bounces that
 //! dampers of the wheels do not reduce, their phases cannot be known: which wheel of a body is the more heavily loaded one at a
 //! given time is then a matter of chance. There the window is the whole run, and the extremes of a quantity are taken
-//! over all wheels of a body.
+//! over all wheels of a body, with the largest scale of these wheels.
 
 use std::cell::OnceCell;
+use std::collections::VecDeque;
 
 use crate::{Channel, History};
 
@@ -112,6 +113,12 @@ impl Record {
         mixed
     }
 
+    /// The quantities that are channels of the run: motions, wheel forces and gauges, but neither reactions nor internal forces.
+    pub(super) fn motion(&self) -> Record {
+        let own = self.quantities.iter().filter(|quantity| quantity.channel.is_some());
+        Record { time: self.time.clone(), quantities: own.cloned().collect() }
+    }
+
     /// Scale of every quantity, see the head of this module; 0 for a quantity of a kind that is zero throughout.
     #[must_use]
     pub fn scales(&self) -> Vec<f64> {
@@ -162,6 +169,9 @@ pub struct Difference {
     pub largest: f64,
     /// Name of that quantity; empty where all are equal.
     pub quantity: String,
+    /// The largest difference of a motion, a wheel force or a gauge: of what is a channel of the run, as reactions and internal
+    /// forces are not.
+    pub of_motion: f64,
 }
 
 /// Bounces of bodies on their wheels.
@@ -185,20 +195,21 @@ impl Bounces {
 /// runs reach.
 #[must_use]
 pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) -> Difference {
-    let unknown = Difference { largest: f64::INFINITY, quantity: String::new() };
+    let unknown = Difference { largest: f64::INFINITY, quantity: String::new(), of_motion: f64::INFINITY };
     if a.quantities.len() != b.quantities.len() || a.time.is_empty() || b.time.is_empty() {
         return unknown;
     }
     let last = |record: &Record| record.time[record.time.len() - 1];
     let (ends, count) = ([last(a), last(b)], a.time.len().min(b.time.len()));
     let duration = (ends[0] - ends[1]).abs() / ends[0].max(ends[1]).max(f64::MIN_POSITIVE);
-    let mut found = Difference { largest: 0.0, quantity: String::new() };
+    let mut found = Difference { largest: 0.0, quantity: String::new(), of_motion: 0.0 };
     if a.time.len() != b.time.len() && duration > 0.0 {
-        found = Difference { largest: duration, quantity: "time of the end".to_owned() };
+        found = Difference { largest: duration, quantity: "time of the end".to_owned(), of_motion: duration };
     }
     let is_long = bounces.are_many();
     let windows = Windows::new(&b.time[..count], if is_long { f64::INFINITY } else { bounces.slowest });
-    for (index, scale) in b.scales().into_iter().enumerate() {
+    let scales = b.scales();
+    for (index, mut scale) in scales.iter().copied().enumerate() {
         let [one, other] = [a, b].map(|record| &record.quantities[index]);
         let values = [&one.values[..count], &other.values[..count]];
         if values[0] == values[1] {
@@ -207,17 +218,25 @@ pub fn difference(a: &Record, b: &Record, measure: Measure, bounces: Bounces) ->
         let largest = match measure {
             Measure::History => pointwise(values),
             Measure::Extremes if is_long && !other.group.is_empty() => {
+                scale = group_scale(b, &scales, &other.group);
                 let [a, b] = [a, b].map(|record| group_extremes(record, &other.group, count));
                 (a[0] - b[0]).abs().max((a[1] - b[1]).abs())
             }
             Measure::Extremes => windows.outline(values[0]).difference(&windows.outline(values[1])),
         };
         let relative = if largest == 0.0 { 0.0 } else { largest / scale };
-        if relative > found.largest || relative.is_nan() {
-            found = Difference { largest: relative, quantity: other.name.clone() };
+        if relative.is_nan() {
+            return unknown;
+        }
+        if relative > found.largest {
+            found.largest = relative;
+            found.quantity.clone_from(&other.name);
+        }
+        if other.channel.is_some() {
+            found.of_motion = found.of_motion.max(relative);
         }
     }
-    if found.largest.is_nan() { unknown } else { found }
+    found
 }
 
 /// Difference that two records with a difference D before the time `start` are expected to reach until the time `end`, and the
@@ -238,23 +257,20 @@ pub(super) fn drift(
     measure: Measure,
     bounces: Bounces,
     [start, end]: [f64; 2],
-) -> (f64, String) {
+) -> Difference {
     let (measure, share) = match measure {
         Measure::Extremes if bounces.are_many() => (Measure::History, share_at_end(b, bounces.slowest)),
         _ => (measure, 1.0),
     };
-    let motion = |record: &Record| {
-        let own = record.quantities.iter().filter(|quantity| quantity.channel.is_some());
-        Record { time: record.time.clone(), quantities: own.cloned().collect() }
-    };
-    let (a, b) = (motion(a), motion(b));
+    let (a, b) = (a.motion(), b.motion());
     let until = |time: f64| {
         let count = b.time.partition_point(|t| *t <= time);
         difference(&b.with_start_of(&a, count), &b, measure, bounces)
     };
     let [half, whole] = [0.5 * start, start].map(until);
     let growth = (whole.largest - half.largest).max(0.0) / (0.5 * start) * (end - start).max(0.0);
-    (share * (whole.largest + growth), whole.quantity)
+    let largest = share * (whole.largest + growth);
+    Difference { largest, quantity: whole.quantity, of_motion: largest }
 }
 
 /// Largest change of the extremes of a record that a shift of its motion in time may cause, relative to the largest change
@@ -286,9 +302,41 @@ fn group_extremes(record: &Record, group: &str, count: usize) -> [f64; 2] {
     all.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]).unwrap_or_default()
 }
 
+/// Scale of the extremes of a group: the largest one of its quantities.
+fn group_scale(record: &Record, scales: &[f64], group: &str) -> f64 {
+    let own = record.quantities.iter().zip(scales).filter(|(quantity, _)| quantity.group == group);
+    own.fold(0.0, |most, (_, scale)| most.max(*scale))
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 /// Largest difference at equal times.
 fn pointwise([a, b]: [&[f64]; 2]) -> f64 {
     a.iter().zip(b).fold(0.0, |most, (a, b)| f64::max(most, (a - b).abs()))
+}
+
+/// Largest magnitude within `reach` samples of each sample. A queue holds the samples whose magnitude no later sample within
+/// reach exceeds, so that its first one has the largest.
+fn largest_within(values: &[f64], reach: usize) -> Vec<f64> {
+    let size = |at: usize| values[at].abs();
+    let mut queue: VecDeque<usize> = VecDeque::new();
+    let mut next = 0;
+    let mut largest_at = |i: usize| {
+        while next < values.len() && next <= i.saturating_add(reach) {
+            while queue.back().is_some_and(|last| size(*last) <= size(next)) {
+                queue.pop_back();
+            }
+            queue.push_back(next);
+            next += 1;
+        }
+        while queue.front().is_some_and(|first| first.saturating_add(reach) < i) {
+            queue.pop_front();
+        }
+        size(queue.front().copied().unwrap_or(i))
+    };
+    (0..values.len()).map(&mut largest_at).collect()
 }
 
 /// Windows of a record: ranges of samples, and the same ranges widened by one period.
@@ -327,7 +375,7 @@ impl Windows {
         let windows = self.own.iter().zip(&self.wide).map(|(own, wide)| Window {
             own: of(own),
             wide: of(wide),
-            mean: values[own.clone()].iter().sum::<f64>() / own.len() as f64,
+            mean: mean(&values[own.clone()]),
         });
         Outline {
             whole: own_extremes(values),
@@ -354,18 +402,23 @@ struct Window {
 }
 
 impl Outline {
-    /// Largest difference of extremes over the run, of the envelopes, and of the means.
+    /// Largest difference of extremes over the run, of the envelopes, and of the means; not a number where a value is none.
     fn difference(&self, other: &Outline) -> f64 {
         // maxima ignore what is not a number
         if !(self.is_finite && other.is_finite) {
             return f64::NAN;
         }
+        let means = self.windows.iter().zip(&other.windows).map(|(a, b)| (a.mean - b.mean).abs());
+        means.fold(self.difference_of_extremes(other), f64::max)
+    }
+
+    /// Largest difference of extremes over the run, and of the envelopes.
+    fn difference_of_extremes(&self, other: &Outline) -> f64 {
         let [a, b] = [self.whole, other.whole];
         let mut most = (a[0] - b[0]).abs().max((a[1] - b[1]).abs());
         for (a, b) in self.windows.iter().zip(&other.windows) {
             most = most.max(a.own[1] - b.wide[1]).max(b.own[1] - a.wide[1]);
             most = most.max(b.wide[0] - a.own[0]).max(a.wide[0] - b.own[0]);
-            most = most.max((a.mean - b.mean).abs());
         }
         most
     }
@@ -396,12 +449,27 @@ impl<'a> Outlined<'a> {
         self.scales[index]
     }
 
-    /// Difference of other values of quantity `index` from its own, relative to its scale: at most the largest difference of
-    /// two values at equal times.
-    pub fn difference(&self, index: usize, values: &[f64]) -> f64 {
-        let own =
-            self.outlines[index].get_or_init(|| self.windows.outline(&self.record.quantities[index].values));
-        let largest = self.windows.outline(values).difference(own);
+    /// Difference of quantity `index` from itself with the oscillation `lacking` added, whose phase is not known, relative to
+    /// its scale. With the amplitude A, the largest magnitude of the oscillation within `reach` samples of each, the extremes of
+    /// y become those of y + A or of y - A, and the means those of y + `lacking`: a change by no more than the largest magnitude.
+    /// Not a number where a value is none.
+    pub fn difference(&self, index: usize, lacking: &[f64], reach: usize) -> f64 {
+        let values = &self.record.quantities[index].values;
+        let own = self.outlines[index].get_or_init(|| self.windows.outline(values));
+        // maxima ignore what is not a number
+        if !own.is_finite || lacking.iter().any(|value| !value.is_finite()) {
+            return f64::NAN;
+        }
+        let means = self.windows.own.iter().map(|range| mean(&lacking[range.clone()]).abs());
+        let mut largest = means.fold(0.0, f64::max);
+        let amplitude = largest_within(lacking, reach);
+        let mut sum = vec![0.0; values.len()];
+        for sign in [-1.0, 1.0] {
+            for (sum, (value, by)) in sum.iter_mut().zip(values.iter().zip(&amplitude)) {
+                *sum = value + sign * by;
+            }
+            largest = largest.max(self.windows.outline(&sum).difference_of_extremes(own));
+        }
         if largest == 0.0 { 0.0 } else { largest / self.scales[index] }
     }
 }

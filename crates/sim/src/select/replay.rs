@@ -27,12 +27,13 @@ mod oscillator;
 mod wheels;
 
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 use splines::{Axis, Influence, Probe};
 
 use self::oscillator::{LoadAtEnds, Oscillator};
 use self::wheels::{CORNER, Interval, LoadedWheel, WheelInstant, loaded_wheels};
-use super::measure::{Bounces, Measure, Outlined, Record, RecordedQuantity, difference};
+use super::measure::{Bounces, Difference, Measure, Outlined, Record, RecordedQuantity, difference};
 use crate::{BodyDof, Channel, Dynamics, Error, Foundation, History, Scene, Structure};
 
 /// Numbers of modes that a foundation may have.
@@ -62,6 +63,15 @@ pub(super) struct TailError {
     pub error: f64,
     /// Name of that quantity.
     pub quantity: String,
+    /// Largest relative error of a motion, a wheel force or a gauge.
+    pub of_motion: f64,
+}
+
+impl TailError {
+    /// No error without all but the lowest `kept` modes.
+    pub fn none(kept: usize) -> Self {
+        TailError { kept, error: 0.0, quantity: String::new(), of_motion: 0.0 }
+    }
 }
 
 /// A run whose wheel forces act on the modes.
@@ -429,12 +439,15 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// The largest relative error for each number of modes kept: the difference of the record from itself with what it lacks
-    /// added. Reactions and internal forces, whose sums over the modes converge like 1/n, also lack those above all known
-    /// modes: the sum over all modes above k is N/(N - k) times that over the modes from k to N.
+    /// The largest relative error for each number of modes kept: the difference of the record from itself with what it
+    /// lacks added. Extremes are those with the amplitude of what is lacking: after some periods the phase of a high mode
+    /// is not that of a run that contains it. Reactions and internal forces, whose sums over the modes converge like 1/n,
+    /// also lack those above all known modes: the sum over all modes above k is N/(N - k) times that over the modes from
+    /// k to N.
     fn errors(self) -> Vec<TailError> {
         let Loaded { record, measure, bounces, .. } = *self.loaded;
         let known = self.oscillators.len() as f64;
+        let oscillators = self.oscillators;
         let slots: Vec<Slot> = (self.by_wheel.into_iter().flatten())
             .chain(self.drives.into_iter().map(|(_, slot)| slot))
             .chain(self.gauges.into_iter().map(|(_, slot)| slot))
@@ -444,32 +457,33 @@ impl<'a> Replay<'a> {
             let is_effect = record.quantities[slot.quantity].channel.is_none();
             if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 }
         };
-        // the largest of the errors of single quantities
-        let largest = |kept: usize, errors: &mut dyn Iterator<Item = (&Slot, f64)>| {
-            let mut found = TailError { kept, error: 0.0, quantity: String::new() };
-            for (slot, error) in errors {
-                if error > found.error || error.is_nan() {
-                    found.error = if error.is_nan() { f64::INFINITY } else { error };
-                    found.quantity.clone_from(&record.quantities[slot.quantity].name);
-                }
+        let is_motion = |slot: &Slot| record.quantities[slot.quantity].channel.is_some();
+        // adds the error of a quantity to those of others
+        let add = |found: &mut TailError, slot: &Slot, error: f64| {
+            let error = if error.is_nan() { f64::INFINITY } else { error };
+            if error > found.error {
+                found.error = error;
+                found.quantity.clone_from(&record.quantities[slot.quantity].name);
             }
-            found
+            if is_motion(slot) {
+                found.of_motion = found.of_motion.max(error);
+            }
         };
-        // adds what a quantity lacks to its values
+        // what a quantity lacks, at the times of the record
         let numbers = self.counts.len();
-        let complete = |slot: &Slot, (index, kept): (usize, usize), values: &mut [f64]| {
-            let (lacking, share) = (slot.series.iter().skip(index).step_by(numbers), beyond(slot, kept));
-            values.iter_mut().zip(lacking).for_each(|(value, own)| *value += share * f64::from(*own));
+        let lacking = |slot: &Slot, (index, kept): (usize, usize)| -> Vec<f64> {
+            let (own, share) = (slot.series.iter().skip(index).step_by(numbers), beyond(slot, kept));
+            own.map(|own| share * f64::from(*own)).collect()
         };
         let counts = self.counts.iter().copied().enumerate();
         if measure == Measure::History {
             let scales = record.scales();
             let pointwise = |(index, kept): (usize, usize)| {
-                let error = |slot: &Slot| match slot.largest[index] {
-                    0.0 => 0.0,
-                    most => beyond(slot, kept) * most / scales[slot.quantity],
-                };
-                largest(kept, &mut slots.iter().map(|slot| (slot, error(slot))))
+                let mut found = TailError::none(kept);
+                for slot in slots.iter().filter(|slot| slot.largest[index] != 0.0) {
+                    add(&mut found, slot, beyond(slot, kept) * slot.largest[index] / scales[slot.quantity]);
+                }
+                found
             };
             return counts.map(pointwise).collect();
         }
@@ -477,33 +491,33 @@ impl<'a> Replay<'a> {
             let together = |count: (usize, usize)| {
                 let mut completed = record.clone();
                 for slot in &slots {
-                    complete(slot, count, &mut completed.quantities[slot.quantity].values);
+                    let values = completed.quantities[slot.quantity].values.iter_mut();
+                    values.zip(lacking(slot, count)).for_each(|(value, own)| *value += own);
                 }
                 let apart = difference(&completed, record, measure, bounces);
-                TailError { kept: count.1, error: apart.largest, quantity: apart.quantity }
+                let Difference { largest: error, quantity, of_motion } = apart;
+                TailError { kept: count.1, error, quantity, of_motion }
             };
             return counts.map(together).collect();
         };
-        let mut values = Vec::new();
+        let duration = record.time.last().map_or(0.0, |end| end - record.time[0]);
         let each = |(index, kept): (usize, usize)| {
             // extremes change by no more than the values: quantities that lack little need no comparison
             let most = |slot: &Slot| beyond(slot, kept) * slot.largest[index] / outlined.scale(slot.quantity);
             let mut bounds: Vec<(f64, &Slot)> = slots.iter().map(|slot| (most(slot), slot)).collect();
             bounds.sort_by(|a, b| b.0.total_cmp(&a.0));
-            let mut known = 0.0;
-            largest(
-                kept,
-                &mut bounds.into_iter().map(|(bound, slot)| {
-                    if bound <= known {
-                        return (slot, 0.0);
-                    }
-                    values.clone_from(&record.quantities[slot.quantity].values);
-                    complete(slot, (index, kept), &mut values);
-                    let error = outlined.difference(slot.quantity, &values);
-                    known = error.max(known);
-                    (slot, error)
-                }),
-            )
+            // half a period of the lowest mode that is lacking contains a peak of any oscillation of these modes
+            let quarter = 0.5 * PI / oscillators[kept].omega;
+            let reach = (quarter / duration * record.time.len() as f64).ceil() as usize;
+            let mut found = TailError::none(kept);
+            for (bound, slot) in bounds {
+                if bound <= if is_motion(slot) { found.of_motion } else { found.error } {
+                    continue;
+                }
+                let lacking = lacking(slot, (index, kept));
+                add(&mut found, slot, outlined.difference(slot.quantity, &lacking, reach));
+            }
+            found
         };
         counts.map(each).collect()
     }

@@ -118,6 +118,8 @@ pub enum TrialCheck {
     Run(Fidelity),
     /// The start of the run was compared with one with finer steps, at the same or another fidelity.
     Start(Fidelity),
+    /// The motions of the whole run were compared with those of one with longer steps at another fidelity.
+    Whole(Fidelity),
 }
 
 /// A fidelity that was run, with its estimated error.
