@@ -57,6 +57,8 @@ pub(crate) struct Traits {
     /// Whether a structure consists of rigid parts that transfer wheels to one another, with one contact force per
     /// part.
     pub has_parts: bool,
+    /// Whether the x of some body is prescribed, so that the slopes of the rails have a power.
+    pub has_motions: bool,
     /// Whether vertical contacts are the only elements.
     pub is_vertical: bool,
     /// Whether every vertical law is linear.
@@ -201,7 +203,8 @@ fn first_wheel(mechanics: &Mechanics, element: &ForceElement) -> Option<usize> {
 }
 
 /// Degrees of freedom from the first to the last on which the row of element `i` depends: those of its body, the spins of
-/// the body's wheels, and those of the structures on which it has probes.
+/// the body's wheels, and those of the structures on which it has probes; a multiple of four of them where there are as many,
+/// because products are formed four entries at a time.
 fn row_span(mechanics: &Mechanics, elements: &[ForceElement], probes: &Probes, i: usize) -> Range<usize> {
     let Some(body) = elements[i].body(mechanics) else { return 0..mechanics.dofs };
     let own = mechanics.kinematics.terms(body).iter().flatten().map(|&(number, _)| number);
@@ -213,7 +216,9 @@ fn row_span(mechanics: &Mechanics, elements: &[ForceElement], probes: &Probes, i
         let known = known.unwrap_or(number..number + 1);
         Some(known.start.min(number)..known.end.max(number + 1))
     };
-    numbers.fold(None, hull).unwrap_or(0..0)
+    let Range { start, end } = numbers.fold(None, hull).unwrap_or(0..0);
+    let fours = start + (end - start).next_multiple_of(4);
+    start..if fours <= mechanics.dofs { fours } else { end }
 }
 
 /// Lists the probes of all elements.
@@ -321,6 +326,7 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
         is_uneven,
         has_constant_rows,
         has_parts: mechanics.foundations.iter().any(|foundation| foundation.parts.is_some()),
+        has_motions: scene.bodies.iter().any(|body| body.motion.is_some()),
         is_vertical,
         has_linear_laws,
         has_memory: laws().any(NormalLaw::has_memory),

@@ -26,7 +26,7 @@ const TOUCH_WIDTH: f64 = 1e-4;
 
 /// Error of the forces, relative to the largest, in the states at which a touch is sought. It moves a flange beside its rail
 /// by as much of the deflection, which is far less than what the flange moves in the tolerance of the position.
-const TOUCH_SLACK: f64 = 1e-8;
+const TOUCH_SLACK: f64 = 1e-6;
 
 /// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
