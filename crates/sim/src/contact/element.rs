@@ -39,7 +39,8 @@ pub(crate) trait Element {
     /// Adds the part of its row that depends on positions and time; the shapes of the rail are added afterwards.
     fn update_row(&self, _at: &Where, _row: &mut RowMut, _local: &mut Local) {}
 
-    /// Whether [`Element::update_row`] adds to the rows of approach and rate, which then begin with their constant parts.
+    /// Whether [`Element::update_row`] adds to the rows of approach and rate, which then begin with their constant
+    /// parts.
     fn row_changes(&self) -> [bool; 2] {
         [false; 2]
     }
@@ -55,8 +56,8 @@ pub(crate) trait Element {
         Vec::new()
     }
 
-    /// The body on whose displacements alone its row depends, beside the spins of its wheels and the modes of its structures;
-    /// `None` if it acts between two points.
+    /// The body on whose displacements alone its row depends, beside the spins of its wheels and the modes of its
+    /// structures; `None` if it acts between two points.
     fn body(&self, _mechanics: &Mechanics) -> Option<usize> {
         None
     }

@@ -279,7 +279,11 @@ impl Geometry {
         let at = Where { mechanics, t, q, places, switches, is_uneven };
         let has_structures = mechanics.has_structures();
         for &i in elements.list() {
-            rows.reset(i, &self.constant, system.fixed[i].row_changes.map(|changes| changes || has_structures));
+            rows.reset(
+                i,
+                &self.constant,
+                system.fixed[i].row_changes.map(|changes| changes || has_structures),
+            );
             system.elements[i].update_row(&at, &mut rows.row_mut(i), &mut local[i]);
         }
         if has_structures {
@@ -445,10 +449,11 @@ impl Geometry {
         self.drift.change[i]
     }
 
-    /// How well the data at the displacements `before` serve at `now`, at the same time. All data change by a part of the
-    /// order of dq/L, with the lengths L of rail elements, irregularities and ropes, times the displacements of the bodies
-    /// alone: rows are linear in those of structures. A change dh of the height of a wheel changes the approach of its
-    /// flange by dh times its roll, and the sliding velocity of a spinning wheel by dh times its spin.
+    /// How well the data at the displacements `before` serve at `now`, at the same time. All data change by a part of
+    /// the order of dq/L, with the lengths L of rail elements, irregularities and ropes, times the displacements of
+    /// the bodies alone: rows are linear in those of structures. A change dh of the height of a wheel changes the
+    /// approach of its flange by dh times its roll, and the sliding velocity of a spinning wheel by dh times its
+    /// spin.
     pub fn nearness(&self, system: &System, before: &DVector<f64>, now: &DVector<f64>) -> Nearness {
         if !system.traits.has_symmetric_rails {
             return Nearness::Far;
@@ -476,8 +481,8 @@ impl Geometry {
         }
     }
 
-    /// Updates the rows of the forces of `elements` to the displacements `q` and the forces `force`, at the positions of the
-    /// last update.
+    /// Updates the rows of the forces of `elements` to the displacements `q` and the forces `force`, at the positions
+    /// of the last update.
     pub fn turn_forces(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
         if !system.traits.has_constant_rows {
             self.update_force_rows(system, q, force, elements);

@@ -1,4 +1,7 @@
 //! The compliance of the rails between force elements.
+//!
+//! Elements on different structures do not deflect the rails of one another, and those on no compliant structure deflect
+//! none. The rows of the matrices are over all elements, and products use the span of those that can differ from zero.
 
 use std::ops::Range;
 
@@ -15,16 +18,16 @@ pub(crate) struct RailMatrices {
     /// Derivative of G(i, j) with respect to the position of each tangential contact of element i, over elements j.
     pub tangential: Vec<f64>,
     elements: usize,
-    /// Columns of each row, from the first to the last element of its structures, outside of which its entries are zero; none
-    /// where no compliant structure bears the element.
+    /// Columns of each row, from the first to the last element of its structures, outside of which its entries are
+    /// zero; none where no compliant structure bears the element.
     spans: Vec<Range<usize>>,
     /// The same of the rows of tangential contacts.
     tangential_spans: Vec<Range<usize>>,
 }
 
 impl RailMatrices {
-    /// Matrices of zeros for `elements` elements with `probes` on structures, of which those comply for which `complies`
-    /// returns true.
+    /// Matrices of zeros for `elements` elements with `probes` on structures, of which those comply for which
+    /// `complies` returns true.
     pub fn zeros(elements: usize, probes: &Probes, complies: impl Fn(usize) -> bool) -> Self {
         let tangential = probes.tangential.len();
         let mut spans = vec![0..0; elements];

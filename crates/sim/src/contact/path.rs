@@ -77,16 +77,16 @@ pub(crate) struct CompliancePath {
     /// Distance between the nodes for each group, and the distance of each group from the path at the latest position.
     length: Vec<f64>,
     offset: Vec<f64>,
-    /// Columns of the matrices from the first to the last of the elements. The rows of what follows are over these, four at a
-    /// time, filled up with zeros; `width` is the number of times.
+    /// Columns of the matrices from the first to the last of the elements. The rows of what follows are over these,
+    /// four at a time, filled up with zeros; `width` is the number of times.
     columns: Range<usize>,
     width: usize,
     /// G between elements, row by row.
     values: Vec<Polynomials<4>>,
     /// Derivatives of G between groups and elements with respect to the position of the group, row by row.
     slopes: Vec<Polynomials<3>>,
-    /// Scratch: places of the elements that are wanted among those of the path, one row, and for each element the derivatives
-    /// of its groups times their distances from the path.
+    /// Scratch: places of the elements that are wanted among those of the path, one row, and for each element the
+    /// derivatives of its groups times their distances from the path.
     wanted: Vec<usize>,
     line: Vec<[f64; 4]>,
     beside: Vec<[f64; 4]>,
@@ -250,8 +250,8 @@ impl CompliancePath {
         Ok(())
     }
 
-    /// Sets the polynomials of all pairs of groups, summed over the groups of an element: of both for values, of the second
-    /// for slopes.
+    /// Sets the polynomials of all pairs of groups, summed over the groups of an element: of both for values, of the
+    /// second for slopes.
     fn fit(&mut self) {
         let CompliancePath {
             elements,
@@ -316,8 +316,8 @@ impl CompliancePath {
     /// between them and other elements are not needed. Returns false if the path is not set or a wheel is farther than
     /// `reach` from it.
     ///
-    /// At the distances d of the groups from the path, the value of a pair is G(i, j) + B(i, j) + B(j, i), where B(i, j) is
-    /// the sum of dG(g, j)/dx_g d_g over the groups g of element i.
+    /// At the distances d of the groups from the path, the value of a pair is G(i, j) + B(i, j) + B(j, i), where B(i,
+    /// j) is the sum of dG(g, j)/dx_g d_g over the groups g of element i.
     pub fn follow(
         &mut self,
         places: &[f64],
@@ -340,23 +340,20 @@ impl CompliancePath {
         let span = |row: usize| row * m + columns.start..row * m + columns.end;
         for &i in &*wanted {
             let beside = &mut beside[i * *width..(i + 1) * *width];
+            beside.fill([0.0; 4]);
             for (number, group) in groups_of[i].clone().enumerate() {
                 let (terms, offset) = (&slopes[group * *width..(group + 1) * *width], offset[group]);
-                for (slopes, [p, q, r]) in line.iter_mut().zip(terms) {
-                    *slopes = std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k]));
-                }
-                let (by_group, rates) = (&line.as_flattened()[..columns.len()], &mut slope[span(own[i])]);
+                let rates = &mut slope[span(own[i])];
                 if number == 0 {
-                    rates.copy_from_slice(by_group);
-                    beside.iter_mut().zip(&*line).for_each(|(sum, slopes)| *sum = slopes.map(|x| offset * x));
-                } else {
-                    rates.iter_mut().zip(by_group).for_each(|(sum, slope)| *sum += slope);
-                    for (sum, slopes) in beside.iter_mut().zip(&*line) {
-                        *sum = std::array::from_fn(|k| sum[k] + offset * slopes[k]);
-                    }
+                    rates.fill(0.0);
                 }
+                add_slopes(terms, s, rates, |four, slopes| {
+                    beside[four] = std::array::from_fn(|k| beside[four][k] + offset * slopes[k]);
+                });
                 if let Some(contact) = groups[group].tangential {
-                    tangential[span(contact)].copy_from_slice(by_group);
+                    let rates = &mut tangential[span(contact)];
+                    rates.fill(0.0);
+                    add_slopes(terms, s, rates, |_, _| {});
                 }
             }
         }
@@ -377,6 +374,25 @@ impl CompliancePath {
             }
         }
         true
+    }
+}
+
+/// Adds the values at `s` of a row of polynomials to `sums`, four at a time, each four of which `each` receives with its
+/// number. They go to their place from registers: a copy would wait for them to be stored.
+#[inline]
+fn add_slopes(terms: &[Polynomials<3>], s: f64, sums: &mut [f64], mut each: impl FnMut(usize, [f64; 4])) {
+    let at =
+        |[p, q, r]: &Polynomials<3>| -> [f64; 4] { std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k])) };
+    let (fours, rest) = sums.as_chunks_mut::<4>();
+    for (four, (sums, terms)) in fours.iter_mut().zip(terms).enumerate() {
+        let slopes = at(terms);
+        *sums = std::array::from_fn(|k| sums[k] + slopes[k]);
+        each(four, slopes);
+    }
+    if let Some(terms) = terms.get(fours.len()) {
+        let slopes = at(terms);
+        rest.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope);
+        each(fours.len(), slopes);
     }
 }
 

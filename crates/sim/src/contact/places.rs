@@ -65,8 +65,8 @@ impl Places {
         mechanics.coordinates[w].constant + self.motion_of_wheel(mechanics, w, q)
     }
 
-    /// The part of the rail coordinate of wheel `w` that depends on time and degrees of freedom. It is the same for all wheels
-    /// of a contact.
+    /// The part of the rail coordinate of wheel `w` that depends on time and degrees of freedom. It is the same for
+    /// all wheels of a contact.
     fn motion_of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
         let coordinate = &mechanics.coordinates[w];
         let travel = coordinate.driven.map_or(0.0, |root| self.travel[root].x);

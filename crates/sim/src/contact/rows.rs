@@ -55,8 +55,8 @@ impl Rows {
         }
     }
 
-    /// Copies the offset of the approach of element `i` from `constant`, and approach and rate where they have changed; sets
-    /// its `rise` to zero.
+    /// Copies the offset of the approach of element `i` from `constant`, and approach and rate where they have
+    /// changed; sets its `rise` to zero.
     #[inline]
     pub fn reset(&mut self, i: usize, constant: &Rows, [approach_has_changed, rate_has_changed]: [bool; 2]) {
         let span = self.span(i);

@@ -202,9 +202,9 @@ fn first_wheel(mechanics: &Mechanics, element: &ForceElement) -> Option<usize> {
     })
 }
 
-/// Degrees of freedom from the first to the last on which the row of element `i` depends: those of its body, the spins of
-/// the body's wheels, and those of the structures on which it has probes; a multiple of four of them where there are as many,
-/// because products are formed four entries at a time.
+/// Degrees of freedom from the first to the last on which the row of element `i` depends: those of its body, the
+/// spins of the body's wheels, and those of the structures on which it has probes; a multiple of four of them where
+/// there are as many, because products are formed four entries at a time.
 fn row_span(mechanics: &Mechanics, elements: &[ForceElement], probes: &Probes, i: usize) -> Range<usize> {
     let Some(body) = elements[i].body(mechanics) else { return 0..mechanics.dofs };
     let own = mechanics.kinematics.terms(body).iter().flatten().map(|&(number, _)| number);

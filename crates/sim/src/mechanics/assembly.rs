@@ -147,8 +147,8 @@ impl<'a> Mechanics<'a> {
         self.of_contact[self.wheels[wheel].contact].clone()
     }
 
-    /// Whether wheel `w` belongs to the contact of the wheel before it: the wheels of one contact are of one kind and move
-    /// together.
+    /// Whether wheel `w` belongs to the contact of the wheel before it: the wheels of one contact are of one kind and
+    /// move together.
     #[inline]
     pub fn follows_in_contact(&self, w: usize) -> bool {
         w > 0 && self.wheels[w].contact == self.wheels[w - 1].contact

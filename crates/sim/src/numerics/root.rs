@@ -50,13 +50,13 @@ const SECANTS: usize = 8;
 /// Part of the width to which the estimates of [`behind`] must agree.
 const AGREEMENT: f64 = 0.1;
 
-/// A place behind the sign change of a smooth `f` in [0, 1], by half of `width` but for the error of the estimate of the root.
-/// `ends` are the values of `f` at 0 and 1, which have different signs.
+/// A place behind the sign change of a smooth `f` in [0, 1], by half of `width` but for the error of the estimate of
+/// the root. `ends` are the values of `f` at 0 and 1, which have different signs.
 ///
-/// Each secant leads through the last two places, or through both ends of the bracket where it would leave this. Its root is
-/// accepted where it differs from the last place by a tenth of the width, as the next secant would differ by far less. The
-/// bracket need not be narrow, which takes a third of the evaluations of [`narrow`]; that is used where the secants do not
-/// agree, or `f` returns `None`.
+/// Each secant leads through the last two places, or through both ends of the bracket where it would leave this. Its
+/// root is accepted where it differs from the last place by a tenth of the width, as the next secant would differ by
+/// far less. The bracket need not be narrow, which takes a third of the evaluations of [`narrow`]; that is used where
+/// the secants do not agree, or `f` returns `None`.
 pub(crate) fn behind(ends: [f64; 2], width: f64, mut f: impl FnMut(f64) -> Option<f64>) -> f64 {
     let sign = ends[1].signum();
     let [mut low, mut high] = [(0.0, sign * ends[0]), (1.0, sign * ends[1])];

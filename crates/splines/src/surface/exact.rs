@@ -128,25 +128,26 @@ impl ExactSurface {
             self.rails.row_into(*p, &mut rows[i])?;
             order[i] = i;
         }
-        // Probes of one element and direction have the same degrees of freedom: one block of C serves all their loads.
+        // Probes of one element and direction have the same degrees of freedom: one product C N(q) serves
+        // them all.
         let block = |row: &ShapeRow| (row.element, row.axis);
         if !rows.is_sorted_by_key(block) {
             order.sort_unstable_by_key(|&i| block(&rows[i]));
         }
-        let is_same = |i: &usize, j: &usize| block(&rows[*i]) == block(&rows[*j]);
-        let mut nodes = NodalBlock::default();
-        for loads in order.chunk_by(is_same) {
-            for places in order.chunk_by(is_same) {
-                nodes.gather(nodal, size, [places[0], loads[0]].map(|i| rows[i].index_chunks()));
-                for &j in loads {
-                    let moved = nodes.product(rows[j].chunks()[0]);
-                    for &i in places {
-                        let [values, slopes] = rows[i].chunks();
-                        slope[i + n * j] = dot_chunks(slopes, &moved);
-                        if i >= j {
-                            value[i + n * j] = dot_chunks(values, &moved);
-                        }
-                    }
+        for j in 0..n {
+            let load = &rows[j];
+            let mut last = None;
+            let mut moved = [[0.0; 4]; 3];
+            for &i in order.iter() {
+                let row = &rows[i];
+                if last != Some(block(row)) {
+                    last = Some(block(row));
+                    moved = product(nodal, size, row.index_chunks(), load.index_chunks(), load.chunks()[0]);
+                }
+                let [values, slopes] = row.chunks();
+                slope[i + n * j] = dot_chunks(slopes, &moved);
+                if i >= j {
+                    value[i + n * j] = dot_chunks(values, &moved);
                 }
             }
         }
@@ -239,43 +240,27 @@ impl ExactSurface {
     }
 }
 
-/// The nodal compliance between the degrees of freedom of two rows, four by four: those of the row by lines, those of the
-/// load by columns of each line.
-#[derive(Default)]
-struct NodalBlock {
-    fours: [[[[f64; 4]; 4]; 3]; 3],
-    /// Number of fours of the row.
-    lines: usize,
-}
-
-impl NodalBlock {
-    /// Takes the entries at the degrees of freedom `row` and `load`.
-    #[inline]
-    fn gather(&mut self, nodal: &[f64], size: usize, [row, load]: [&[[usize; 4]]; 2]) {
-        self.lines = row.len();
-        for (line, places) in self.fours.iter_mut().zip(row) {
-            for (four, dofs) in line.iter_mut().zip(load) {
-                *four = dofs.map(|dof| {
-                    let column = &nodal[dof * size..(dof + 1) * size];
-                    places.map(|place| column[place])
-                });
-            }
+/// C N(q)^T at the degrees of freedom `row`, from those of the load and its shape functions, four at a time.
+#[inline]
+fn product(
+    nodal: &[f64],
+    size: usize,
+    row: &[[usize; 4]],
+    load: &[[usize; 4]],
+    shapes: &[[f64; 4]],
+) -> [[f64; 4]; 3] {
+    let mut out = [[0.0; 4]; 3];
+    for (dofs, s) in load.iter().zip(shapes) {
+        let [a, b, c, d] = dofs.map(|dof| &nodal[dof * size..(dof + 1) * size]);
+        for (sum, places) in out.iter_mut().zip(row) {
+            let moved: [f64; 4] = std::array::from_fn(|k| {
+                let k = places[k];
+                (s[0] * a[k] + s[1] * b[k]) + (s[2] * c[k] + s[3] * d[k])
+            });
+            *sum = std::array::from_fn(|k| sum[k] + moved[k]);
         }
     }
-
-    /// C N(q)^T at the degrees of freedom of the row, from the shape functions of the load.
-    #[inline]
-    fn product(&self, shapes: &[[f64; 4]]) -> [[f64; 4]; 3] {
-        let mut out = [[0.0; 4]; 3];
-        for (sum, line) in out.iter_mut().zip(&self.fours[..self.lines]) {
-            for ([a, b, c, d], s) in line.iter().zip(shapes) {
-                *sum = std::array::from_fn(|k| {
-                    sum[k] + ((s[0] * a[k] + s[1] * b[k]) + (s[2] * c[k] + s[3] * d[k]))
-                });
-            }
-        }
-        out
-    }
+    out
 }
 
 /// Scalar product, four entries at a time.
@@ -357,9 +342,8 @@ impl Differentiable for ExactSurface {
         let (a, a2) = self.rails.row_with_second_derivatives(p)?;
         let (b, b2) = self.rails.row_with_second_derivatives(q)?;
         let ([a0, a1], [b0, b1]) = (a.chunks(), b.chunks());
-        let mut nodes = NodalBlock::default();
-        nodes.gather(nodal, size, [a.index_chunks(), b.index_chunks()]);
-        let moved = [b0, b1, &b2[..b0.len()]].map(|shapes| nodes.product(shapes));
+        let moved = [b0, b1, &b2[..b0.len()]]
+            .map(|shapes| product(nodal, size, a.index_chunks(), b.index_chunks(), shapes));
         let a2 = &a2[..a0.len()];
         let mut out = Partials {
             value: dot_chunks(a0, &moved[0]),

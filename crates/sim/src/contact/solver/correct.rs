@@ -7,9 +7,9 @@
 //! a <- a - Z r_a,   dF = -J^-1 r_F,   F <- F + dF,   a <- a - Z B^T dF.
 //!
 //! A correction reduces the error by a factor of the order of the change of the matrices since they were factored. It
-//! costs a few matrix-vector products. The geometry is evaluated in the first correction of a stage, and again only if the
-//! bodies have moved by more than the tolerance distance of [`Geometry::nearness`]: from one correction to the next they move
-//! by some 1e-9 of the radius of a wheel.
+//! costs a few matrix-vector products. The geometry is evaluated in the first correction of a stage, and again only
+//! where [`Geometry::nearness`] says that the bodies have moved far: from one correction to the next they move by some
+//! 1e-9 of the radius of a wheel. Where they are close, the rows of the forces alone follow the slopes of the rails.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: simplified Newton iterations.
