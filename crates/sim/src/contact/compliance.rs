@@ -58,7 +58,9 @@ impl RailCompliance {
             is_evaluated: false,
         });
         RailCompliance {
-            matrices: RailMatrices::zeros(elements, probes.tangential.len()),
+            matrices: RailMatrices::zeros(elements, probes, |s| {
+                mechanics.foundations[s].compliance.is_some()
+            }),
             providers: providers.collect(),
             near: 0.0,
             reach: 0.0,
@@ -72,10 +74,8 @@ impl RailCompliance {
     }
 
     /// Replaces the values of G; its slopes are unchanged.
-    pub fn set_value(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>, elements: usize) {
-        for (row, values) in self.matrices.value.chunks_exact_mut(elements).zip(rows) {
-            row.copy_from_slice(&values.as_ref()[..elements]);
-        }
+    pub fn set_value(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>) {
+        self.matrices.set_value(rows);
     }
 
     /// Sets the tolerance distances of extrapolation for steps with the relative error `tolerance`; `radius` is the
@@ -206,7 +206,7 @@ impl Provider {
 
     /// Sums the compliance over the probes of each element, extrapolated by the slopes: G + dG/dx dx.
     fn extrapolate(&self, entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
-        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
+        let RailMatrices { value: sums, slope: rates, tangential, .. } = matrices;
         for row in entries {
             sums[row.element * m..(row.element + 1) * m].fill(0.0);
             rates[row.element * m..(row.element + 1) * m].fill(0.0);
