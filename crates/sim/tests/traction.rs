@@ -9,8 +9,8 @@ use std::ops::ControlFlow;
 use common::kutta::{Kernel, rk4, sled};
 use common::{GRAVITY, bogie};
 use sim::{
-    BodyDof, Brake, Channel, Damper, Drive, Foundation, Friction, FrictionLaw, Gauge, Run, Scene, Schedule,
-    Status,
+    BodyDof, Brake, Channel, Contact, Damper, Drive, Foundation, Friction, FrictionLaw, Gauge, Run, Scene,
+    Schedule, Status,
 };
 use splines::{Axis, Probe};
 
@@ -231,4 +231,48 @@ fn drive_pushes_its_rail_backwards_and_follows_the_speed_against_it() {
     close("speed, rail with mass", last(&found, V), v, 1e-6);
     close("rail with mass", last(&found, Channel::Gauge(0)), u, 1e-7);
     assert!(found.audit.residual() < 1e-6, "{:e}", found.audit.residual());
+}
+
+/// Identity: two girders that share nothing are the same as one structure whose two rails do not deflect each other.
+#[test]
+fn drive_on_two_structures_feels_the_rails_of_both() {
+    let kernel = || {
+        let of = |p: Probe, q: Probe| {
+            let (give, along) = (1.0 / K, p.axis == Axis::Longitudinal);
+            if p.axis != q.axis || p.rail != q.rail || p.axis == Axis::Lateral {
+                return [0.0; 2];
+            }
+            if along { [give * (1.0 + 0.3 * p.x * q.x), 0.3 * give * q.x] } else { [1e-5, 0.0] }
+        };
+        Foundation { is_loaded_along: true, ..Foundation::massless(Box::new(Kernel(of)), 2) }
+    };
+    let mut scene = free(0.5);
+    scene.bodies[0].start_speed[0] = 0.0;
+    scene.wheels[0].friction = None;
+    scene.contacts.push(Contact { rail: 1, ..Contact::new(0, [1.5, 0.0, 0.0]) });
+    scene.contacts[1].at[1] = scene.contacts[0].at[1];
+    scene.actuators.drives = vec![Drive {
+        body: 0,
+        speed: Schedule::new(&[[0.0, SPEED]]).expect("a row"),
+        gain: 60.0,
+        max_force: f64::INFINITY,
+        contacts: vec![0, 1],
+        until: f64::INFINITY,
+    }];
+    let channels = [V, Channel::Drive(0), Channel::Displacement(0, BodyDof::Y)];
+    let of = |scene: &Scene, foundations: &[Foundation]| {
+        let run = sim::run(scene, foundations, &mut |_| ControlFlow::Continue(())).expect("a valid scene");
+        assert_eq!(run.status, Status::Done);
+        assert!(run.audit.residual() < 1e-6, "{:e}", run.audit.residual());
+        channels.map(|channel| run.history.column(channel))
+    };
+    let one = of(&scene, &[kernel()]);
+    scene.contacts[1].structure = 1;
+    let two = of(&scene, &[kernel(), kernel()]);
+    for (one, two) in one.iter().zip(&two) {
+        let most = one.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
+        let apart = one.iter().zip(two).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
+        println!("apart {:.1e}", apart / most);
+        assert!(apart < 1e-7 * most, "{apart} of {most}");
+    }
 }

@@ -38,12 +38,12 @@ impl Element for BrakeForce<'_> {
         *row.rate_offset = -0.0;
     }
 
-    fn row_changes(&self) -> bool {
-        false
-    }
-
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         self.grip.probes()
+    }
+
+    fn body(&self, _: &Mechanics) -> Option<usize> {
+        Some(self.brake.body)
     }
 
     fn is_tangential(&self) -> bool {

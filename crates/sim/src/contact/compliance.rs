@@ -4,6 +4,9 @@
 //! are near it, G is interpolated along it ([`CompliancePath`]). 2. If every wheel is within a tolerance distance of
 //! its position at the last evaluation, G is extrapolated by its slope, G + dG/dx dx. 3. Otherwise G is evaluated.
 //! Both tolerance distances are zero until an accuracy is set.
+//!
+//! A drive or a brake may act on several structures that are loaded along their rails. Its row of G is then the sum of what
+//! each of them contributes: these structures are extrapolated or evaluated together, and have no path.
 
 use splines::{Influence, Probe};
 
@@ -27,6 +30,8 @@ const BESIDE: f64 = 1e-3;
 pub(crate) struct RailCompliance {
     matrices: RailMatrices,
     providers: Vec<Provider>,
+    /// Whether some element acts on several compliant structures.
+    has_shared_rows: bool,
     /// Largest distance from the last evaluation, in wheel radii, for which G is extrapolated.
     near: f64,
     /// Largest distance of a wheel from the path for which G is extrapolated.
@@ -48,18 +53,26 @@ struct Provider {
 
 impl RailCompliance {
     pub fn new(mechanics: &Mechanics, probes: &Probes, elements: usize) -> Self {
+        let complies = |s: usize| mechanics.foundations[s].compliance.is_some();
+        let mut structures_of = vec![Vec::new(); elements];
+        for (s, entries) in probes.entries.iter().enumerate().filter(|(s, _)| complies(*s)) {
+            entries.iter().for_each(|entry| structures_of[entry.element].push(s));
+        }
+        structures_of.iter_mut().for_each(Vec::dedup);
+        let has_shared_rows = structures_of.iter().any(|structures| structures.len() > 1);
         let own = std::iter::zip(mechanics.foundations, &probes.entries);
         let providers = own.map(|(foundation, entries)| Provider {
             influence: Influence::zeros(entries.len()),
             probes: entries.iter().map(|entry| entry.probe).collect(),
             moved: vec![0.0; entries.len()],
-            path: CompliancePath::new(mechanics, foundation, entries),
+            path: if has_shared_rows { None } else { CompliancePath::new(mechanics, foundation, entries) },
             is_on_path: false,
             is_evaluated: false,
         });
         RailCompliance {
-            matrices: RailMatrices::zeros(elements, probes.tangential.len()),
+            matrices: RailMatrices::zeros(elements, probes, complies),
             providers: providers.collect(),
+            has_shared_rows,
             near: 0.0,
             reach: 0.0,
         }
@@ -72,10 +85,8 @@ impl RailCompliance {
     }
 
     /// Replaces the values of G; its slopes are unchanged.
-    pub fn set_value(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>, elements: usize) {
-        for (row, values) in self.matrices.value.chunks_exact_mut(elements).zip(rows) {
-            row.copy_from_slice(&values.as_ref()[..elements]);
-        }
+    pub fn set_value(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>) {
+        self.matrices.set_value(rows);
     }
 
     /// Sets the tolerance distances of extrapolation for steps with the relative error `tolerance`; `radius` is the
@@ -103,7 +114,8 @@ impl RailCompliance {
         elements: &Candidates,
     ) -> Result<(), Error> {
         let m = probes.slots.len();
-        let RailCompliance { matrices, providers, near, reach } = self;
+        let RailCompliance { matrices, providers, has_shared_rows, near, reach } = self;
+        let mut is_incomplete = false;
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
             let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
             if let Some(path) = &mut provider.path
@@ -115,8 +127,11 @@ impl RailCompliance {
             let (farthest, has_changed) = provider.move_to(mechanics, entries, x);
             let allowed = if compliance.is_symmetric() { *near } else { 0.0 };
             if provider.is_evaluated && farthest <= allowed {
-                if has_changed {
-                    provider.extrapolate(entries, m, matrices);
+                if has_changed && *has_shared_rows {
+                    is_incomplete = true;
+                } else if has_changed {
+                    clear(entries, m, matrices);
+                    provider.add_extrapolated(entries, m, matrices);
                 }
                 continue;
             }
@@ -128,12 +143,22 @@ impl RailCompliance {
                 .fill(&provider.probes, &mut provider.influence)
                 .map_err(|source| Error::Compliance { structure: s, source })?;
             provider.is_evaluated = true;
+            if *has_shared_rows {
+                is_incomplete = true;
+                continue;
+            }
             if probes.is_direct[s] {
                 transpose(provider.influence.value.as_slice(), &mut matrices.value, m);
                 transpose(provider.influence.slope.as_slice(), &mut matrices.slope, m);
                 continue;
             }
-            provider.extrapolate(entries, m, matrices);
+            clear(entries, m, matrices);
+            provider.add_extrapolated(entries, m, matrices);
+        }
+        if is_incomplete {
+            let evaluated = || providers.iter().zip(&probes.entries).filter(|(own, _)| own.is_evaluated);
+            evaluated().for_each(|(_, entries)| clear(entries, m, matrices));
+            evaluated().for_each(|(own, entries)| own.add_extrapolated(entries, m, matrices));
         }
         Ok(())
     }
@@ -204,16 +229,9 @@ impl Provider {
         (farthest, has_changed)
     }
 
-    /// Sums the compliance over the probes of each element, extrapolated by the slopes: G + dG/dx dx.
-    fn extrapolate(&self, entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
-        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
-        for row in entries {
-            sums[row.element * m..(row.element + 1) * m].fill(0.0);
-            rates[row.element * m..(row.element + 1) * m].fill(0.0);
-            if let Some(own) = row.tangential {
-                tangential[own * m..(own + 1) * m].fill(0.0);
-            }
-        }
+    /// Adds the compliance between the probes of each two elements, extrapolated by the slopes: G + dG/dx dx.
+    fn add_extrapolated(&self, entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
+        let RailMatrices { value: sums, slope: rates, tangential, .. } = matrices;
         let (count, moved) = (entries.len(), &self.moved);
         let (values, slopes) = (self.influence.value.as_slice(), self.influence.slope.as_slice());
         for (i, row) in entries.iter().enumerate() {
@@ -231,6 +249,18 @@ impl Provider {
                     tangential[own * m + column.element] += weight * slope;
                 }
             }
+        }
+    }
+}
+
+/// Sets the rows of the elements of a structure to zero.
+fn clear(entries: &[Entry], m: usize, matrices: &mut RailMatrices) {
+    let RailMatrices { value, slope, tangential, .. } = matrices;
+    for row in entries {
+        value[row.element * m..(row.element + 1) * m].fill(0.0);
+        slope[row.element * m..(row.element + 1) * m].fill(0.0);
+        if let Some(own) = row.tangential {
+            tangential[own * m..(own + 1) * m].fill(0.0);
         }
     }
 }

@@ -84,6 +84,7 @@ impl Convergence {
     }
 
     /// Changes `dq` and `dv` of degree of freedom `k` relative to its scales; `q` and `v` are its new values.
+    #[inline]
     pub fn weigh(&self, k: usize, [dq, dv]: [f64; 2], [q, v]: [f64; 2]) -> f64 {
         self.scales.as_ref().map_or(0.0, |[scale, rate_scale]| {
             let by_place = dq / scale[k].max(q.abs());

@@ -56,12 +56,12 @@ impl Element for DriveForce<'_> {
         *row.rate_offset = -reference.unwrap_or(0.0);
     }
 
-    fn row_changes(&self) -> bool {
-        false
-    }
-
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         self.grip.probes()
+    }
+
+    fn body(&self, _: &Mechanics) -> Option<usize> {
+        Some(self.drive.body)
     }
 
     fn is_tangential(&self) -> bool {

@@ -27,7 +27,6 @@ use crate::Channel;
 use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::point::PointPair;
 use crate::mechanics::state::State;
-use crate::numerics::dense::along;
 use crate::scene::irregularity::ShapeCell;
 
 /// A force element.
@@ -40,9 +39,10 @@ pub(crate) trait Element {
     /// Adds the part of its row that depends on positions and time; the shapes of the rail are added afterwards.
     fn update_row(&self, _at: &Where, _row: &mut RowMut, _local: &mut Local) {}
 
-    /// Whether [`Element::update_row`] changes more of its row than offsets and rise.
-    fn row_changes(&self) -> bool {
-        true
+    /// Whether [`Element::update_row`] adds to the rows of approach and rate, which then begin with their constant
+    /// parts.
+    fn row_changes(&self) -> [bool; 2] {
+        [false; 2]
     }
 
     /// Fraction of its law that acts at the present positions of the wheels, and the slope of this fraction along the
@@ -54,6 +54,12 @@ pub(crate) trait Element {
     /// Its probes on the rails.
     fn probes(&self, _mechanics: &Mechanics) -> Vec<ElementProbe> {
         Vec::new()
+    }
+
+    /// The body on whose displacements alone its row depends, beside the spins of its wheels and the modes of its
+    /// structures; `None` if it acts between two points.
+    fn body(&self, _mechanics: &Mechanics) -> Option<usize> {
+        None
     }
 
     /// The wheel on which the slope of the deflected rail exerts a force along x, if the element acts on a wheel.
@@ -193,7 +199,7 @@ pub(crate) struct Fixed {
     pub has_memory: bool,
     pub is_followed: bool,
     pub is_tangential: bool,
-    pub row_changes: bool,
+    pub row_changes: [bool; 2],
 }
 
 impl Fixed {
@@ -446,7 +452,7 @@ pub(crate) fn passing(
     i: usize,
 ) -> f64 {
     tangential_of(mechanics, probes, state, i)
-        .map(|(contact, speed)| speed * along(&rails.tangential, contact, &state.force))
+        .map(|(contact, speed)| speed * rails.tangential_slope(contact, &state.force))
         .sum()
 }
 

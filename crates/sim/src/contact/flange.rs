@@ -7,7 +7,6 @@ use super::element::{At, Coupling, Element, ElementProbe, Guard, GuardKind, Law,
 use super::energy::{Exchanged, Stored};
 use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
-use crate::numerics::dense::along;
 use crate::scene::dof::arm_rows;
 use crate::scene::irregularity::LATERAL;
 use crate::{BodyDof, Channel, Flange};
@@ -69,8 +68,16 @@ impl Element for FlangeContact<'_> {
         }
     }
 
+    fn row_changes(&self) -> [bool; 2] {
+        [true, false]
+    }
+
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         vec![ElementProbe { wheel: self.wheel, weight: 1.0, axis: Axis::Lateral, part: None }]
+    }
+
+    fn body(&self, mechanics: &Mechanics) -> Option<usize> {
+        Some(mechanics.wheels[self.wheel].body)
     }
 
     fn tilted_wheel(&self) -> Option<usize> {
@@ -102,7 +109,7 @@ impl Element for FlangeContact<'_> {
     /// and acceleration close within `h`.
     fn may_act(&self, at: &At, h: f64) -> bool {
         let shape = at.rows.rise[at.index] * at.mechanics.speed_along(self.wheel, at.state);
-        let by = |motion: &DVector<f64>| along(&at.rows.approach, at.index, motion.as_slice()).abs();
+        let by = |motion: &DVector<f64>| at.rows.approach_along(at.index, motion).abs();
         let moved = CLOSING * h * (by(&at.state.v) + shape.abs() + h * by(&at.state.a));
         (at.approach() - at.deflection()).abs() + moved > (1.0 - NEAR) * self.flange.clearance
     }

@@ -18,7 +18,7 @@ use super::rows::Rows;
 use super::switches::Switches;
 use super::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::dense::{add_lines, along};
+use crate::numerics::dense::along;
 use crate::scene::dof::arm_rows;
 use crate::{Action, Error};
 
@@ -62,6 +62,19 @@ struct Drift {
 /// data of the state before the change serve.
 const NEAR: f64 = 1e-5;
 
+/// Multiple of it for which they serve where the slopes of the rails, which turn the forces, follow the present forces.
+const CLOSE: f64 = 12.0;
+
+/// How well the data of one state serve at another.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Nearness {
+    /// They serve as they are.
+    Near,
+    /// They serve with the rows of forces for the present forces.
+    Close,
+    Far,
+}
+
 /// Shapes of structures with mass at the elements.
 #[derive(Clone)]
 struct ShapeSlopes {
@@ -75,7 +88,7 @@ struct ShapeSlopes {
 impl Geometry {
     pub fn new(system: &System) -> Self {
         let (m, n) = (system.elements.len(), system.mechanics.dofs);
-        let mut constant = Rows::zeros(m, n);
+        let mut constant = Rows::zeros(system.row_spans.clone(), n);
         for (i, element) in system.elements.iter().enumerate() {
             element.constant_row(&system.mechanics, &mut constant.row_mut(i));
         }
@@ -142,7 +155,7 @@ impl Geometry {
     /// Slope of the deflected rail under element `i` for the degrees of freedom `q` and the forces `force`, without
     /// that of the unloaded rail's shape.
     pub fn deflected_slope(&self, i: usize, q: &DVector<f64>, force: &[f64]) -> f64 {
-        along(&self.rails().slope, i, force) + self.shape_slope(i, q)
+        self.rails().deflected_slope(i, force) + self.shape_slope(i, q)
     }
 
     /// The part of this slope by the degrees of freedom of structures.
@@ -266,7 +279,11 @@ impl Geometry {
         let at = Where { mechanics, t, q, places, switches, is_uneven };
         let has_structures = mechanics.has_structures();
         for &i in elements.list() {
-            rows.reset(i, &self.constant, has_structures || system.fixed[i].row_changes);
+            rows.reset(
+                i,
+                &self.constant,
+                system.fixed[i].row_changes.map(|changes| changes || has_structures),
+            );
             system.elements[i].update_row(&at, &mut rows.row_mut(i), &mut local[i]);
         }
         if has_structures {
@@ -314,7 +331,7 @@ impl Geometry {
                 self.rail_slope[i] = 0.0;
                 continue;
             }
-            self.rail_slope[i] = along(&self.rails.matrices().slope, i, force);
+            self.rail_slope[i] = self.rails.matrices().deflected_slope(i, force);
             if system.mechanics.has_structures() {
                 self.rail_slope[i] += along(&self.shapes.all, i, q.as_slice());
             }
@@ -327,12 +344,12 @@ impl Geometry {
     /// Computes the rows of the forces: the rows of the approach, or of the rate for tangential elements, minus the
     /// slope of the rail times the rows of the wheel's x.
     fn update_force_rows(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
-        let (n, moves_freely) = (system.mechanics.dofs, system.mechanics.moves_freely);
+        let moves_freely = system.mechanics.moves_freely;
         if moves_freely {
             self.update_rail_slope(system, q, force);
         }
         for &i in elements.list() {
-            let span = i * n..(i + 1) * n;
+            let span = self.rows.span(i);
             let own = if system.fixed[i].is_tangential { &self.rows.rate } else { &self.rows.approach };
             let (row, own) = (&mut self.rows.force[span.clone()], &own[span.clone()]);
             if !moves_freely {
@@ -354,6 +371,11 @@ impl Geometry {
         }
         let mut moved = 0.0_f64;
         for w in 0..system.mechanics.wheels.len() {
+            // The wheels of one contact share its penetrations.
+            if system.mechanics.follows_in_contact(w) {
+                self.places.height[w] = self.places.height[w - 1];
+                continue;
+            }
             let deepest = system.mechanics.groups_of(w).map(|i| at.p[i]).fold(f64::NEG_INFINITY, f64::max);
             let height = system.scene.wheels[system.mechanics.wheels[w].kind].radius - deepest;
             moved = moved.max((height - self.places.height[w]).abs() / height.abs());
@@ -396,20 +418,23 @@ impl Geometry {
         if !(system.traits.follows_motion && system.traits.has_symmetric_rails) {
             return;
         }
-        let (mechanics, m) = (&system.mechanics, force.len());
+        let mechanics = &system.mechanics;
         let Geometry { drift: Drift { wheels, change, by_others }, places, rails, rows, shapes, .. } = self;
         for w in 0..wheels.len() {
-            // The wheels of one contact move together.
-            let is_next = w > 0 && mechanics.wheels[w].contact == mechanics.wheels[w - 1].contact;
-            wheels[w] = if is_next { wheels[w - 1] } else { places.of_wheel(mechanics, w, q) - places.x[w] };
+            wheels[w] = if mechanics.follows_in_contact(w) {
+                wheels[w - 1]
+            } else {
+                places.of_wheel(mechanics, w, q) - places.x[w]
+            };
         }
-        let slopes = &rails.matrices().slope;
+        let rails = rails.matrices();
         let moved = |i: usize| system.first_wheel[i].map_or(0.0, |wheel| wheels[wheel]);
         by_others.fill(0.0);
-        let shares = force.iter().enumerate().map(|(j, force)| moved(j) * force);
-        add_lines(shares.zip(slopes.chunks_exact(m)), by_others);
+        for (j, force) in force.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+            rails.add_slopes(j, moved(j) * force, by_others);
+        }
         for &i in &system.probes.states {
-            let mut slope = rows.rise[i] - along(slopes, i, force);
+            let mut slope = rows.rise[i] - rails.deflected_slope(i, force);
             if mechanics.has_structures() {
                 slope -= along(&shapes.all, i, q.as_slice());
             }
@@ -424,26 +449,44 @@ impl Geometry {
         self.drift.change[i]
     }
 
-    /// Whether the data at the displacements `before` serve at `now`, at the same time. All data change by a part of the
-    /// order of dq/L, with the lengths L of rail elements, irregularities and ropes, times the displacements of the bodies
-    /// alone: rows are linear in those of structures. A change dh of the height of a wheel changes the approach of its
-    /// flange by dh times its roll, and the sliding velocity of a spinning wheel by dh times its spin.
-    pub fn is_near(&self, system: &System, before: &DVector<f64>, now: &DVector<f64>) -> bool {
+    /// How well the data at the displacements `before` serve at `now`, at the same time. All data change by a part of
+    /// the order of dq/L, with the lengths L of rail elements, irregularities and ropes, times the displacements of
+    /// the bodies alone: rows are linear in those of structures. A change dh of the height of a wheel changes the
+    /// approach of its flange by dh times its roll, and the sliding velocity of a spinning wheel by dh times its
+    /// spin.
+    pub fn nearness(&self, system: &System, before: &DVector<f64>, now: &DVector<f64>) -> Nearness {
         if !system.traits.has_symmetric_rails {
-            return false;
+            return Nearness::Far;
         }
         let bodies = system.mechanics.body_dofs();
-        let mut moved = before.as_slice().iter().zip(now.as_slice()).take(bodies);
-        if !moved.all(|(before, now)| (now - before).abs() <= self.near) {
-            return false;
+        let moved = before.as_slice().iter().zip(now.as_slice()).take(bodies);
+        let farthest = moved.fold(0.0_f64, |max, (before, now)| max.max((now - before).abs()));
+        if farthest > CLOSE * self.near {
+            return Nearness::Far;
         }
         let by_height = system.by_height.list().iter();
-        by_height.filter_map(|&i| Some((i, system.first_wheel[i]?))).all(|(i, wheel)| {
+        let raised = by_height.filter_map(|&i| Some((i, system.first_wheel[i]?))).map(|(i, wheel)| {
             let raised = (self.places.height[wheel] - self.height[wheel]).abs();
             let arm =
                 if system.fixed[i].is_tangential { 1.0 } else { system.mechanics.roll(wheel, now).abs() };
-            raised * arm <= self.near
-        })
+            raised * arm
+        });
+        let farthest = raised.fold(farthest, f64::max);
+        if farthest <= self.near {
+            Nearness::Near
+        } else if farthest <= CLOSE * self.near {
+            Nearness::Close
+        } else {
+            Nearness::Far
+        }
+    }
+
+    /// Updates the rows of the forces of `elements` to the displacements `q` and the forces `force`, at the positions
+    /// of the last update.
+    pub fn turn_forces(&mut self, system: &System, q: &DVector<f64>, force: &[f64], elements: &Candidates) {
+        if !system.traits.has_constant_rows {
+            self.update_force_rows(system, q, force, elements);
+        }
     }
 
     /// Sets the tolerance distances for extrapolation of the compliance, for steps with the relative error
@@ -497,7 +540,7 @@ impl Geometry {
 
     /// Sets a compliance that was computed elsewhere, row by row.
     pub fn set_compliance(&mut self, rows: impl Iterator<Item = impl AsRef<[f64]>>) {
-        self.rails.set_value(rows, self.local.len());
+        self.rails.set_value(rows);
     }
 }
 

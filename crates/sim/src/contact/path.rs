@@ -8,6 +8,8 @@
 //! G_x x' + G_y y', so that the work of forces along the rail equals the change of the elastic energy in the rail. At
 //! a distance from the path, G is extrapolated by its slopes.
 
+use std::ops::Range;
+
 use splines::{Compliance, Influence, Probe};
 
 use super::candidates::Candidates;
@@ -26,6 +28,7 @@ const BEYOND: f64 = 0.2;
 /// The wheels of one contact that act on one element.
 #[derive(Clone)]
 struct Group {
+    /// Place of its element among those of the path.
     element: usize,
     /// One of its wheels.
     wheel: usize,
@@ -50,29 +53,18 @@ struct PathNode {
     slope: Vec<f64>,
 }
 
-/// Coefficients of the polynomials of a pair of groups (i, j).
-#[derive(Clone)]
-struct Pair {
-    /// G(i, j): s^0 to s^3.
-    value: [f64; 4],
-    /// d G(i, j)/d x_i and d G(j, i)/d x_j: s^0 to s^2.
-    slopes: [[f64; 2]; 3],
-}
-
-impl Pair {
-    /// G(i, j), d G(i, j)/d x_i and d G(j, i)/d x_j at `s` and at the distances `beside` of both groups from the path.
-    #[inline]
-    fn at(&self, s: f64, beside: [f64; 2]) -> [f64; 3] {
-        let ([a, b, c, d], [p, q, r]) = (self.value, self.slopes);
-        let [slope, back] = std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k]));
-        [a + s * (b + s * (c + s * d)) + (slope * beside[0] + back * beside[1]), slope, back]
-    }
-}
+/// Four columns of a row of polynomials in s: coefficients of s^0 to s^(N - 1).
+type Polynomials<const N: usize> = [[f64; 4]; N];
 
 /// The path of the wheels of a structure.
 #[derive(Clone)]
 pub(crate) struct CompliancePath {
+    /// Elements of the groups, in increasing order.
+    elements: Vec<usize>,
+    /// Ordered by element.
     groups: Vec<Group>,
+    /// Groups of each element.
+    groups_of: Vec<Range<usize>>,
     /// Group, probe and weight of each entry. A drive and a brake on the same wheel have a common probe.
     members: Vec<Member>,
     probes: Vec<Probe>,
@@ -85,10 +77,19 @@ pub(crate) struct CompliancePath {
     /// Distance between the nodes for each group, and the distance of each group from the path at the latest position.
     length: Vec<f64>,
     offset: Vec<f64>,
-    /// Pairs of groups (i, j) with j <= i, row by row.
-    pairs: Vec<Pair>,
-    /// Scratch: the groups of the elements that are wanted.
-    rows: Vec<usize>,
+    /// Columns of the matrices from the first to the last of the elements. The rows of what follows are over these,
+    /// four at a time, filled up with zeros; `width` is the number of times.
+    columns: Range<usize>,
+    width: usize,
+    /// G between elements, row by row.
+    values: Vec<Polynomials<4>>,
+    /// Derivatives of G between groups and elements with respect to the position of the group, row by row.
+    slopes: Vec<Polynomials<3>>,
+    /// Scratch: places of the elements that are wanted among those of the path, one row, and for each element the
+    /// derivatives of its groups times their distances from the path.
+    wanted: Vec<usize>,
+    line: Vec<[f64; 4]>,
+    beside: Vec<[f64; 4]>,
     is_set: bool,
 }
 
@@ -100,15 +101,32 @@ impl CompliancePath {
         if entries.len() < MANY || !compliance.is_symmetric() || foundation.parts.is_some() {
             return None;
         }
+        let mut elements: Vec<usize> = entries.iter().map(|entry| entry.element).collect();
+        elements.sort_unstable();
+        elements.dedup();
+        let contact = |wheel: usize| mechanics.wheels[wheel].contact;
         let mut groups: Vec<Group> = Vec::new();
-        let (mut members, mut probes, mut wheels) = (Vec::new(), Vec::<Probe>::new(), Vec::new());
-        for Entry { element, weight, wheel, probe, tangential } in entries {
-            let contact = |wheel: usize| mechanics.wheels[wheel].contact;
-            let same = |known: &Group| known.element == *element && contact(known.wheel) == contact(*wheel);
-            let group = groups.iter().position(same).unwrap_or(groups.len());
-            if group == groups.len() {
-                groups.push(Group { element: *element, wheel: *wheel, tangential: *tangential });
+        for (place, element) in elements.iter().enumerate() {
+            let known = groups.len();
+            for entry in entries.iter().filter(|entry| entry.element == *element) {
+                if !groups[known..].iter().any(|group| contact(group.wheel) == contact(entry.wheel)) {
+                    let Entry { wheel, tangential, .. } = *entry;
+                    groups.push(Group { element: place, wheel, tangential });
+                }
             }
+        }
+        let groups_of = (0..elements.len())
+            .map(|place| {
+                let at = |place: usize| groups.partition_point(|group| group.element < place);
+                at(place)..at(place + 1)
+            })
+            .collect();
+        let (mut members, mut probes, mut wheels) = (Vec::new(), Vec::<Probe>::new(), Vec::new());
+        for Entry { element, weight, wheel, probe, .. } in entries {
+            let same = |known: &Group| {
+                elements[known.element] == *element && contact(known.wheel) == contact(*wheel)
+            };
+            let group = groups.iter().position(same).expect("every entry has a group");
             let own =
                 |(at, of): (&Probe, &usize)| at.rail == probe.rail && at.axis == probe.axis && of == wheel;
             let place = probes.iter().zip(&wheels).position(own).unwrap_or(probes.len());
@@ -118,7 +136,8 @@ impl CompliancePath {
             }
             members.push(Member { group, probe: place, weight: *weight });
         }
-        let count = groups.len();
+        let columns = elements[0]..elements[elements.len() - 1] + 1;
+        let (count, width) = (groups.len(), columns.len().div_ceil(4));
         let square = || vec![0.0; count * count];
         let node = || PathNode { x: vec![0.0; count], value: square(), slope: square() };
         Some(CompliancePath {
@@ -130,9 +149,16 @@ impl CompliancePath {
             last: vec![0.0; mechanics.wheels.len()],
             length: vec![0.0; count],
             offset: vec![0.0; count],
-            pairs: Vec::with_capacity(count * (count + 1) / 2),
-            rows: Vec::with_capacity(count),
+            columns,
+            width,
+            values: vec![[[0.0; 4]; 4]; elements.len() * width],
+            slopes: vec![[[0.0; 4]; 3]; count * width],
+            wanted: Vec::with_capacity(elements.len()),
+            line: vec![[0.0; 4]; width],
+            beside: vec![[0.0; 4]; elements.len() * width],
+            elements,
             groups,
+            groups_of,
             is_set: false,
         })
     }
@@ -224,14 +250,27 @@ impl CompliancePath {
         Ok(())
     }
 
+    /// Sets the polynomials of all pairs of groups, summed over the groups of an element: of both for values, of the
+    /// second for slopes.
     fn fit(&mut self) {
-        let count = self.groups.len();
-        let [from, to] = &self.nodes;
-        self.pairs.clear();
+        let CompliancePath {
+            elements,
+            groups,
+            nodes: [from, to],
+            length,
+            columns,
+            width,
+            values,
+            slopes,
+            ..
+        } = self;
+        let count = groups.len();
+        values.fill([[0.0; 4]; 4]);
+        slopes.fill([[0.0; 4]; 3]);
         for i in 0..count {
             for j in 0..=i {
                 let (there, back) = (i * count + j, j * count + i);
-                let (x, y) = (self.length[i], self.length[j]);
+                let (x, y) = (length[i], length[j]);
                 let along = |node: &PathNode| node.slope[there] * x + node.slope[back] * y;
                 let value = cubic([from.value[there], to.value[there]], [along(from), along(to)]);
                 // dG/ds minus the part of linearly varying group slopes equals bend (x^2 + y^2) s (1 - s).
@@ -241,8 +280,14 @@ impl CompliancePath {
                     let (line, by) = (to.slope[pair] - from.slope[pair], bend * length);
                     [from.slope[pair], line + by, -by]
                 };
-                let (slope, back) = (slope(there, x), slope(back, y));
-                self.pairs.push(Pair { value, slopes: std::array::from_fn(|k| [slope[k], back[k]]) });
+                let (row, other) = (groups[i].element, groups[j].element);
+                let [own, column] = [row, other].map(|place| elements[place] - columns.start);
+                add(&mut values[row * *width..], column, value);
+                add(&mut slopes[i * *width..], column, slope(there, x));
+                if i != j {
+                    add(&mut values[other * *width..], own, value);
+                    add(&mut slopes[j * *width..], own, slope(back, y));
+                }
             }
         }
     }
@@ -270,6 +315,9 @@ impl CompliancePath {
     /// Writes values and slopes between `elements` at the positions `places` into the matrices over `m` elements; entries
     /// between them and other elements are not needed. Returns false if the path is not set or a wheel is farther than
     /// `reach` from it.
+    ///
+    /// At the distances d of the groups from the path, the value of a pair is G(i, j) + B(i, j) + B(j, i), where B(i,
+    /// j) is the sum of dG(g, j)/dx_g d_g over the groups g of element i.
     pub fn follow(
         &mut self,
         places: &[f64],
@@ -284,43 +332,72 @@ impl CompliancePath {
         if farthest > reach {
             return false;
         }
-        let RailMatrices { value: sums, slope: rates, tangential } = matrices;
-        self.rows.clear();
-        for (number, group) in self.groups.iter().enumerate().filter(|(_, group)| elements.has(group.element))
-        {
-            self.rows.push(number);
-            sums[group.element * m..(group.element + 1) * m].fill(0.0);
-            rates[group.element * m..(group.element + 1) * m].fill(0.0);
-            if let Some(own) = group.tangential {
-                tangential[own * m..(own + 1) * m].fill(0.0);
+        let RailMatrices { value, slope, tangential, .. } = matrices;
+        let CompliancePath { elements: own, groups, groups_of, columns, width, .. } = self;
+        let CompliancePath { values, slopes, offset, wanted, line, beside, .. } = self;
+        wanted.clear();
+        wanted.extend((0..own.len()).filter(|&i| elements.has(own[i])));
+        let span = |row: usize| row * m + columns.start..row * m + columns.end;
+        for &i in &*wanted {
+            let beside = &mut beside[i * *width..(i + 1) * *width];
+            beside.fill([0.0; 4]);
+            for (number, group) in groups_of[i].clone().enumerate() {
+                let (terms, offset) = (&slopes[group * *width..(group + 1) * *width], offset[group]);
+                let rates = &mut slope[span(own[i])];
+                if number == 0 {
+                    rates.fill(0.0);
+                }
+                add_slopes(terms, s, rates, |four, slopes| {
+                    beside[four] = std::array::from_fn(|k| beside[four][k] + offset * slopes[k]);
+                });
+                if let Some(contact) = groups[group].tangential {
+                    let rates = &mut tangential[span(contact)];
+                    rates.fill(0.0);
+                    add_slopes(terms, s, rates, |_, _| {});
+                }
             }
         }
-        for (place, &i) in self.rows.iter().enumerate() {
-            let (row, offset) = (&self.groups[i], self.offset[i]);
-            let (first, last) = (row.element * m, row.element);
-            let pairs = &self.pairs[i * (i + 1) / 2..][..=i];
-            for &j in &self.rows[..place] {
-                let (column, [value, slope, back]) =
-                    (&self.groups[j], pairs[j].at(s, [offset, self.offset[j]]));
-                let (there, mirrored) = (first + column.element, column.element * m + last);
-                sums[there] += value;
-                sums[mirrored] += value;
-                rates[there] += slope;
-                rates[mirrored] += back;
-                if let Some(own) = row.tangential {
-                    tangential[own * m + column.element] += slope;
-                }
-                if let Some(own) = column.tangential {
-                    tangential[own * m + last] += back;
-                }
+        let beside = beside.as_flattened();
+        for (number, &i) in wanted.iter().enumerate() {
+            // The matrix is symmetric: columns up to the diagonal.
+            let (row, column) = (own[i], own[i] - columns.start);
+            let terms = &values[i * *width..i * *width + column / 4 + 1];
+            for (values, [a, b, c, d]) in line.iter_mut().zip(terms) {
+                *values = std::array::from_fn(|k| a[k] + s * (b[k] + s * (c[k] + s * d[k])));
             }
-            let [value, slope, _] = pairs[i].at(s, [offset; 2]);
-            sums[first + last] += value;
-            rates[first + last] += slope;
-            if let Some(own) = row.tangential {
-                tangential[own * m + last] += slope;
+            let (values, own_beside) = (line.as_flattened(), &beside[4 * *width * i..]);
+            for &j in &wanted[..=number] {
+                let other = own[j] - columns.start;
+                let entry = values[other] + (own_beside[other] + beside[4 * *width * j + column]);
+                value[row * m + own[j]] = entry;
+                value[own[j] * m + row] = entry;
             }
         }
         true
     }
+}
+
+/// Adds the values at `s` of a row of polynomials to `sums`, four at a time, each four of which `each` receives with its
+/// number. They go to their place from registers: a copy would wait for them to be stored.
+#[inline]
+fn add_slopes(terms: &[Polynomials<3>], s: f64, sums: &mut [f64], mut each: impl FnMut(usize, [f64; 4])) {
+    let at =
+        |[p, q, r]: &Polynomials<3>| -> [f64; 4] { std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k])) };
+    let (fours, rest) = sums.as_chunks_mut::<4>();
+    for (four, (sums, terms)) in fours.iter_mut().zip(terms).enumerate() {
+        let slopes = at(terms);
+        *sums = std::array::from_fn(|k| sums[k] + slopes[k]);
+        each(four, slopes);
+    }
+    if let Some(terms) = terms.get(fours.len()) {
+        let slopes = at(terms);
+        rest.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope);
+        each(fours.len(), slopes);
+    }
+}
+
+/// Adds the coefficients of a polynomial to column `column` of a row.
+fn add<const N: usize>(row: &mut [Polynomials<N>], column: usize, coefficients: [f64; N]) {
+    let sums = &mut row[column / 4];
+    sums.iter_mut().zip(coefficients).for_each(|(sum, own)| sum[column % 4] += own);
 }

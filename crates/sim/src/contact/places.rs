@@ -51,16 +51,26 @@ impl Places {
     /// Updates travel and rail coordinates to (t, q).
     pub fn move_to(&mut self, mechanics: &Mechanics, t: f64, q: &DVector<f64>) {
         self.travel_to(mechanics, t);
+        let mut moved = 0.0;
         for w in 0..mechanics.wheels.len() {
-            self.x[w] = self.of_wheel(mechanics, w, q);
+            if !mechanics.follows_in_contact(w) {
+                moved = self.motion_of_wheel(mechanics, w, q);
+            }
+            self.x[w] = mechanics.coordinates[w].constant + moved;
         }
     }
 
     /// Rail coordinate of wheel `w` at the degrees of freedom `q`, with the prescribed travel of the last update.
     pub fn of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
+        mechanics.coordinates[w].constant + self.motion_of_wheel(mechanics, w, q)
+    }
+
+    /// The part of the rail coordinate of wheel `w` that depends on time and degrees of freedom. It is the same for
+    /// all wheels of a contact.
+    fn motion_of_wheel(&self, mechanics: &Mechanics, w: usize, q: &DVector<f64>) -> f64 {
         let coordinate = &mechanics.coordinates[w];
         let travel = coordinate.driven.map_or(0.0, |root| self.travel[root].x);
         let moved: f64 = coordinate.terms.iter().map(|&(number, share)| share * q[number]).sum();
-        travel + coordinate.constant + moved
+        travel + moved
     }
 }

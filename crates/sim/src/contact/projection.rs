@@ -7,7 +7,7 @@ use nalgebra::DVector;
 use super::rows::Rows;
 use super::system::System;
 use crate::mechanics::mobility::Mobility;
-use crate::numerics::dense::{add_lines, dot};
+use crate::numerics::dense::add_lines;
 
 /// Products of rows and mobility.
 pub(crate) struct Projection {
@@ -15,15 +15,16 @@ pub(crate) struct Projection {
     columns: Vec<usize>,
     /// Z B^T, degrees of freedom x columns, row-major.
     spread: Vec<f64>,
+    /// The same by columns: the accelerations by a unit force of each.
+    answers: Vec<f64>,
     /// R Z B^T, elements x columns, row-major; and R' Z B^T for the rows of rates.
     approach: Vec<f64>,
     rate: Vec<f64>,
     /// Whether the products are constant because rows and mobility are constant.
     is_constant: bool,
-    /// Scratch: forces of the columns, the product of another row, and a product with the mobility.
-    force: Vec<f64>,
+    dofs: usize,
+    /// Scratch: the product of another row.
     other: Vec<f64>,
-    answer: DVector<f64>,
 }
 
 impl Projection {
@@ -32,12 +33,12 @@ impl Projection {
         Projection {
             columns: Vec::with_capacity(m),
             spread: vec![0.0; n * m],
+            answers: vec![0.0; n * m],
             approach: vec![0.0; m * m],
             rate: vec![0.0; m * m],
             is_constant: false,
-            force: Vec::with_capacity(m),
             other: Vec::with_capacity(m),
-            answer: DVector::zeros(n),
+            dofs: n,
         }
     }
 
@@ -61,7 +62,7 @@ impl Projection {
     /// Elements of the columns, with the entries of `row` Z B^T.
     pub fn product(&mut self, row: &[f64]) -> impl Iterator<Item = (&usize, &f64)> {
         self.other.resize(self.columns.len(), 0.0);
-        product(row, &self.spread[..self.answer.len() * self.columns.len()], &mut self.other);
+        product(row, &self.spread[..self.dofs * self.columns.len()], &mut self.other);
         self.columns.iter().zip(&self.other)
     }
 
@@ -81,13 +82,14 @@ impl Projection {
         self.columns.clear();
         self.columns.extend((0..idle.len()).filter(|&j| all || !idle[j]));
         let count = self.columns.len();
-        for (column, &j) in self.columns.iter().enumerate() {
-            mobility.apply(rows.force_row(j), self.answer.as_mut_slice());
-            for (k, answer) in self.answer.iter().enumerate() {
+        let answers = self.answers.chunks_exact_mut(self.dofs.max(1));
+        for (column, (&j, answer)) in self.columns.iter().zip(answers).enumerate() {
+            mobility.apply(rows.force_row(j), answer);
+            for (k, answer) in answer.iter().enumerate() {
                 self.spread[k * count + column] = *answer;
             }
         }
-        let spread = &self.spread[..self.answer.len() * count];
+        let spread = &self.spread[..self.dofs * count];
         for &i in elements {
             let span = i * count..(i + 1) * count;
             product(rows.approach_row(i), spread, &mut self.approach[span.clone()]);
@@ -99,13 +101,10 @@ impl Projection {
     }
 
     /// Sets `a` = `free` + `sign` Z B^T F, where F are the entries of `force` for the columns.
-    pub fn add_forces(&mut self, free: &DVector<f64>, sign: f64, force: &[f64], a: &mut DVector<f64>) {
-        self.force.clear();
-        self.force.extend(self.columns.iter().map(|&j| force[j]));
-        let count = self.columns.len();
-        for (k, a) in a.iter_mut().enumerate() {
-            *a = free[k] + sign * dot(&self.spread[k * count..(k + 1) * count], &self.force);
-        }
+    pub fn add_forces(&self, free: &DVector<f64>, sign: f64, force: &[f64], a: &mut DVector<f64>) {
+        a.copy_from(free);
+        let shares = self.columns.iter().map(|&j| sign * force[j]);
+        add_lines(shares.zip(self.answers.chunks_exact(self.dofs.max(1))), a.as_mut_slice());
     }
 }
 

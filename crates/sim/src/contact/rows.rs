@@ -5,15 +5,19 @@
 //! for forces along a rail), plus the component of the force along the rail due to the slope of the rail, if bodies
 //! move freely along it.
 
+use std::ops::Range;
+
 use nalgebra::DVector;
 
 use crate::mechanics::kinematics::Kinematics;
-use crate::numerics::dense::along;
+use crate::numerics::dense::dot;
 
 /// Rows of all elements, row-major.
 #[derive(Clone)]
 pub(crate) struct Rows {
     dofs: usize,
+    /// Degrees of freedom from the first to the last on which each row depends; its other entries are zero.
+    spans: Vec<Range<usize>>,
     /// R, the rows of the approach without the deflection of the rails, and its offset.
     pub approach: Vec<f64>,
     pub approach_offset: Vec<f64>,
@@ -36,10 +40,12 @@ pub(crate) struct RowMut<'r> {
 }
 
 impl Rows {
-    /// Rows of zeros for `elements` elements.
-    pub fn zeros(elements: usize, dofs: usize) -> Self {
+    /// Rows of zeros that depend on the degrees of freedom `spans`, one for each element.
+    pub fn zeros(spans: Vec<Range<usize>>, dofs: usize) -> Self {
+        let elements = spans.len();
         Rows {
             dofs,
+            spans,
             approach: vec![0.0; elements * dofs],
             approach_offset: vec![0.0; elements],
             rate: vec![0.0; elements * dofs],
@@ -49,19 +55,30 @@ impl Rows {
         }
     }
 
-    /// Copies the offset of the approach of element `i` from `constant` and, where it `has_changed`, approach and rate; sets
-    /// its `rise` to zero.
-    pub fn reset(&mut self, i: usize, constant: &Rows, has_changed: bool) {
-        if has_changed {
-            let span = i * self.dofs..(i + 1) * self.dofs;
+    /// Copies the offset of the approach of element `i` from `constant`, and approach and rate where they have
+    /// changed; sets its `rise` to zero.
+    #[inline]
+    pub fn reset(&mut self, i: usize, constant: &Rows, [approach_has_changed, rate_has_changed]: [bool; 2]) {
+        let span = self.span(i);
+        if approach_has_changed {
             self.approach[span.clone()].copy_from_slice(&constant.approach[span.clone()]);
+        }
+        if rate_has_changed {
             self.rate[span.clone()].copy_from_slice(&constant.rate[span]);
         }
         self.approach_offset[i] = constant.approach_offset[i];
         self.rise[i] = 0.0;
     }
 
+    /// Places of the entries of row `i` that are not always zero.
+    #[inline]
+    pub fn span(&self, i: usize) -> Range<usize> {
+        let span = &self.spans[i];
+        i * self.dofs + span.start..i * self.dofs + span.end
+    }
+
     /// The row of element `i`, for writing.
+    #[inline]
     pub fn row_mut(&mut self, i: usize) -> RowMut<'_> {
         let span = i * self.dofs..(i + 1) * self.dofs;
         RowMut {
@@ -93,13 +110,25 @@ impl Rows {
     /// Approach of element `i` at the degrees of freedom `q`, without the deflection of the rails.
     #[inline]
     pub fn approach_at(&self, i: usize, q: &DVector<f64>) -> f64 {
-        self.approach_offset[i] + along(&self.approach, i, q.as_slice())
+        self.approach_offset[i] + self.approach_along(i, q)
+    }
+
+    /// R_i times a vector over the degrees of freedom.
+    #[inline]
+    pub fn approach_along(&self, i: usize, vector: &DVector<f64>) -> f64 {
+        dot(&self.approach[self.span(i)], &vector.as_slice()[self.spans[i].clone()])
+    }
+
+    /// R'_i times a vector over the degrees of freedom.
+    #[inline]
+    pub fn rate_along(&self, i: usize, vector: &DVector<f64>) -> f64 {
+        dot(&self.rate[self.span(i)], &vector.as_slice()[self.spans[i].clone()])
     }
 
     /// Rate for the damper or the friction law of element `i` at the speeds `v`.
     #[inline]
     pub fn rate_at(&self, i: usize, v: &DVector<f64>) -> f64 {
-        self.rate_offset[i] + along(&self.rate, i, v.as_slice())
+        self.rate_offset[i] + self.rate_along(i, v)
     }
 }
 

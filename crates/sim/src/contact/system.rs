@@ -2,6 +2,8 @@
 //!
 //! The elements are ordered by kind: vertical contacts, flanges, frictions, drives, brakes, ropes and stops.
 
+use std::ops::Range;
+
 use splines::{Axis, Probe};
 
 use super::candidates::Candidates;
@@ -31,6 +33,8 @@ pub(crate) struct System<'a> {
     pub follows_motion: Vec<bool>,
     /// The first wheel of each element, if it acts on wheels.
     pub first_wheel: Vec<Option<usize>>,
+    /// Degrees of freedom from the first to the last on which the row of each element depends.
+    pub row_spans: Vec<Range<usize>>,
     pub probes: Probes,
     pub traits: Traits,
     /// Elements that guide wheels laterally, and springs between two points (ropes and stops).
@@ -53,6 +57,8 @@ pub(crate) struct Traits {
     /// Whether a structure consists of rigid parts that transfer wheels to one another, with one contact force per
     /// part.
     pub has_parts: bool,
+    /// Whether the x of some body is prescribed, so that the slopes of the rails have a power.
+    pub has_motions: bool,
     /// Whether vertical contacts are the only elements.
     pub is_vertical: bool,
     /// Whether every vertical law is linear.
@@ -92,6 +98,7 @@ impl<'a> System<'a> {
         let mut by_height = Candidates::all(elements.len());
         by_height.choose(|i| elements[i].uses_height());
         let first_wheel = elements.iter().map(|element| first_wheel(&mechanics, element)).collect();
+        let row_spans = (0..elements.len()).map(|i| row_span(&mechanics, &elements, &probes, i)).collect();
         Ok(System {
             scene,
             foundations,
@@ -102,6 +109,7 @@ impl<'a> System<'a> {
             fixed,
             follows_motion,
             first_wheel,
+            row_spans,
             probes,
             traits,
             guides,
@@ -192,6 +200,25 @@ fn first_wheel(mechanics: &Mechanics, element: &ForceElement) -> Option<usize> {
         Channel::Vertical(wheel) | Channel::Lateral(wheel) | Channel::Traction(wheel) => Some(wheel),
         _ => None,
     })
+}
+
+/// Degrees of freedom from the first to the last on which the row of element `i` depends: those of its body, the
+/// spins of the body's wheels, and those of the structures on which it has probes; a multiple of four of them where
+/// there are as many, because products are formed four entries at a time.
+fn row_span(mechanics: &Mechanics, elements: &[ForceElement], probes: &Probes, i: usize) -> Range<usize> {
+    let Some(body) = elements[i].body(mechanics) else { return 0..mechanics.dofs };
+    let own = mechanics.kinematics.terms(body).iter().flatten().map(|&(number, _)| number);
+    let spins = mechanics.wheels.iter().filter(|wheel| wheel.body == body).filter_map(|wheel| wheel.spin);
+    let on = |s: &usize| probes.entries[*s].iter().any(|entry| entry.element == i);
+    let structures = (0..probes.entries.len()).filter(on).flat_map(|s| mechanics.structures[s].clone());
+    let numbers = own.chain(spins).chain(structures);
+    let hull = |known: Option<Range<usize>>, number: usize| {
+        let known = known.unwrap_or(number..number + 1);
+        Some(known.start.min(number)..known.end.max(number + 1))
+    };
+    let Range { start, end } = numbers.fold(None, hull).unwrap_or(0..0);
+    let fours = start + (end - start).next_multiple_of(4);
+    start..if fours <= mechanics.dofs { fours } else { end }
 }
 
 /// Lists the probes of all elements.
@@ -299,6 +326,7 @@ fn find_traits(mechanics: &Mechanics, elements: &[ForceElement]) -> Traits {
         is_uneven,
         has_constant_rows,
         has_parts: mechanics.foundations.iter().any(|foundation| foundation.parts.is_some()),
+        has_motions: scene.bodies.iter().any(|body| body.motion.is_some()),
         is_vertical,
         has_linear_laws,
         has_memory: laws().any(NormalLaw::has_memory),

@@ -57,8 +57,16 @@ impl Element for Traction<'_> {
         *row.rate_offset = travel + spin;
     }
 
+    fn row_changes(&self) -> [bool; 2] {
+        [false, true]
+    }
+
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         vec![ElementProbe { wheel: self.wheel, weight: 1.0, axis: Axis::Longitudinal, part: None }]
+    }
+
+    fn body(&self, mechanics: &Mechanics) -> Option<usize> {
+        Some(mechanics.wheels[self.wheel].body)
     }
 
     fn is_tangential(&self) -> bool {

@@ -15,7 +15,6 @@ use super::places::Places;
 use super::rows::RowMut;
 use crate::mechanics::assembly::Mechanics;
 use crate::mechanics::state::State;
-use crate::numerics::dense::along;
 use crate::numerics::step::step_integral;
 use crate::scene::dof::arm_rows;
 use crate::scene::irregularity::VERTICAL;
@@ -143,14 +142,14 @@ impl Element for Vertical<'_> {
         Some(chains[contact.rail].fraction(part, mean))
     }
 
-    fn row_changes(&self) -> bool {
-        false
-    }
-
     fn probes(&self, _: &Mechanics) -> Vec<ElementProbe> {
         let weight = -1.0 / self.count();
         let wheels = self.wheels.clone();
         wheels.map(|wheel| ElementProbe { wheel, weight, axis: Axis::Vertical, part: self.part }).collect()
+    }
+
+    fn body(&self, _: &Mechanics) -> Option<usize> {
+        Some(self.body)
     }
 
     fn tilted_wheel(&self) -> Option<usize> {
@@ -221,7 +220,7 @@ impl Element for Vertical<'_> {
                     (at.force() - self.count() * fraction * law.spring(at.state.p[i])) * at.state.p_rate[i];
             }
             Damper::Ground => {
-                let acceleration = along(&at.rows.rate, i, at.state.a.as_slice());
+                let acceleration = at.rows.rate_along(i, &at.state.a);
                 power.dampers -= self.count()
                     * law.damping
                     * (fraction * acceleration + rate * at.rate())

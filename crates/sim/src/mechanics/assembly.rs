@@ -147,6 +147,13 @@ impl<'a> Mechanics<'a> {
         self.of_contact[self.wheels[wheel].contact].clone()
     }
 
+    /// Whether wheel `w` belongs to the contact of the wheel before it: the wheels of one contact are of one kind and
+    /// move together.
+    #[inline]
+    pub fn follows_in_contact(&self, w: usize) -> bool {
+        w > 0 && self.wheels[w].contact == self.wheels[w - 1].contact
+    }
+
     /// Index of the degree of freedom on which `load` acts.
     pub fn loaded(&self, load: &Load) -> Option<usize> {
         self.kinematics.numbers[load.body][load.dof as usize]

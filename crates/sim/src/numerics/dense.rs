@@ -272,6 +272,10 @@ pub(crate) fn invert_spd(a: &mut [f64], n: usize) -> bool {
         for lines in [above, below] {
             for line in lines.chunks_exact_mut(n) {
                 let factor = std::mem::take(&mut line[k]);
+                // Bodies that are not coupled leave blocks of zeros.
+                if factor == 0.0 {
+                    continue;
+                }
                 line.iter_mut().zip(&*row).for_each(|(x, entry)| *x -= factor * entry);
             }
         }

@@ -7,7 +7,7 @@ use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::numerics::bernstein::largest_change;
-use crate::numerics::root::narrow;
+use crate::numerics::root::{behind, narrow};
 
 /// Force by which a step may overshoot an event, relative to the largest contact force.
 pub(crate) const OVERSHOOT: f64 = 1e-9;
@@ -187,7 +187,7 @@ pub(crate) fn first_touch(step: &mut Step, before: &[Guard], largest: f64) -> Re
         return Ok(None);
     }
     let mut failure = None;
-    let [_, first] = narrow(ends, TOUCH_WIDTH, |fraction| {
+    let first = behind(ends, TOUCH_WIDTH, |fraction| {
         let is_solved = step.look_within(fraction, TOUCH_SLACK).unwrap_or_else(|error| {
             failure = Some(error);
             false

@@ -80,7 +80,9 @@ impl Sdirk {
             done.rates.copy_from(&self.stage.v);
             solver.end_stage(&self.stage, [&mut done.rates, &mut done.accelerations]);
             done.p_rates.copy_from_slice(&self.stage.p_rate);
-            solver.update_rail_slope(&self.stage);
+            if solver.system().traits.has_motions {
+                solver.update_rail_slope(&self.stage);
+            }
             done.power = power(solver.system(), solver.geometry(), &self.stage);
             if tableau.c[i] < 1.0 {
                 let frame = solver.frame(&self.stage);

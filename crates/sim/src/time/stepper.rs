@@ -154,6 +154,8 @@ pub(crate) struct Stepper<'a, 'b> {
     ended_smoothly: bool,
     /// Touch guards at the start of the next step.
     touches: Vec<Guard>,
+    /// Those at the end of the step just tried, once they are known.
+    ending: Option<Vec<Guard>>,
     /// The wheel that is at a break of its rail at the end of the step.
     meets: Option<usize>,
 }
@@ -185,6 +187,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             triggers,
             books,
             touches,
+            ending: None,
             ended_smoothly: false,
             wheel_forces,
             modal_loads: step.propagates_modes().then(|| ModalLoads::new(system)),
@@ -325,6 +328,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Tries a step of length `h`; returns its error divided by the tolerance.
     fn attempt(&mut self, h: f64) -> Result<f64, Error> {
+        self.ending = None;
         if !self.step.attempt(h, self.limit, &mut self.counts.stages)? {
             return Ok(f64::INFINITY);
         }
@@ -425,7 +429,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// Whether a flange touches or separates in the step just tried and more energy than allowed is missing or gained. On
     /// rails that move along x, steps end at joints, and touches are left to the audit.
-    fn loses_energy(&self, h: f64) -> bool {
+    fn loses_energy(&mut self, h: f64) -> bool {
         if self.step.system().mechanics.has_sliding_rails() || self.touched().is_none() {
             return false;
         }
@@ -436,9 +440,10 @@ impl<'a, 'b> Stepper<'a, 'b> {
 
     /// The wheel of the first flange that is on another side of its clearance at the end of the step than at its start, and
     /// whether it touches there.
-    fn touched(&self) -> Option<(usize, bool)> {
-        let now = guards(self.step.solver, GuardKind::Touch, &self.step.to);
-        let index = self.touches.iter().zip(&now).position(|(old, new)| old.value * new.value < 0.0)?;
+    fn touched(&mut self) -> Option<(usize, bool)> {
+        let Step { solver, to, .. } = &self.step;
+        let now = self.ending.get_or_insert_with(|| guards(solver, GuardKind::Touch, to));
+        let index = self.touches.iter().zip(&*now).position(|(old, new)| old.value * new.value < 0.0)?;
         let system = self.step.system();
         let element = system.guarded(GuardKind::Touch)[index];
         Some((system.first_wheel[element]?, now[index].value > 0.0))
@@ -481,6 +486,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.size.grow(&self.step.to);
         if self.step.to.t >= self.limit {
             cause = GapCause::Break;
+            self.ending = None;
             self.pass_break()?;
         }
         let by_joint = self.pass_joint()?;
@@ -490,6 +496,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let has_crossed = system.traits.is_uneven && pass_corners(self.step.solver, &mut self.step.to)?;
         let mut after = before;
         if has_crossed || self.is_switch_due() {
+            self.ending = None;
             let active = self.step.solver.active().flags().to_vec();
             let Step { solver, to, .. } = &mut self.step;
             if !has_crossed {
@@ -511,7 +518,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
             }
         }
         self.books.close_step(self.step.solver, &self.step.to, after, cause);
-        self.touches = guards(self.step.solver, GuardKind::Touch, &self.step.to);
+        let Step { solver, to, .. } = &self.step;
+        self.touches = self.ending.take().unwrap_or_else(|| guards(solver, GuardKind::Touch, to));
         Ok(())
     }
 

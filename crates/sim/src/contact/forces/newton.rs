@@ -3,7 +3,7 @@
 use super::{Effects, Factors, Problem, Residuals, RowKind, Wanted, largest};
 use crate::contact::element::{Coupling, Law, Local, Query};
 use crate::contact::system::System;
-use crate::numerics::dense::{factor_general, solve_factored};
+use crate::numerics::dense::{along, factor_general, solve_factored};
 
 /// Relative change of the forces at which Newton's method ends.
 const TOLERANCE: f64 = 1e-13;
@@ -119,11 +119,17 @@ impl Problem {
         wanted: Wanted,
     ) -> f64 {
         for &i in &self.sought {
-            // The rates of other elements depend on no force.
-            let has_rate = system.fixed[i].feels_rates || system.fixed[i].has_memory;
             let effects = &self.effects;
-            let rate = if has_rate { effects.rate_under(i, force) } else { effects.rate[i] };
-            self.residuals.reached[i] = [effects.penetration(i, force), rate];
+            let sunk = along(&effects.w, i, force);
+            let rate = match effects.kind[i] {
+                RowKind::Memory(per_step) => effects.rate[i] - per_step * sunk,
+                _ if system.fixed[i].feels_rates || system.fixed[i].has_memory => {
+                    effects.rate_under(i, force)
+                }
+                // The rates of other elements depend on no force.
+                _ => effects.rate[i],
+            };
+            self.residuals.reached[i] = [effects.approach[i] - sunk, rate];
         }
         self.evaluate_laws(system, local, active, force, wanted);
         largest(&self.residuals.value)
@@ -193,15 +199,19 @@ impl Problem {
     /// Factors the Jacobian of the acting laws: I + law_p W + law_r Y minus the slopes with respect to other forces.
     /// Returns false if it is singular.
     pub(super) fn factor(&mut self) -> bool {
-        let Problem { effects: Effects { w, y, .. }, residuals, factors, .. } = self;
+        let Problem { effects: Effects { w, y, kind, .. }, residuals, factors, .. } = self;
         let Factors { elements, jacobian, pivots } = factors;
         let (m, count) = (residuals.value.len(), residuals.acting.len());
         for (row, &i) in residuals.acting.iter().enumerate() {
             let line = &mut jacobian[row * count..(row + 1) * count];
             let (own_w, own_y) = (&w[i * m..(i + 1) * m], &y[i * m..(i + 1) * m]);
-            let Law { by_penetration, by_rate, by_other, .. } = residuals.slopes[row];
-            for (entry, &j) in line.iter_mut().zip(&residuals.acting) {
-                *entry = by_penetration * own_w[j] + by_rate * own_y[j];
+            let Law { mut by_penetration, mut by_rate, by_other, .. } = residuals.slopes[row];
+            if let RowKind::Memory(per_step) = kind[i] {
+                (by_penetration, by_rate) = (by_penetration + by_rate * per_step, 0.0);
+            }
+            line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry = by_penetration * own_w[j]);
+            if by_rate != 0.0 {
+                line.iter_mut().zip(&residuals.acting).for_each(|(entry, &j)| *entry += by_rate * own_y[j]);
             }
             if let Some((other, slope)) = by_other {
                 let w = &w[other * m..(other + 1) * m];

@@ -7,9 +7,9 @@
 //! a <- a - Z r_a,   dF = -J^-1 r_F,   F <- F + dF,   a <- a - Z B^T dF.
 //!
 //! A correction reduces the error by a factor of the order of the change of the matrices since they were factored. It
-//! costs a few matrix-vector products. The geometry is evaluated in the first correction of a stage, and again only if the
-//! bodies have moved by more than the tolerance distance of [`Geometry::is_near`]: from one correction to the next they move
-//! by some 1e-9 of the radius of a wheel.
+//! costs a few matrix-vector products. The geometry is evaluated in the first correction of a stage, and again only
+//! where [`Geometry::nearness`] says that the bodies have moved far: from one correction to the next they move by some
+//! 1e-9 of the radius of a wheel. Where they are close, the rows of the forces alone follow the slopes of the rails.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.8: simplified Newton iterations.
@@ -20,6 +20,7 @@ use crate::contact::element::passing;
 use crate::contact::forces::ActingLaws;
 #[cfg(doc)]
 use crate::contact::geometry::Geometry;
+use crate::contact::geometry::Nearness;
 use crate::mechanics::state::{Known, State};
 
 impl Solver<'_> {
@@ -41,9 +42,19 @@ impl Solver<'_> {
         holds: bool,
     ) -> Result<Option<([f64; 2], ActingLaws)>, Error> {
         let system = self.system;
-        if !(self.evaluated.is_valid && self.geometry.is_near(system, &self.evaluated.q, &at.q)) {
-            self.evaluate_at(at)?;
-            self.free.fill_given(system, at);
+        let nearness = match self.evaluated.is_valid {
+            true => self.geometry.nearness(system, &self.evaluated.q, &at.q),
+            false => Nearness::Far,
+        };
+        match nearness {
+            Nearness::Near => {}
+            Nearness::Close => {
+                self.geometry.turn_forces(system, &at.q, &at.force, &self.problem.candidates);
+            }
+            Nearness::Far => {
+                self.evaluate_at(at)?;
+                self.free.fill_given(system, at);
+            }
         }
         let rows = self.geometry.rows();
         self.free.improve(system, g, known, at, self.projection.columns(), |j| rows.force_row(j));

@@ -76,10 +76,10 @@ impl Solver<'_> {
             let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
             let rates = &(if self.remembers(i) { &rows.approach } else { &rows.rate })[i * n..(i + 1) * n];
             own[i][1] = rate.get(i).copied().unwrap_or(0.0);
-            for (k, omega) in system.mechanics.omegas.iter().enumerate() {
+            for k in system.row_spans[i].clone() {
                 let by = [place[k] * q[k], rates[k] * v[k]];
                 let next = if frequency[k] > 0.0 { place[k] * v[k] / frequency[k] } else { 0.0 };
-                if omega.is_some() {
+                if system.mechanics.omegas[k].is_some() {
                     let error = add_up(by[0].abs() + next.abs(), k, place[k]);
                     let rate_error = if is_staged {
                         add_up(by[1].abs(), k, rates[k] * frequency[k])

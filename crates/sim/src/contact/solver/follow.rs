@@ -4,7 +4,6 @@ use nalgebra::{DMatrix, DVector};
 
 use super::Solver;
 use crate::mechanics::state::State;
-use crate::numerics::dense::along;
 use crate::numerics::lu::LuFactors;
 
 /// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
@@ -92,7 +91,7 @@ impl Solver<'_> {
         }
         let rate_of = |(r, &i): (usize, &usize)| {
             let slope = rows.rise[i] - self.geometry.shape_slope(i, &at.q);
-            let mut rate = along(&rows.approach, i, at.v.as_slice()) + slope * speed[r];
+            let mut rate = rows.approach_along(i, &at.v) + slope * speed[r];
             for (c, &j) in contacts.iter().enumerate() {
                 let passing = speed[r] * rails.slope[i * m + j] + speed[c] * rails.slope[j * m + i];
                 rate -= passing * stiffness[c] * value[c];

@@ -19,7 +19,6 @@ use super::geometry::Geometry;
 use super::projection::Projection;
 use super::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::dense::along;
 use crate::{Action, Error};
 
 /// Compliance of a rail, relative to that of the wheel, below which the rail is treated as rigid.
@@ -252,7 +251,7 @@ impl<'a> Solver<'a> {
     pub fn approach_rate(&self, i: usize, at: &State) -> f64 {
         let rows = self.geometry.rows();
         let slope = rows.rise[i] - self.geometry.deflected_slope(i, &at.q, &at.force);
-        along(&rows.approach, i, at.v.as_slice()) + slope * self.system.contact_speed(i, at)
+        rows.approach_along(i, &at.v) + slope * self.system.contact_speed(i, at)
     }
 
     /// M^-1 times the forces at `t` that are independent of the elements.

@@ -23,7 +23,6 @@ use super::{PASSES, Problem, RowKind, Solver};
 use crate::Error;
 use crate::contact::forces::ActingLaws;
 use crate::mechanics::state::{Known, State};
-use crate::numerics::dense::along;
 
 /// Allowed relative residual of the forces, per unit of the allowed error of the passes.
 const SLACK: f64 = 0.1;
@@ -267,7 +266,7 @@ impl Solver<'_> {
     pub(super) fn free_approach_rate(&self, i: usize, speed: f64) -> f64 {
         let rows = self.geometry.rows();
         let slope = rows.rise[i] - self.geometry.shape_slope(i, &self.free.q);
-        along(&rows.approach, i, self.free.v.as_slice()) + speed * slope
+        rows.approach_along(i, &self.free.v) + speed * slope
     }
 
     /// Replaces the rate of vertical contact `i` by that of the motion at the speed x' of `at`: r_0 is that without forces
@@ -330,13 +329,16 @@ impl Solver<'_> {
     /// degrees of freedom themselves and relative to their scales.
     fn follow_accelerations(&self, g: f64, known: &Known, at: &mut State) -> [f64; 2] {
         let [mut moved, mut beside] = [0.0_f64; 2];
-        for k in 0..at.q.len() {
-            let v = known.v[k] + g * at.a[k];
-            let q = known.q[k] + g * v;
-            let change = (q - at.q[k]).abs();
-            moved = moved.max(change / (1.0 + q.abs()));
-            beside = beside.max(self.convergence.weigh(k, [change, (v - at.v[k]).abs()], [q, v]));
-            (at.q[k], at.v[k]) = (q, v);
+        let accelerations = at.a.as_slice().iter();
+        let known = known.q.as_slice().iter().zip(known.v.as_slice());
+        let motion = at.q.as_mut_slice().iter_mut().zip(at.v.as_mut_slice());
+        for (k, ((a, (known_q, known_v)), (q, v))) in accelerations.zip(known).zip(motion).enumerate() {
+            let next_v = known_v + g * a;
+            let next_q = known_q + g * next_v;
+            let change = (next_q - *q).abs();
+            moved = moved.max(change / (1.0 + next_q.abs()));
+            beside = beside.max(self.convergence.weigh(k, [change, (next_v - *v).abs()], [next_q, next_v]));
+            (*q, *v) = (next_q, next_v);
         }
         [moved, beside]
     }
