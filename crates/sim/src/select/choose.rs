@@ -7,7 +7,7 @@
 //!    less, the choice ends here. Wheels that remember n of their bounces may amplify what the rails lack by n: from n = 8 on
 //!    it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
 //! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a fifth of the tolerance, or a tenth
-//!    at equal times. The difference of the two runs is the error of the first one; its ratio to the estimate of step 2
+//!    at equal times and in runs of many bounces. The difference of the two runs is the error of the first one; its ratio to the estimate of step 2
 //!    is the factor by which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes
 //!    again: the tail beyond m modes times that factor is the error of the new run.
 //! 4. The start of the motion, an eighth of the run, is repeated with more modes and with a tenth of the accuracy, before
@@ -54,11 +54,11 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 const MODES: [usize; 2] = [24, 144];
 /// Least ratio of the number of known modes to the number for which an estimate is used.
 const BEYOND: f64 = 1.5;
-/// Estimates for which a number of modes is chosen first, and when it is raised, relative to the tolerance, by extremes: these
+/// Estimates for which a number of modes is chosen first, and when it is raised, relative to the tolerance, where extremes
 /// change by no more than the amplitudes that are estimated.
 const AIM: [f64; 2] = [0.2, 0.4];
-/// The same at equal times, where phases that are not quite those of a run with more modes count as well.
-const AIM_AT_EQUAL_TIMES: [f64; 2] = [0.1, 0.1];
+/// The same at equal times and in runs of many bounces, where phases that are not quite those of a run with more modes count.
+const AIM_IN_PHASE: [f64; 2] = [0.1, 0.1];
 /// Fraction of the tolerance that the difference from a run with more modes, with the error of that run, may reach: on random
 /// scenes errors were up to 1.43 times as large where more than half of the tolerance was found.
 const BESIDE: f64 = 0.7;
@@ -201,8 +201,9 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             }
             match self.provider.modes(structure, MODES[0]) {
                 Ok(Some(basis)) if basis.structure.dynamics.dofs() > 0 => {
-                    let is_by_extremes = tolerance.measure == Measure::Extremes;
-                    let shares = if is_by_extremes { AIM } else { AIM_AT_EQUAL_TIMES };
+                    let has_amplitudes =
+                        tolerance.measure == Measure::Extremes && remembered_bounces(&self.scene) <= MANY;
+                    let shares = if has_amplitudes { AIM } else { AIM_IN_PHASE };
                     let aims = shares.map(|share| share * tolerance.value);
                     let (tolerance, tails) = (tolerance.value, Vec::new());
                     open.push(Open { structure, tolerance, aims, basis, tails, tails_of: None, choice });
@@ -346,7 +347,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let Refinement { mut open, mut counts, is_hopeless, bounces, compliances } = refinement;
         let strictest = self.strictest(&open, &counts);
         let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
-        let mut lacking = largest(&open, &vec![0; open.len()]);
+        let mut lacking = largest(&open, &vec![0; open.len()], |tail| tail.error);
         for round in 1..=MODAL_RUNS {
             let Some(mut higher) = self.modal_trial(&open, &counts, accuracy) else {
                 return self.repeated(&open, lower, bounces);
@@ -357,8 +358,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let apart = difference(&lower.record, &higher.record, strictest.measure, bounces);
             let factor = apart.largest / lacking.max(f64::MIN_POSITIVE);
             let mut factor = factor.clamp(AMPLIFICATION[0], AMPLIFICATION[1]);
-            lacking = largest(&open, &counts);
-            let error = apart.largest + factor * lacking;
+            lacking = largest(&open, &counts, |tail| tail.error);
+            let error = apart.largest + factor * largest(&open, &counts, |tail| tail.in_phase);
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
             if error <= BESIDE * strictest.value {

@@ -449,19 +449,26 @@ impl<'a> Outlined<'a> {
         self.scales[index]
     }
 
-    /// Difference of quantity `index` from itself with the oscillation `lacking` added, whose phase is not known, relative to
-    /// its scale. With the amplitude A, the largest magnitude of the oscillation within `reach` samples of each, the extremes of
-    /// y become those of y + A or of y - A, and the means those of y + `lacking`: a change by no more than the largest magnitude.
-    /// Not a number where a value is none.
-    pub fn difference(&self, index: usize, lacking: &[f64], reach: usize) -> f64 {
-        let values = &self.record.quantities[index].values;
-        let own = self.outlines[index].get_or_init(|| self.windows.outline(values));
+    /// Difference of quantity `index` from itself with the values `lacking` added, relative to its scale: at most the largest
+    /// of their magnitudes. Not a number where a value is none.
+    pub fn difference(&self, index: usize, lacking: &[f64]) -> f64 {
+        let sum: Vec<f64> =
+            self.record.quantities[index].values.iter().zip(lacking).map(|(value, by)| value + by).collect();
+        self.relative(index, self.windows.outline(&sum).difference(self.own(index)))
+    }
+
+    /// The same where `lacking` is an oscillation whose phase is not known. With the amplitude A, the largest magnitude of the
+    /// oscillation within `reach` samples of each, the extremes of y become those of y + A or of y - A, and the means those of
+    /// y + `lacking`.
+    pub fn difference_by_amplitude(&self, index: usize, lacking: &[f64], reach: usize) -> f64 {
+        let own = self.own(index);
         // maxima ignore what is not a number
         if !own.is_finite || lacking.iter().any(|value| !value.is_finite()) {
             return f64::NAN;
         }
         let means = self.windows.own.iter().map(|range| mean(&lacking[range.clone()]).abs());
         let mut largest = means.fold(0.0, f64::max);
+        let values = &self.record.quantities[index].values;
         let amplitude = largest_within(lacking, reach);
         let mut sum = vec![0.0; values.len()];
         for sign in [-1.0, 1.0] {
@@ -470,6 +477,15 @@ impl<'a> Outlined<'a> {
             }
             largest = largest.max(self.windows.outline(&sum).difference_of_extremes(own));
         }
+        self.relative(index, largest)
+    }
+
+    /// The outline of quantity `index`.
+    fn own(&self, index: usize) -> &Outline {
+        self.outlines[index].get_or_init(|| self.windows.outline(&self.record.quantities[index].values))
+    }
+
+    fn relative(&self, index: usize, largest: f64) -> f64 {
         if largest == 0.0 { 0.0 } else { largest / self.scales[index] }
     }
 }

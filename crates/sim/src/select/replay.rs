@@ -65,12 +65,14 @@ pub(super) struct TailError {
     pub quantity: String,
     /// Largest relative error of a motion, a wheel force or a gauge.
     pub of_motion: f64,
+    /// The error as far as the phase of what is lacking is known.
+    pub in_phase: f64,
 }
 
 impl TailError {
     /// No error without all but the lowest `kept` modes.
     pub fn none(kept: usize) -> Self {
-        TailError { kept, error: 0.0, quantity: String::new(), of_motion: 0.0 }
+        TailError { kept, error: 0.0, quantity: String::new(), of_motion: 0.0, in_phase: 0.0 }
     }
 }
 
@@ -440,10 +442,12 @@ impl<'a> Replay<'a> {
     }
 
     /// The largest relative error for each number of modes kept: the difference of the record from itself with what it
-    /// lacks added. Extremes are those with the amplitude of what is lacking: after some periods the phase of a high mode
-    /// is not that of a run that contains it. Reactions and internal forces, whose sums over the modes converge like 1/n,
-    /// also lack those above all known modes: the sum over all modes above k is N/(N - k) times that over the modes from
-    /// k to N.
+    /// lacks added. Where modes are kept, extremes are those with the amplitude of what is lacking: after some periods the phase
+    /// of a high mode is not that of a run that contains it.
+    ///
+    /// Reactions and internal forces, to which mode n contributes in proportion to 1/n^2, also lack those above all known modes.
+    /// In phase, the sum over all modes above k is N/(N - k) times that over the modes from k to N. Where phases are not
+    /// known, squares add up, and the root of their sum is (1 - (k/N)^3)^(-1/2) times that of the modes from k to N.
     fn errors(self) -> Vec<TailError> {
         let Loaded { record, measure, bounces, .. } = *self.loaded;
         let known = self.oscillators.len() as f64;
@@ -453,11 +457,13 @@ impl<'a> Replay<'a> {
             .chain(self.gauges.into_iter().map(|(_, slot)| slot))
             .chain(self.effects.into_iter().map(|(_, slot)| slot))
             .collect();
-        let beyond = |slot: &Slot, kept: usize| {
-            let is_effect = record.quantities[slot.quantity].channel.is_none();
-            if is_effect && !self.basis.is_whole { known / (known - kept as f64) } else { 1.0 }
-        };
         let is_motion = |slot: &Slot| record.quantities[slot.quantity].channel.is_some();
+        let is_cut_off = |slot: &Slot| !is_motion(slot) && !self.basis.is_whole;
+        let in_phase_beyond =
+            |slot: &Slot, kept: usize| if is_cut_off(slot) { known / (known - kept as f64) } else { 1.0 };
+        let beyond = |slot: &Slot, kept: usize| {
+            if is_cut_off(slot) { (1.0 - (kept as f64 / known).powi(3)).powf(-0.5) } else { 1.0 }
+        };
         // adds the error of a quantity to those of others
         let add = |found: &mut TailError, slot: &Slot, error: f64| {
             let error = if error.is_nan() { f64::INFINITY } else { error };
@@ -469,11 +475,12 @@ impl<'a> Replay<'a> {
                 found.of_motion = found.of_motion.max(error);
             }
         };
+        // differences at equal times, and of what is read from many bounces, have phases as they are
+        let as_they_are = |found: TailError| TailError { in_phase: found.error, ..found };
         // what a quantity lacks, at the times of the record
         let numbers = self.counts.len();
-        let lacking = |slot: &Slot, (index, kept): (usize, usize)| -> Vec<f64> {
-            let (own, share) = (slot.series.iter().skip(index).step_by(numbers), beyond(slot, kept));
-            own.map(|own| share * f64::from(*own)).collect()
+        let lacking = |slot: &Slot, index: usize, share: f64| -> Vec<f64> {
+            slot.series.iter().skip(index).step_by(numbers).map(|own| share * f64::from(*own)).collect()
         };
         let counts = self.counts.iter().copied().enumerate();
         if measure == Measure::History {
@@ -481,43 +488,56 @@ impl<'a> Replay<'a> {
             let pointwise = |(index, kept): (usize, usize)| {
                 let mut found = TailError::none(kept);
                 for slot in slots.iter().filter(|slot| slot.largest[index] != 0.0) {
-                    add(&mut found, slot, beyond(slot, kept) * slot.largest[index] / scales[slot.quantity]);
+                    let error = slot.largest[index] / scales[slot.quantity];
+                    add(&mut found, slot, in_phase_beyond(slot, kept) * error);
                 }
-                found
+                as_they_are(found)
             };
             return counts.map(pointwise).collect();
         }
         let Some(outlined) = Outlined::new(record, bounces) else {
-            let together = |count: (usize, usize)| {
+            let together = |(index, kept): (usize, usize)| {
                 let mut completed = record.clone();
                 for slot in &slots {
                     let values = completed.quantities[slot.quantity].values.iter_mut();
-                    values.zip(lacking(slot, count)).for_each(|(value, own)| *value += own);
+                    values
+                        .zip(lacking(slot, index, in_phase_beyond(slot, kept)))
+                        .for_each(|(value, own)| *value += own);
                 }
                 let apart = difference(&completed, record, measure, bounces);
                 let Difference { largest: error, quantity, of_motion } = apart;
-                TailError { kept: count.1, error, quantity, of_motion }
+                as_they_are(TailError { error, quantity, of_motion, ..TailError::none(kept) })
             };
             return counts.map(together).collect();
         };
         let duration = record.time.last().map_or(0.0, |end| end - record.time[0]);
         let each = |(index, kept): (usize, usize)| {
             // extremes change by no more than the values: quantities that lack little need no comparison
-            let most = |slot: &Slot| beyond(slot, kept) * slot.largest[index] / outlined.scale(slot.quantity);
+            let most = |slot: &Slot| {
+                in_phase_beyond(slot, kept) * slot.largest[index] / outlined.scale(slot.quantity)
+            };
             let mut bounds: Vec<(f64, &Slot)> = slots.iter().map(|slot| (most(slot), slot)).collect();
             bounds.sort_by(|a, b| b.0.total_cmp(&a.0));
             // half a period of the lowest mode that is lacking contains a peak of any oscillation of these modes
             let quarter = 0.5 * PI / oscillators[kept].omega;
             let reach = (quarter / duration * record.time.len() as f64).ceil() as usize;
             let mut found = TailError::none(kept);
+            let mut in_phase = 0.0;
             for (bound, slot) in bounds {
-                if bound <= if is_motion(slot) { found.of_motion } else { found.error } {
+                let is_open = bound > if is_motion(slot) { found.of_motion } else { found.error };
+                if bound <= in_phase && !is_open {
                     continue;
                 }
-                let lacking = lacking(slot, (index, kept));
-                add(&mut found, slot, outlined.difference(slot.quantity, &lacking, reach));
+                let quantity = slot.quantity;
+                let error = outlined.difference(quantity, &lacking(slot, index, in_phase_beyond(slot, kept)));
+                add(&mut found, slot, error);
+                in_phase = f64::max(in_phase, if error.is_nan() { f64::INFINITY } else { error });
+                if kept > 0 && is_open {
+                    let lacking = lacking(slot, index, beyond(slot, kept));
+                    add(&mut found, slot, outlined.difference_by_amplitude(quantity, &lacking, reach));
+                }
             }
-            found
+            TailError { in_phase, ..found }
         };
         counts.map(each).collect()
     }

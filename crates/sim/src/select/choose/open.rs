@@ -103,7 +103,7 @@ pub(super) fn is_unreachable(error: f64, tolerance: f64) -> bool {
     error > (UNREACHABLE * tolerance).min(1.0)
 }
 
-/// Largest estimate of the structures with these numbers of modes.
-pub(super) fn largest(open: &[Open], counts: &[usize]) -> f64 {
-    open.iter().zip(counts).map(|(own, count)| own.tail(*count).error).fold(0.0, f64::max)
+/// Largest one of the errors `of` the structures with these numbers of modes.
+pub(super) fn largest(open: &[Open], counts: &[usize], of: impl Fn(&TailError) -> f64) -> f64 {
+    open.iter().zip(counts).map(|(own, count)| of(&own.tail(*count))).fold(0.0, f64::max)
 }

@@ -116,7 +116,7 @@ impl<L: FoundationProvider> Search<'_, L> {
         (self.scene.end, self.scene.output_parts) = (end, parts);
         let (finer, apart) = (finer?, apart?);
         let [error, of_motion] = [apart.largest, apart.of_motion].map(|own| own / (1.0 - ratio));
-        let error = TailError { kept: 0, error, quantity: apart.quantity, of_motion };
+        let error = TailError { error, quantity: apart.quantity, of_motion, ..TailError::none(0) };
         for own in open {
             let [fidelity, against] = [higher, &finer].map(|trial| trial.fidelities[own.structure]);
             if fidelity != Fidelity::Influence {

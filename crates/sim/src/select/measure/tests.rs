@@ -71,12 +71,18 @@ fn an_oscillation_changes_extremes_by_its_amplitude() {
             known.time.iter().map(|t| if (t - 0.7).abs() < 0.01 { sign * 0.1 } else { 0.0 }).collect();
         for (reach, expected) in [(0, 0.1 / 11.0), (2, 0.1 / 11.0), (3, 0.1), (40, 0.1), (usize::MAX, 0.1)] {
             for index in 0..2 {
-                let found = outlined.difference(index, &lacking, reach);
+                let found = outlined.difference_by_amplitude(index, &lacking, reach);
                 assert!((found - expected).abs() < 1e-12, "{found} with {reach}");
             }
         }
-        assert_eq!(outlined.difference(0, &[0.0; 11], 3), 0.0);
-        assert!(outlined.difference(0, &[&lacking[..10], &[f64::NAN][..]].concat(), 0).is_nan());
+        let broken = [&lacking[..10], &[f64::NAN][..]].concat();
+        assert_eq!(outlined.difference_by_amplitude(0, &[0.0; 11], 3), 0.0);
+        assert!(outlined.difference_by_amplitude(0, &broken, 0).is_nan());
+        // its phase as it is: the mean changes by one of eleven values
+        for index in 0..2 {
+            assert!((outlined.difference(index, &lacking) - 0.1 / 11.0).abs() < 1e-12);
+        }
+        assert!(outlined.difference(0, &broken).is_nan());
     }
     assert!(Outlined::new(&known, Bounces { remembered: 200.0, ..bounces }).is_none());
 }
