@@ -323,18 +323,26 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
         let mut counts = vec![0; open.len()];
         for (own, count) in open.iter_mut().zip(&mut counts) {
-            let limit = if is_hopeless { own.aims[0] } else { own.aims[0].max(CHECKED * own.tail(0).error) };
+            let checked = (AIM_IN_PHASE[0] * own.tolerance).max(CHECKED * own.tail(0).error);
+            let limit = if is_hopeless { own.aims[0] } else { checked };
             if own.tail(0).error > enough * own.tolerance {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
                 // a run that only checks influence need not be within the tolerance itself
                 let enough = if is_hopeless { SAFE / UNKNOWN * own.tolerance } else { f64::INFINITY };
-                self.estimate(own, first, compliances, 1, [limit, enough]);
-                let found = |limit: f64| match own.sufficient_count(limit, 1) {
-                    None if !is_hopeless => own.no_worse_count(1),
-                    None => own.count_for(limit, UNKNOWN, 1, 1),
-                    found => found,
+                let of = if is_hopeless {
+                    |tail: &TailError| tail.error
+                } else {
+                    |tail: &TailError| tail.in_phase
                 };
-                let needed = |limit: f64| found(limit).unwrap_or(own.known());
+                self.estimate_by(of, own, first, compliances, (1, [limit, enough]));
+                let needed = |limit: f64| {
+                    let found = if is_hopeless {
+                        own.count_for(limit, UNKNOWN, 1, 1)
+                    } else {
+                        own.checking_count(limit)
+                    };
+                    found.unwrap_or(own.known())
+                };
                 *count = needed(limit).max(least.min(needed(NEGLIGIBLE * own.aims[0])));
             }
         }
@@ -418,7 +426,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         (error, bounces): (&TailError, Bounces),
     ) -> Result<Trial, L::Error> {
         let is_kept = higher.accuracy <= self.accuracy
-            && lower.run.counts.stages as u64 > LONG
+            && higher.run.counts.stages as u64 > LONG
             && higher.cost() > COSTLY * lower.cost();
         let (chosen, reason) = if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
         for own in open {
@@ -526,7 +534,19 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         trial: &Trial,
         compliances: &[Foundation],
         least: usize,
-        [limit, enough]: [f64; 2],
+        limits: [f64; 2],
+    ) {
+        self.estimate_by(|tail| tail.error, own, trial, compliances, (least, limits));
+    }
+
+    /// The same, by the errors `of` the estimates.
+    fn estimate_by(
+        &mut self,
+        of: fn(&TailError) -> f64,
+        own: &mut Open,
+        trial: &Trial,
+        compliances: &[Foundation],
+        (least, [limit, enough]): (usize, [f64; 2]),
     ) {
         let mut last_best = None;
         loop {
@@ -545,7 +565,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
                 own.tails_of = Some((trial.number, known));
             }
             let usable = |tail: &&TailError| tail.kept >= least && BEYOND * tail.kept as f64 <= known as f64;
-            let best = own.tails.iter().filter(usable).map(|tail| tail.error).reduce(f64::min);
+            let best = own.tails.iter().filter(usable).map(of).reduce(f64::min);
             let is_known = best.is_some_and(|best| {
                 let is_level = last_best.is_some_and(|last: f64| last <= NO_BETTER * best);
                 best <= limit || (best <= enough && is_level)

@@ -38,7 +38,16 @@ impl Open {
     /// Smallest number of modes, at least `least`, whose estimate is at most `limit`; all modes if there is none and they
     /// are the whole structure.
     pub fn sufficient_count(&self, limit: f64, least: usize) -> Option<usize> {
-        let found = self.tails.iter().find(|tail| tail.kept >= least && tail.error <= limit);
+        self.count_with(least, |tail| tail.error <= limit)
+    }
+
+    /// The same for a run that only checks influence functions, whose phases it has.
+    pub fn checking_count(&self, limit: f64) -> Option<usize> {
+        self.count_with(1, |tail| tail.in_phase <= limit).or_else(|| self.no_worse_count(1))
+    }
+
+    fn count_with(&self, least: usize, suffices: impl Fn(&TailError) -> bool) -> Option<usize> {
+        let found = self.tails.iter().find(|tail| tail.kept >= least && suffices(tail));
         let whole = Some(self.known()).filter(|_| self.basis.is_whole);
         found.map(|tail| tail.kept).or(whole)
     }
