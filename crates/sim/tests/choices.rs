@@ -11,8 +11,8 @@ use std::ops::ControlFlow;
 use common::modes::{beam, oscillator};
 use sim::{
     Bounces, Choice, Dynamics, Error, Fidelity, FidelityTrial, Foundation, FoundationProvider, History,
-    Measure, ModalBasis, Reason, Record, RecordedQuantity, Run, Scene, Selection, Structure, Tolerance,
-    TrialCheck, choose, difference,
+    Measure, ModalBasis, Reason, Record, RecordedQuantity, Run, Scene, Selection, Status, Structure,
+    Tolerance, TrialCheck, choose, difference,
 };
 
 /// The beam at every fidelity, with what was asked for.
@@ -39,6 +39,9 @@ struct Beam {
     /// Error of the displacements that are observed, relative to their size and by the accuracy of the run.
     by_steps: f64,
     accuracy: f64,
+    /// Steps of runs with influence functions that hardly advance, and whether runs with modes cannot go on.
+    idle_steps: usize,
+    modes_fail: bool,
 }
 
 impl FoundationProvider for Beam {
@@ -86,6 +89,14 @@ impl FoundationProvider for Beam {
     ) -> Result<Run, Error> {
         self.accuracy = scene.accuracy;
         let mut run = sim::run(scene, foundations, watch)?;
+        if self.fidelity == Some(Fidelity::Influence) {
+            let mut idle = (0..self.idle_steps).map(|step| 0.5 * scene.end + 1e-12 * step as f64);
+            if idle.any(|time| watch(time).is_break()) {
+                run.status = Status::Stopped;
+            }
+        } else if self.modes_fail {
+            run.status = Status::StepTooSmall(0.5 * scene.end);
+        }
         run.counts.stages += self.more_stages;
         if scene.end < self.end {
             self.starts.extend(self.fidelity);
@@ -225,6 +236,22 @@ fn a_whole_run_is_repeated_where_bounces_may_amplify_what_its_start_does_not_sho
         }
     }
     assert!(repeated.iter().all(|count| *count > 0), "{repeated:?}");
+}
+
+/// A massless rail on which wheels open and close without end: after 1,000 steps that lead nowhere the run with influence
+/// functions is given up, for modes; where these cannot go on either, it gets all the steps it wants.
+#[test]
+fn a_first_run_that_hardly_advances_is_given_up() {
+    for (idle_steps, modes_fail) in [(900, false), (5000, false), (5000, true)] {
+        let mut provider = Beam { idle_steps, modes_fail, ..Beam::default() };
+        let choice = chosen(0.003, EXTREMES, &mut provider);
+        let first = |&(fidelity, _): &(Fidelity, f64)| fidelity == Fidelity::Influence;
+        let (is_chosen, count) =
+            (choice.fidelity == Fidelity::Influence, provider.runs.iter().filter(|own| first(own)).count());
+        assert_eq!(is_chosen, idle_steps < 1000 || modes_fail, "{choice:?}");
+        assert_eq!(choice.failed.contains(&Fidelity::Influence), idle_steps > 1000, "{choice:?}");
+        assert_eq!(count, if idle_steps < 1000 || modes_fail { 2 } else { 1 }, "{:?}", provider.runs);
+    }
 }
 
 impl Beam {

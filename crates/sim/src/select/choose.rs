@@ -35,6 +35,8 @@
 //! have changed by more than half of the tolerance. `accuracy` is relative to the penetrations of the wheels at rest, and
 //! motions that are much smaller are quantities of the record as well.
 //!
+//! A first run that cannot go on, or hardly advances, is given up: numbers of modes are then tried without it.
+//!
 //! Every structure has its own modes and its own number of them, and all structures are raised in the same run.
 
 mod open;
@@ -87,7 +89,10 @@ const SAMPLES: [f64; 2] = [10.0, 40_000.0];
 /// Stages of a run for each of its samples from which its steps are so short that further runs are sampled more densely, and
 /// the largest factor between the numbers of samples.
 const DENSER: (u64, usize) = (3, 8);
-/// Stages of a run from which its cost counts: shorter runs take some hundredths of a second.
+/// Steps of the first run that must advance it by this share of the fastest bounce. A run that takes shorter ones, because wheels
+/// without mass between stiff contacts and a massless rail open and close without end, is no longer the cheapest.
+const ADVANCE: (usize, f64) = (1000, 0.02);
+/// Cost of a run from which it counts: cheaper runs take some hundredths of a second.
 const LONG: u64 = 10_000;
 /// Ratio of the costs of two runs from which the run of the costlier one, once made, is kept.
 const COSTLY: u64 = 2;
@@ -111,7 +116,9 @@ pub fn choose<L: FoundationProvider>(
     }
     let checks = CHECK_ACCURACY * least(tolerances);
     let accuracy = if open.is_empty() { search.accuracy } else { checks.max(search.accuracy) };
+    search.must_advance = !open.is_empty();
     let first = search.trial(&influence, accuracy, !open.is_empty())?;
+    search.must_advance = false;
     let chosen = if open.is_empty() { first } else { search.search(open, first)? };
     Ok(search.finish(chosen))
 }
@@ -129,6 +136,8 @@ struct Trial {
     parts: usize,
     /// Its number, from 1.
     number: usize,
+    /// Whether it was given up because its steps were too short.
+    is_given_up: bool,
 }
 
 impl Trial {
@@ -139,6 +148,27 @@ impl Trial {
             _ => 0,
         };
         self.run.counts.stages as u64 * (16 + self.fidelities.iter().map(modes).sum::<u64>()) / 16
+    }
+}
+
+/// How far a run gets with its latest steps.
+#[derive(Default)]
+struct Progress {
+    since: f64,
+    steps: usize,
+}
+
+impl Progress {
+    /// Notes the end of a step; false if the latest steps, [`ADVANCE`] of them, have advanced the run by less than `least`.
+    fn is_sufficient(&mut self, time: f64, least: f64) -> bool {
+        self.steps += 1;
+        if self.steps < ADVANCE.0 && time > self.since {
+            return true;
+        }
+        // a run that is repeated with another method begins again
+        let advanced = if time > self.since { time - self.since } else { f64::INFINITY };
+        (self.since, self.steps) = (time, 0);
+        advanced >= least
     }
 }
 
@@ -160,6 +190,8 @@ struct Search<'a, L: FoundationProvider> {
     /// Accuracy of the result, and whether it records the ends of its steps.
     accuracy: f64,
     records_steps: bool,
+    /// Whether a run is given up where its steps are too short.
+    must_advance: bool,
     tolerances: &'a [Option<Tolerance>],
     provider: &'a mut L,
     watch: &'a mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -185,7 +217,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             scene.output_parts = wanted.min(most).ceil().max(1.0) as usize;
         }
         let records_steps = scene.records_steps;
-        Search { scene, accuracy, records_steps, tolerances, provider, watch, choices: Vec::new(), runs: 0 }
+        let (must_advance, choices, runs) = (false, Vec::new(), 0);
+        Search { scene, accuracy, records_steps, must_advance, tolerances, provider, watch, choices, runs }
     }
 
     /// The structures whose choice depends on runs. The choices of the others are made.
@@ -251,7 +284,13 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         self.scene.accuracy = accuracy;
         // only a run with the accuracy of the result may become the result
         self.scene.records_steps = self.records_steps && accuracy <= self.accuracy;
-        let run = self.provider.run(&self.scene, &foundations, self.watch)?;
+        let least = if self.must_advance { ADVANCE.1 * fastest_bounce(&self.scene) } else { 0.0 };
+        let (mut progress, mut is_given_up) = (Progress::default(), false);
+        let mut watch = |time: f64| {
+            is_given_up |= !progress.is_sufficient(time, least);
+            if is_given_up { ControlFlow::Break(()) } else { (self.watch)(time) }
+        };
+        let run = self.provider.run(&self.scene, &foundations, &mut watch)?;
         self.runs += 1;
         let mut record = Record::default();
         if is_compared && run.status.is_complete() {
@@ -260,7 +299,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             record = self.provider.observe(&history)?;
         }
         let (fidelities, parts, number) = (fidelities.to_vec(), self.scene.output_parts, self.runs);
-        Ok(Trial { fidelities, foundations, run, record, accuracy, parts, number })
+        Ok(Trial { fidelities, foundations, run, record, accuracy, parts, number, is_given_up })
     }
 
     /// The bounces of the wheels in a run.
@@ -287,6 +326,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             Status::Done | Status::Ended(_) => {}
             // Other foundations may still complete the motion.
             Status::StepTooSmall(_) => return self.search_without_influence(open, first),
+            Status::Stopped if first.is_given_up => return self.search_without_influence(open, first),
             // On other foundations the wheels would leave their rails as well.
             Status::Stopped | Status::Failed(..) => return Ok(first),
         }
@@ -425,9 +465,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         higher: Trial,
         (error, bounces): (&TailError, Bounces),
     ) -> Result<Trial, L::Error> {
-        let is_kept = higher.accuracy <= self.accuracy
-            && higher.run.counts.stages as u64 > LONG
-            && higher.cost() > COSTLY * lower.cost();
+        let is_kept = higher.accuracy <= self.accuracy && higher.cost() > LONG.max(COSTLY * lower.cost());
         let (chosen, reason) = if is_kept { (higher, Reason::Kept) } else { (lower, Reason::Sufficient) };
         for own in open {
             self.settle(own, chosen.fidelities[own.structure], reason, error);
@@ -458,42 +496,63 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
     }
 
     /// The choice where the run `first` with influence functions could not continue: the first number of modes that
-    /// completes the motion and whose error, estimated with the factor [`UNKNOWN`], is within the tolerance.
+    /// completes the motion and whose error, estimated with the factor [`UNKNOWN`], and that of its repetitions, are within
+    /// the tolerance. Where no modes complete it, influence functions are given all the time they want.
     fn search_without_influence(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
         for own in &open {
             self.choices[own.choice].failed.push(Fidelity::Influence);
         }
         let compliances = std::mem::take(&mut first.foundations);
         let mut counts: Vec<usize> = open.iter().map(Open::known).collect();
-        let (mut last, mut is_last) = (first, false);
+        let strictest = self.strictest(&open, &counts);
+        let mut last = None;
         for round in 1..=MODAL_RUNS {
-            let Some(trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
+            let Some(mut trial) = self.modal_trial(&open, &counts, self.accuracy) else {
+                return if first.is_given_up {
+                    self.trial(&first.fidelities, self.accuracy, true)
+                } else {
+                    Ok(first)
+                };
+            };
+            // no two runs tell how much wheels amplify
+            let bounces = self.bounces(&trial);
+            let bounces = Bounces { remembered: bounces.remembered.max(REMEMBERED[0]), ..bounces };
             for (own, count) in open.iter_mut().zip(&counts) {
                 self.estimate(own, &trial, &compliances, *count, [SAFE / UNKNOWN * own.tolerance; 2]);
             }
             self.note_tails(&open, &counts, UNKNOWN, &trial);
-            last = trial;
-            let raised: Vec<usize> = (open.iter().zip(&counts))
-                .map(|(own, &count)| {
-                    own.sufficient_count(SAFE / UNKNOWN * own.tolerance, count).unwrap_or(count)
-                })
-                .collect();
-            is_last = round == MODAL_RUNS;
-            if raised == counts || is_last {
+            let raise = |open: &[Open], factor: f64| -> Vec<usize> {
+                let raised = |(own, &count): (&Open, &usize)| {
+                    own.sufficient_count(SAFE / factor * own.tolerance, count).unwrap_or(count)
+                };
+                open.iter().zip(&counts).map(raised).collect()
+            };
+            let (mut raised, mut repeated) = (raise(&open, UNKNOWN), None);
+            if raised == counts {
+                (trial, repeated) =
+                    self.check_by_repetitions(&open, (&counts, UNKNOWN), trial, strictest, bounces)?;
+                let found = repeated.as_ref().map_or(0.0, |repeated| repeated.error);
+                let lacking = largest(&open, &counts, |tail| tail.error);
+                if found > strictest.value && lacking > 0.0 {
+                    raised = raise(&open, UNKNOWN.max(found / lacking));
+                }
+            }
+            let is_done = raised == counts;
+            last = Some((trial, std::mem::replace(&mut counts, raised), repeated, round == MODAL_RUNS));
+            if is_done {
                 break;
             }
-            counts = raised;
         }
-        for own in open.iter().filter(|_| last.run.status.is_complete()) {
-            let fidelity = last.fidelities[own.structure];
-            let kept = if let Fidelity::Modal(count) = fidelity { count } else { 0 };
-            let tail = own.tail(kept);
-            let tail = TailError { error: UNKNOWN * tail.error, ..tail };
-            let insufficient = if is_last { Reason::Limit } else { Reason::NoBetter };
-            let reason = if tail.error <= own.tolerance { Reason::Sufficient } else { insufficient };
-            self.settle(own, fidelity, reason, &tail);
-        }
-        Ok(last)
+        let Some((trial, counts, repeated, is_last)) = last else {
+            return if first.is_given_up {
+                self.trial(&first.fidelities, self.accuracy, true)
+            } else {
+                Ok(first)
+            };
+        };
+        self.settle_higher(&open, &counts, UNKNOWN, repeated, &trial, is_last);
+        let bounces = self.bounces(&trial);
+        self.repeated(&open, trial, bounces)
     }
 
     /// The smallest tolerance of the structures that have modes, in the stricter measure.
