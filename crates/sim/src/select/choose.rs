@@ -25,7 +25,8 @@
 //! 6. The first run is chosen if the difference and the error of the new run together are within 0.7 of the tolerance, and
 //!    otherwise the new run if its error is within 0.8 of it (within the tolerance where no further run would help), and so are
 //!    those of its repetitions. If neither is, the number of modes is raised to one whose new estimate is within the
-//!    tolerance, or else to the largest known one, and steps 3 to 5 are repeated, up to three times. After that the error is
+//!    tolerance, or else to the largest known one, and at least to that of the repetitions if these have shown an error beyond the
+//!    tolerance. Steps 3 to 5 are repeated, up to three times. After that the error is
 //!    reported as exceeding the tolerance. Where even the largest number leaves an error far beyond the tolerance, more modes
 //!    are not tried.
 //!
@@ -396,6 +397,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let strictest = self.strictest(&open, &counts);
         let mut accuracy = if is_hopeless { self.accuracy } else { CHECK_ACCURACY * strictest.value };
         let mut lacking = largest(&open, &vec![0; open.len()], |tail| tail.error);
+        // whether the repetitions of the lower run have shown that its error is too large
+        let mut is_refuted = false;
         for round in 1..=MODAL_RUNS {
             let Some(mut higher) = self.modal_trial(&open, &counts, accuracy) else {
                 return self.repeated(&open, lower, bounces);
@@ -410,19 +413,28 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let error = apart.largest + factor * largest(&open, &counts, |tail| tail.in_phase);
             self.note_runs(&open, &lower, &higher, error, &apart.quantity);
             self.note_tails(&open, &counts, factor, &higher);
-            if error <= BESIDE * strictest.value {
+            if error <= BESIDE * strictest.value && !is_refuted {
                 let error = TailError { error, quantity: apart.quantity, ..TailError::none(0) };
                 return self.choose_lower(&open, lower, higher, (&error, bounces));
             }
             let mut repeated = None;
+            is_refuted = false;
             let mut raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
             if raised == counts && !is_unreachable(factor * lacking, strictest.value) {
                 (higher, repeated) =
                     self.check_by_repetitions(&open, (&counts, factor), higher, strictest, bounces)?;
                 let found = repeated.as_ref().map_or(0.0, |repeated| repeated.error);
-                if found > strictest.value {
+                is_refuted = found > strictest.value;
+                if is_refuted {
                     factor = factor.max(found / lacking.max(f64::MIN_POSITIVE));
+                    let of_repetitions: Vec<usize> =
+                        open.iter().zip(&counts).map(|(own, count)| own.kept_beyond(*count)).collect();
                     raised = self.raised(&mut open, &counts, factor, &higher, &compliances);
+                    for ((raised, count), repeated) in raised.iter_mut().zip(&counts).zip(of_repetitions) {
+                        if *raised > *count {
+                            *raised = repeated.max(*raised);
+                        }
+                    }
                 }
             }
             if raised == counts || round == MODAL_RUNS {

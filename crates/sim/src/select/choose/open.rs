@@ -11,6 +11,9 @@ pub(super) const NO_BETTER: f64 = 1.5;
 /// Estimate for the number of modes of a repetition, relative to that of the run itself, and the largest ratio with
 /// which the error of the repetition is extrapolated.
 const START_RATIO: [f64; 2] = [0.3, 0.5];
+/// Least number of modes of a repetition, relative to that of the run, where it is not the second one of [`START_MODES`]:
+/// a few more do not tell how forces change that depend on all of them.
+const START_TIMES: usize = 2;
 /// Number of modes, relative to that of the run, and the least number, from which a further reduction of the estimate is not
 /// waited for.
 const START_MODES: (usize, usize) = (3, 24);
@@ -89,9 +92,16 @@ impl Open {
         let most = self.tails.last().map_or(known, |last| last.kept);
         let many = START_MODES.1.max(START_MODES.0 * count).min(most);
         let suffices = |tail: &&TailError| tail.error <= START_RATIO[0] * own || tail.kept >= many;
-        let found = self.tails.iter().filter(|tail| tail.kept > count).find(suffices);
+        let least = (START_TIMES * count).min(START_MODES.1).max(count + 1);
+        let found = self.tails.iter().filter(|tail| tail.kept >= least).find(suffices);
         let (more, error) = found.map_or((known, self.tail(known).error), |tail| (tail.kept, tail.error));
         Some((more, (error / own).min(START_RATIO[1])))
+    }
+
+    /// The number of modes of a repetition of a run with `count` modes that a run may keep.
+    pub fn kept_beyond(&self, count: usize) -> usize {
+        let most = self.tails.last().map_or(count, |last| last.kept);
+        self.beyond(count).map_or(count, |(more, _)| more.min(most)).max(count)
     }
 
     /// Number of known modes with frequencies below `omega`.
