@@ -55,6 +55,9 @@ use crate::{Analysis, Channel, Foundation, Run, Scene, Status};
 
 /// Number of modes that are computed first, and at the most.
 const MODES: [usize; 2] = [24, 144];
+/// Factor by which all further modes reduce an estimate that twice as many have hardly reduced: 144 are less than four times
+/// as many as 48.
+const LEFT: f64 = 2.0;
 /// Least ratio of the number of known modes to the number for which an estimate is used.
 const BEYOND: f64 = 1.5;
 /// Estimates for which a number of modes is chosen first, and when it is raised, relative to the tolerance, where extremes
@@ -597,8 +600,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
 
     /// Estimates the errors of leaving out modes of a structure under the wheel forces of a run. More modes are
     /// computed until the smallest number, at least `least`, whose estimate is at most `limit` is two thirds of them. The
-    /// search ends as well where the least estimate of such numbers is at most `enough`, and more modes have hardly reduced it
-    /// ([`NO_BETTER`]).
+    /// search ends as well where more modes have hardly reduced the least estimate of such numbers ([`NO_BETTER`]), and it is at
+    /// most `enough`, or so large that the modes that are left cannot help.
     fn estimate(
         &mut self,
         own: &mut Open,
@@ -639,7 +642,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
             let best = own.tails.iter().filter(usable).map(of).reduce(f64::min);
             let is_known = best.is_some_and(|best| {
                 let is_level = last_best.is_some_and(|last: f64| last <= NO_BETTER * best);
-                best <= limit || (best <= enough && is_level)
+                let is_settled = best <= enough || is_unreachable(best / LEFT, own.tolerance);
+                best <= limit || (is_level && is_settled)
             });
             if is_known || own.basis.is_whole || known >= MODES[1] {
                 return;
