@@ -39,9 +39,9 @@ struct Beam {
     /// Error of the displacements that are observed, relative to their size and by the accuracy of the run.
     by_steps: f64,
     accuracy: f64,
-    /// Steps of runs with influence functions that hardly advance, and whether runs with modes cannot go on.
+    /// Steps of runs with influence functions that hardly advance, and the number of modes above which runs cannot go on.
     idle_steps: usize,
-    modes_fail: bool,
+    most_modes: Option<usize>,
     /// Number of modes below which repetitions of a start show that the run is wrong, and that of the run that is repeated.
     deceptive: usize,
     kept: usize,
@@ -97,7 +97,9 @@ impl FoundationProvider for Beam {
             if idle.any(|time| watch(time).is_break()) {
                 run.status = Status::Stopped;
             }
-        } else if self.modes_fail {
+        } else if let (Some(most), Some(Fidelity::Modal(modes))) = (self.most_modes, self.fidelity)
+            && modes > most
+        {
             run.status = Status::StepTooSmall(0.5 * scene.end);
         }
         run.counts.stages += self.more_stages;
@@ -250,7 +252,8 @@ fn a_whole_run_is_repeated_where_bounces_may_amplify_what_its_start_does_not_sho
 #[test]
 fn a_first_run_that_hardly_advances_is_given_up() {
     for (idle_steps, modes_fail) in [(900, false), (5000, false), (5000, true)] {
-        let mut provider = Beam { idle_steps, modes_fail, ..Beam::default() };
+        let most_modes = modes_fail.then_some(0);
+        let mut provider = Beam { idle_steps, most_modes, ..Beam::default() };
         let choice = chosen(0.003, EXTREMES, &mut provider);
         let first = |&(fidelity, _): &(Fidelity, f64)| fidelity == Fidelity::Influence;
         let (is_chosen, count) =
@@ -259,6 +262,21 @@ fn a_first_run_that_hardly_advances_is_given_up() {
         assert_eq!(choice.failed.contains(&Fidelity::Influence), idle_steps > 1000, "{choice:?}");
         assert_eq!(count, if idle_steps < 1000 || modes_fail { 2 } else { 1 }, "{:?}", provider.runs);
     }
+}
+
+/// Without influence functions the first run has 24 modes. Where it is not enough, and runs with more cannot go on, it is the
+/// result, with the error that it has.
+#[test]
+fn a_run_with_modes_stays_the_result_where_more_modes_cannot_go_on() {
+    let tolerance = Tolerance { value: 1e-7, measure: Measure::History };
+    let mut provider = Beam { idle_steps: 5000, most_modes: Some(24), ..Beam::default() };
+    let choice = chosen(0.25, tolerance, &mut provider);
+    assert_eq!((choice.fidelity, choice.reason), (Fidelity::Modal(24), Reason::NoBetter), "{choice:?}");
+    assert!(choice.estimate.is_some_and(|estimate| estimate > tolerance.value), "{choice:?}");
+    assert!(
+        matches!(choice.failed[..], [Fidelity::Influence, Fidelity::Modal(more)] if more > 24),
+        "{choice:?}"
+    );
 }
 
 /// By the rule: the start of a run with m modes is repeated with at least 2 m of them, or 24 where that is less. Where that shows

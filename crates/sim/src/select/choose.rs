@@ -522,13 +522,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let strictest = self.strictest(&open, &counts);
         let mut last = None;
         for round in 1..=MODAL_RUNS {
-            let Some(mut trial) = self.modal_trial(&open, &counts, self.accuracy) else {
-                return if first.is_given_up {
-                    self.trial(&first.fidelities, self.accuracy, true)
-                } else {
-                    Ok(first)
-                };
-            };
+            let Some(mut trial) = self.modal_trial(&open, &counts, self.accuracy) else { break };
             // no two runs tell how much wheels amplify
             let bounces = self.bounces(&trial);
             let bounces = Bounces { remembered: bounces.remembered.max(REMEMBERED[0]), ..bounces };
