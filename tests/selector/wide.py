@@ -302,22 +302,26 @@ def judged(found, reference, measure, bounces):
     rows = min(len(found[1][0]), len(columns[0]))
     sizes = scales(names[1:], columns[1:])
 
+    def group_of(name):
+        return of_a_wheel(name) if measure == "extremes" and bounces > MANY else None
+
+    # wheels of a body are one quantity, with the largest of their scales
+    largest = {}
+    for name, size in zip(names[1:], sizes):
+        largest[group_of(name)] = max(size, largest.get(group_of(name), 0))
+    sizes = [largest[group_of(name)] if group_of(name) else size for name, size in zip(names[1:], sizes)]
+
     def ends(run, group):
         own = [column for name, column in zip(names, run) if of_a_wheel(name) == group]
         return max(map(max, own)), min(map(min, own))
 
     def of_column(i, name):
-        group = of_a_wheel(name) if measure == "extremes" and bounces > MANY else None
+        group = group_of(name)
         if group:
             return max(abs(a - b) for a, b in zip(ends(found[1], group), ends(columns, group)))
         return difference(found[1][i][:rows], columns[i][:rows], measure, around)
 
-    def scale(name, own):
-        group = of_a_wheel(name) if measure == "extremes" and bounces > MANY else None
-        return max(size for other, size in zip(names[1:], sizes) if of_a_wheel(other) == group) if group else own
-
-    return max((of_column(i, name) / scale(name, size), name)
-               for i, (name, size) in enumerate(zip(names[1:], sizes), 1) if scale(name, size) > 0)
+    return max((of_column(i, name) / size, name) for i, (name, size) in enumerate(zip(names[1:], sizes), 1) if size > 0)
 
 
 class Folder:

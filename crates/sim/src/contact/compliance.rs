@@ -54,12 +54,11 @@ struct Provider {
 impl RailCompliance {
     pub fn new(mechanics: &Mechanics, probes: &Probes, elements: usize) -> Self {
         let complies = |s: usize| mechanics.foundations[s].compliance.is_some();
-        let mut structures_of = vec![Vec::new(); elements];
-        for (s, entries) in probes.entries.iter().enumerate().filter(|(s, _)| complies(*s)) {
-            entries.iter().for_each(|entry| structures_of[entry.element].push(s));
-        }
-        structures_of.iter_mut().for_each(Vec::dedup);
-        let has_shared_rows = structures_of.iter().any(|structures| structures.len() > 1);
+        let compliant = probes.entries.iter().enumerate().filter(|(s, _)| complies(*s));
+        let mut bears = vec![None; elements];
+        let has_shared_rows = compliant
+            .flat_map(|(s, entries)| entries.iter().map(move |entry| (s, entry.element)))
+            .any(|(s, element)| bears[element].replace(s).is_some_and(|other| other != s));
         let own = std::iter::zip(mechanics.foundations, &probes.entries);
         let providers = own.map(|(foundation, entries)| Provider {
             influence: Influence::zeros(entries.len()),
@@ -115,7 +114,7 @@ impl RailCompliance {
     ) -> Result<(), Error> {
         let m = probes.slots.len();
         let RailCompliance { matrices, providers, has_shared_rows, near, reach } = self;
-        let mut is_incomplete = false;
+        let mut has_stale_sums = false;
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
             let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
             if let Some(path) = &mut provider.path
@@ -126,36 +125,31 @@ impl RailCompliance {
             }
             let (farthest, has_changed) = provider.move_to(mechanics, entries, x);
             let allowed = if compliance.is_symmetric() { *near } else { 0.0 };
-            if provider.is_evaluated && farthest <= allowed {
-                if has_changed && *has_shared_rows {
-                    is_incomplete = true;
-                } else if has_changed {
-                    clear(entries, m, matrices);
-                    provider.add_extrapolated(entries, m, matrices);
+            let is_near = provider.is_evaluated && farthest <= allowed;
+            if is_near && !has_changed {
+                continue;
+            }
+            if !is_near {
+                provider.moved.fill(0.0);
+                for (probe, entry) in provider.probes.iter_mut().zip(entries) {
+                    probe.x = x[entry.wheel];
                 }
-                continue;
+                compliance
+                    .fill(&provider.probes, &mut provider.influence)
+                    .map_err(|source| Error::Compliance { structure: s, source })?;
+                provider.is_evaluated = true;
             }
-            provider.moved.fill(0.0);
-            for (probe, entry) in provider.probes.iter_mut().zip(entries) {
-                probe.x = x[entry.wheel];
-            }
-            compliance
-                .fill(&provider.probes, &mut provider.influence)
-                .map_err(|source| Error::Compliance { structure: s, source })?;
-            provider.is_evaluated = true;
             if *has_shared_rows {
-                is_incomplete = true;
-                continue;
-            }
-            if probes.is_direct[s] {
+                has_stale_sums = true;
+            } else if !is_near && probes.is_direct[s] {
                 transpose(provider.influence.value.as_slice(), &mut matrices.value, m);
                 transpose(provider.influence.slope.as_slice(), &mut matrices.slope, m);
-                continue;
+            } else {
+                clear(entries, m, matrices);
+                provider.add_extrapolated(entries, m, matrices);
             }
-            clear(entries, m, matrices);
-            provider.add_extrapolated(entries, m, matrices);
         }
-        if is_incomplete {
+        if has_stale_sums {
             let evaluated = || providers.iter().zip(&probes.entries).filter(|(own, _)| own.is_evaluated);
             evaluated().for_each(|(_, entries)| clear(entries, m, matrices));
             evaluated().for_each(|(own, entries)| own.add_extrapolated(entries, m, matrices));

@@ -7,9 +7,9 @@
 //!    less, the choice ends here. Wheels that remember n of their bounces may amplify what the rails lack by n: from n = 8 on
 //!    it must be 0.8/n of the tolerance or less, 0.027 from n = 30 on.
 //! 3. Otherwise the scene is run with the lowest m modes for which the estimate is a fifth of the tolerance, or a tenth
-//!    at equal times and in runs of many bounces. The difference of the two runs is the error of the first one; its ratio to the estimate of step 2
-//!    is the factor by which the wheels amplify what the rails lack. The wheel forces of the new run act on the modes
-//!    again: the tail beyond m modes times that factor is the error of the new run.
+//!    at equal times and in runs of many bounces. The difference of the two runs is the error of the first one; its ratio
+//!    to the estimate of step 2 is the factor by which the wheels amplify what the rails lack. The wheel forces of the new
+//!    run act on the modes again: the tail beyond m modes times that factor is the error of the new run.
 //! 4. The start of the motion, an eighth of the run, is repeated with more modes and with a tenth of the accuracy, before
 //!    the new run is chosen. There the wheels meet a structure at rest, modes that are left out would begin to move at
 //!    once, and the accelerations of those that are kept, which enter reactions and internal forces, may be followed worse
@@ -26,9 +26,8 @@
 //!    otherwise the new run if its error is within 0.8 of it (within the tolerance where no further run would help), and so are
 //!    those of its repetitions. If neither is, the number of modes is raised to one whose new estimate is within the
 //!    tolerance, or else to the largest known one, and at least to that of the repetitions if these have shown an error beyond the
-//!    tolerance. Steps 3 to 5 are repeated, up to three times. After that the error is
-//!    reported as exceeding the tolerance. Where even the largest number leaves an error far beyond the tolerance, more modes
-//!    are not tried.
+//!    tolerance. Steps 3 to 5 are repeated, up to three times. After that the error is reported as exceeding the tolerance.
+//!    Where even the largest number leaves an error far beyond the tolerance, more modes are not tried.
 //!
 //! Runs are compared at the output times of the scene. The run with influence functions, and the run that checks them
 //! where the estimate of step 2 leaves it open whether they suffice, have only the accuracy of a tenth of the tolerance;
@@ -324,7 +323,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         self.scene.output_parts = self.scene.output_parts.max(wanted.min(most));
     }
 
-    /// Steps 2 to 4 of the head of this module, from the run `first` with influence functions.
+    /// Steps 2 to 6 of the head of this module, from the run `first` with influence functions.
     fn search(&mut self, mut open: Vec<Open>, mut first: Trial) -> Result<Trial, L::Error> {
         match first.run.status {
             Status::Done | Status::Ended(_) => {}
@@ -367,18 +366,19 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         let is_hopeless = open.iter().any(|own| own.tail(0).error > HOPELESS * own.tolerance);
         let mut counts = vec![0; open.len()];
         for (own, count) in open.iter_mut().zip(&mut counts) {
-            let checked = (AIM_IN_PHASE[0] * own.tolerance).max(CHECKED * own.tail(0).error);
-            let limit = if is_hopeless { own.aims[0] } else { checked };
-            if own.tail(0).error > enough * own.tolerance {
+            let error = own.tail(0).error;
+            if error > enough * own.tolerance {
                 let least = own.modes_below(ABOVE_CONTACT * frequency).max(1);
-                // a run that only checks influence need not be within the tolerance itself
-                let enough = if is_hopeless { SAFE / UNKNOWN * own.tolerance } else { f64::INFINITY };
-                let of = if is_hopeless {
-                    |tail: &TailError| tail.error
+                let limit = if is_hopeless {
+                    let limits = [own.aims[0], SAFE / UNKNOWN * own.tolerance];
+                    self.estimate(own, first, compliances, 1, limits);
+                    limits[0]
                 } else {
-                    |tail: &TailError| tail.in_phase
+                    // a run that only checks influence need not be within the tolerance itself
+                    let limits = [(AIM_IN_PHASE[0] * own.tolerance).max(CHECKED * error), f64::INFINITY];
+                    self.estimate_by(|tail| tail.in_phase, own, first, compliances, (1, limits));
+                    limits[0]
                 };
-                self.estimate_by(of, own, first, compliances, (1, [limit, enough]));
                 let needed = |limit: f64| {
                     let found = if is_hopeless {
                         own.count_for(limit, UNKNOWN, 1, 1)
@@ -393,7 +393,7 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         (counts, is_hopeless)
     }
 
-    /// Steps 3 and 4 of the head of this module: runs with modes until one of two runs is sufficient. `lower` is the
+    /// Steps 3 to 6 of the head of this module: runs with modes until one of two runs is sufficient. `lower` is the
     /// run with influence functions.
     fn refine(&mut self, refinement: Refinement, mut lower: Trial) -> Result<Trial, L::Error> {
         let Refinement { mut open, mut counts, is_hopeless, bounces, compliances } = refinement;

@@ -44,7 +44,8 @@ impl Open {
         self.count_with(least, |tail| tail.error <= limit)
     }
 
-    /// The same for a run that only checks influence functions, whose phases it has.
+    /// The same, from one mode on and by the estimate in phase, for a run that only checks influence functions; where there is
+    /// none, the smallest number that is no worse.
     pub fn checking_count(&self, limit: f64) -> Option<usize> {
         self.count_with(1, |tail| tail.in_phase <= limit).or_else(|| self.no_worse_count(1))
     }
@@ -55,7 +56,7 @@ impl Open {
         found.map(|tail| tail.kept).or(whole)
     }
 
-    /// The same; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the
+    /// That of [`Open::sufficient_count`]; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the
     /// tolerance with the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far
     /// beyond the tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
     pub fn count_for(&self, limit: f64, factor: f64, least: usize, spare: usize) -> Option<usize> {
