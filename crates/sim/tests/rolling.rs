@@ -12,6 +12,7 @@ use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{
     Analysis, BodyDof, Channel, Damper, Error, Flange, Foundation, Friction, FrictionLaw, Run, Scene, Status,
+    Stop,
 };
 use splines::{Axis, Compliance, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading};
 
@@ -304,4 +305,30 @@ fn random_scenes_neither_panic_nor_give_what_is_not_a_number() {
     }
     println!("done, too small, refused, no start: {ended:?}");
     assert!(ended[0] > 100);
+}
+
+/// Analytic: a stop of stiffness k_s at height h in front of the hubs is pressed by d where the bogie starts. At rest its wheels
+/// on rigid rails, at -a and a, give the pitch stiffness 2 a^2 k. The bogie turns by the angle phi, T h = 2 a^2 k phi, and the
+/// stop keeps T = k_s (d - h phi) = k_s d / (1 + k_s h^2 / (2 a^2 k)). The stop is four times as stiff in pitch as the wheels.
+#[test]
+fn a_body_that_starts_against_a_stiff_stop_rests_on_its_wheels() {
+    let (height, pressed) = (1.2, 0.01);
+    let mut scene = bogie(0.0, 0.01, Damper::Ground);
+    scene.analysis = Analysis::QuasiStatic;
+    let half = 4.0 / 3.0;
+    let turning = 2.0 * half * half * scene.wheels[0].normal.stiffness;
+    let stiffness = 4.0 * turning / (height * height);
+    scene.actuators.stops = vec![Stop {
+        body: 0,
+        against: None,
+        at: [half, height, 0.0],
+        axis: 0,
+        place: half - pressed,
+        side: 1.0,
+        stiffness,
+        damping: 0.0,
+    }];
+    let held = run(&scene, Foundation::rigid()).expect("a bogie at rest against the stop");
+    let found = held.history.column(Channel::Stop(0))[0];
+    assert_near("force of the stop, lb", "analytic", stiffness * pressed / 5.0, found, 1e-9);
 }

@@ -46,6 +46,7 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
     // The rope forces are kept at their values on entry: solving an instant during the iteration would find the ropes
     // slack.
     let springs: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
+    let entry = at.q.clone();
     let restore = |force: &mut [f64]| {
         system.springs().iter().zip(&springs).for_each(|(&i, pull)| force[i] = *pull);
     };
@@ -55,7 +56,7 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
     let mut relaxation = Relaxation::default();
     for _ in 0..FLANGES {
         let before = at.q.clone();
-        balance(solver, at)?;
+        balance(solver, &entry, at)?;
         let rests = !system.mechanics.moves_freely || has_settled(&before, at);
         if guides.is_empty() {
             if rests {
@@ -87,12 +88,12 @@ pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
     pairs.fold(0.0_f64, |most, (then, now)| most.max((now - then).abs())) <= SETTLED * depth
 }
 
-/// Solves the equilibrium for the flange forces of `at`.
-fn balance(solver: &mut Solver, at: &mut State) -> Result<(), Error> {
+/// Solves the equilibrium for the flange forces of `at`, with ropes and stops whose forces in `at` belong to `entry`.
+fn balance(solver: &mut Solver, entry: &DVector<f64>, at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     solver.update(at)?;
     let moving = balancing(solver);
-    let mut balance = Balance::new(solver, moving, at)?;
+    let mut balance = Balance::new(solver, moving, entry, at)?;
     if !balance.solve() {
         return Err(Error::NoEquilibrium { time: at.t, body: balance.least_balanced() });
     }
@@ -162,6 +163,25 @@ fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
     solver.system().springs().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
 }
 
+/// Stiffness of the ropes and stops that act at `at` between bodies none of which hangs, by the `moving` degrees of freedom;
+/// empty without such springs. A load on a rope follows the body that carries it, so that the rope is no spring of it.
+fn stiffness_of_springs(solver: &Solver, moving: &[usize], at: &State) -> Entries {
+    let system = solver.system();
+    let hangs = |i: &usize| {
+        let points = system.elements[*i].points();
+        points.is_some_and(|points| system.scene.actuators.hanging.iter().any(|&b| points.is_on(b)))
+    };
+    let mut sum = Entries::new();
+    for &i in system.springs().iter().filter(|i| at.force[**i] > 0.0 && !hangs(i)) {
+        sum.resize(moving.len() * moving.len(), 0.0);
+        let row = solver.geometry().rows().approach_row(i);
+        let stiffness = solver.geometry().local()[i].spring.stiffness;
+        let pairs = moving.iter().flat_map(|&k| moving.iter().map(move |&l| row[k] * row[l]));
+        sum.iter_mut().zip(pairs).for_each(|(entry, pair)| *entry += stiffness * pair);
+    }
+    sum
+}
+
 /// Aitken's relaxation of a fixed-point iteration on forces: omega <- -omega r_old . (r - r_old) / |r - r_old|^2,
 /// where r is the change of the forces in one iteration.
 ///
@@ -194,7 +214,7 @@ impl Relaxation {
 }
 
 /// Equilibrium equations of the vertical contacts at fixed positions: p + A F = `constant` + `rows` q, F = law(p),
-/// `rows`^T F = weight.
+/// `rows`^T F + `springs` (q - `entry`) = weight.
 struct Balance<'a> {
     system: &'a System<'a>,
     /// Active fraction of the law of each contact, times its number of wheels.
@@ -207,6 +227,9 @@ struct Balance<'a> {
     rows: Entries,
     constant: Values,
     weight: Values,
+    /// Stiffness of ropes and stops by the unknown degrees of freedom ([`stiffness_of_springs`]), and those on entry.
+    springs: Entries,
+    entry: Values,
     active: Numbers,
     q: Values,
     p: Values,
@@ -253,7 +276,7 @@ impl<'a> Balance<'a> {
     /// Sets up the equilibrium of the degrees of freedom `moving` for the current geometry of the solver. As a first
     /// estimate, all wheels that may act carry the same force. If no degree of freedom is unknown, the wheels with
     /// positive penetration carry.
-    fn new(solver: &Solver<'a>, moving: Numbers, at: &State) -> Result<Self, Error> {
+    fn new(solver: &Solver<'a>, moving: Numbers, entry: &DVector<f64>, at: &State) -> Result<Self, Error> {
         let (system, geometry) = (solver.system(), solver.geometry());
         let rows = geometry.rows();
         let (n, count) = (system.mechanics.dofs, system.verticals());
@@ -299,6 +322,8 @@ impl<'a> Balance<'a> {
             q: SmallVec::from_elem(0.0, moving.len()),
             force: SmallVec::from_elem(0.0, count),
             factors: Default::default(),
+            springs: stiffness_of_springs(solver, &moving, at),
+            entry: moving.iter().map(|&k| entry[k]).collect(),
             system,
             share,
             moving,
@@ -367,7 +392,8 @@ impl<'a> Balance<'a> {
     }
 
     /// Newton's linear system: the forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k and R^T
-    /// F = weight, where f and k are force and stiffness of the laws at p. Sets q.
+    /// F + K (q - q0) = weight, where f and k are force and stiffness of the laws at p, and K is the stiffness of ropes and
+    /// stops about q0. Sets q.
     fn linearised(&mut self) -> Option<Values> {
         let (size, count) = (self.active.len(), self.share.len());
         let Balance { active, compliance, factors: [factors, of_dofs], .. } = self;
@@ -396,11 +422,16 @@ impl<'a> Balance<'a> {
             return None;
         }
         let by_free = free;
-        let stiffness = transposed_product(&lever, &by_lever, size);
+        let mut stiffness = transposed_product(&lever, &by_lever, size);
         let carried = lever.chunks_exact(size).map(|lever| sum_of_products(lever, &by_free));
-        let balance: Values =
+        let mut balance: Values =
             self.weight.iter().zip(carried).map(|(weight, carried)| weight - carried).collect();
         let moving = self.moving.len();
+        if !self.springs.is_empty() {
+            stiffness.iter_mut().zip(&self.springs).for_each(|(sum, own)| *sum += own);
+            let columns = self.springs.chunks_exact(moving);
+            balance.iter_mut().zip(columns).for_each(|(sum, own)| *sum += sum_of_products(own, &self.entry));
+        }
         let mut next = balance.clone();
         of_dofs.replace(moving, |matrix| {
             (0..moving).for_each(|r| matrix.extend(stiffness[r..].iter().step_by(moving)));

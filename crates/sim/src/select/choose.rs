@@ -92,8 +92,9 @@ const SAMPLES: [f64; 2] = [10.0, 40_000.0];
 /// Stages of a run for each of its samples from which its steps are so short that further runs are sampled more densely, and
 /// the largest factor between the numbers of samples.
 const DENSER: (u64, usize) = (3, 8);
-/// Steps of the first run that must advance it by this share of the fastest bounce. A run that takes shorter ones, because wheels
-/// without mass between stiff contacts and a massless rail open and close without end, is no longer the cheapest.
+/// Steps of the first run that must advance it by this share of the fastest bounce, or of the run where that is shorter. A run
+/// that takes shorter ones, because wheels without mass between stiff contacts and a massless rail open and close without end,
+/// is no longer the cheapest.
 const ADVANCE: (usize, f64) = (1000, 0.02);
 /// Cost of a run from which it counts: cheaper runs take some hundredths of a second.
 const LONG: u64 = 10_000;
@@ -287,7 +288,8 @@ impl<'a, L: FoundationProvider> Search<'a, L> {
         self.scene.accuracy = accuracy;
         // only a run with the accuracy of the result may become the result
         self.scene.records_steps = self.records_steps && accuracy <= self.accuracy;
-        let least = if self.must_advance { ADVANCE.1 * fastest_bounce(&self.scene) } else { 0.0 };
+        let least =
+            if self.must_advance { ADVANCE.1 * fastest_bounce(&self.scene).min(self.scene.end) } else { 0.0 };
         let (mut progress, mut is_given_up) = (Progress::default(), false);
         let mut watch = |time: f64| {
             is_given_up |= !progress.is_sufficient(time, least);
