@@ -52,3 +52,34 @@ fn a_bogie_runs_between_its_stops_and_a_ladle_drops_on_its_floor() {
     let first = floor.iter().position(|force| *force > 0.0).expect("a meeting");
     assert!((time[first] - fall).abs() < 2e-3, "{} {fall}", time[first]);
 }
+
+/// Analytic: a stop that a bogie presses by d where it starts meets the tread of the front wheel, a radius h below the hubs, and
+/// turns the bogie by phi = T h/(2 a^2 k), where its force is T = K (d - h phi). Turned by more than a tenth, it is warned of.
+#[test]
+fn a_bogie_that_starts_behind_its_stop_is_turned_and_is_warned_of() {
+    let (stiffness, contact, height) = (1e9, 1e7, 1.25);
+    for phi in [0.05, 0.2] {
+        let force = phi * 2.0 * contact / height;
+        let stop = 31.0 - (height * phi + force / stiffness);
+        let folder = folder();
+        fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
+        let scene = format!(
+            r#"{{"format": "girderway-scene/1", "units": {{"length": "ft", "force": "lbf", "time": "s"}}, "gravity": 32.174,
+ "structures": {{"girder": {{"spec": "spec.json", "foundation": "rigid"}}}},
+ "bodies": {{"bogie": {{"weight": 4.8e6, "inertia": [1e5, 1e5, 1e5], "dof": ["y", "pitch"], "x0": 30}}}},
+ "wheels": {{"crane": {{"radius": {height}, "vertical": {{"k": {contact}}}}}}},
+ "trucks": [{{"body": "bogie", "tree": [-1, 1]}}], "motions": [{{"body": "bogie", "dof": "x", "kind": "prescribed", "speed": [[0, 0]]}}],
+ "stops": [{{"rail": "girder.rail", "x": {stop}, "k": {stiffness}, "side": "before"}}],
+ "end": {{"time": 0.01}}, "output": {{"dt": 0.01}}}}"#
+        );
+        fs::write(folder.path().join("scene.json"), scene).expect("written");
+        let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+        let found = summary["peaks"]["stop1.force"]["max"]["value"].as_f64().expect("a force");
+        assert!((found / force - 1.0).abs() < 1e-7, "{found} for {force}");
+        let warning =
+            "bogie.pitch reaches 0.2 rad, more than 0.1: the assumption of small rotations does not hold";
+        assert_eq!(text(&run.stderr).contains(warning), phi > 0.1, "{}", text(&run.stderr));
+    }
+}

@@ -11,7 +11,7 @@ use crate::mount::Excitation;
 /// the bodies at rest.
 ///
 /// `input` is the simulation input made from `scene`. The static equilibrium is solved on rigid rails: whether
-/// one-sided contacts can balance the weights does not depend on the stiffness of a rail.
+/// one-sided contacts can balance the weights does not depend on the stiffness of a rail ([`sim::check_equilibrium`]).
 ///
 /// ```
 /// use formats::scene::Document;

@@ -10,8 +10,8 @@ use std::ops::ControlFlow;
 
 use common::modes::{beam, oscillator};
 use sim::{
-    Bounces, Choice, Dynamics, Error, Fidelity, FidelityTrial, Foundation, FoundationProvider, History,
-    Measure, ModalBasis, Reason, Record, RecordedQuantity, Run, Scene, Selection, Status, Structure,
+    Bounces, Channel, Choice, Dynamics, Error, Fidelity, FidelityTrial, Foundation, FoundationProvider,
+    History, Measure, ModalBasis, Reason, Record, RecordedQuantity, Run, Scene, Selection, Status, Structure,
     Tolerance, TrialCheck, choose, difference,
 };
 
@@ -45,6 +45,10 @@ struct Beam {
     /// Number of modes below which repetitions of a start show that the run is wrong, and that of the run that is repeated.
     deceptive: usize,
     kept: usize,
+    /// Whether inertia forces of each mode change a gauge, by as much as its number says.
+    has_effects: bool,
+    /// What was observed, and the deepest sum of penetration and deflection in it.
+    records: Vec<(Fidelity, Record, f64)>,
 }
 
 impl FoundationProvider for Beam {
@@ -55,7 +59,10 @@ impl FoundationProvider for Beam {
         let basis = |structure, is_whole| ModalBasis {
             structure,
             coupling: Vec::new(),
-            effects: Vec::new(),
+            effects: Vec::from_iter(self.has_effects.then(|| {
+                let by_mode = (1..=count).map(|mode| 1e-7 * mode as f64).collect();
+                (format!("{:?}", Channel::Gauge(0)), by_mode)
+            })),
             is_whole,
         };
         let structure = beam(count, true).structure;
@@ -127,12 +134,19 @@ impl FoundationProvider for Beam {
                 .iter_mut()
                 .for_each(|value| *value *= 1.0 + self.by_steps * self.accuracy + shown);
         }
+        let pairs =
+            history.column(Channel::Penetration(0)).into_iter().zip(history.column(Channel::Deflection(0)));
+        let deepest = pairs.fold(0.0, |most, (p, d)| f64::max(most, p + d));
+        self.records.extend(self.fidelity.map(|fidelity| (fidelity, record.clone(), deepest)));
         Ok(record)
     }
 }
 
 fn chosen(alpha: f64, tolerance: Tolerance, provider: &mut Beam) -> Choice {
-    let mut scene = oscillator(0.5, 0.5, alpha);
+    chosen_in(oscillator(0.5, 0.5, alpha), tolerance, provider)
+}
+
+fn chosen_in(mut scene: Scene, tolerance: Tolerance, provider: &mut Beam) -> Choice {
     (scene.output_dt, scene.accuracy) = (scene.end / 200.0, 1e-3);
     provider.end = scene.end;
     let watch = &mut |_| ControlFlow::Continue(());
@@ -245,6 +259,62 @@ fn a_whole_run_is_repeated_where_bounces_may_amplify_what_its_start_does_not_sho
         }
     }
     assert!(repeated.iter().all(|count| *count > 0), "{repeated:?}");
+}
+
+/// Identities: where the force of a wheel hardly changes, influence functions lack by extremes what the modes add to them under
+/// that force, with its phase; and the difference of two runs counts with what the second one lacks in phase, which is less
+/// than the amplitude that this run is told to lack.
+#[test]
+fn influence_functions_and_differences_of_runs_count_with_phases() {
+    for alpha in [0.25, 0.3, 0.35, 0.4, 0.5] {
+        let scene = oscillator(0.01, 0.05, alpha);
+        let mut provider = Beam::default();
+        let choice = chosen_in(scene.clone(), EXTREMES, &mut provider);
+        let (_, first, deepest) = &provider.records[0];
+        let (_, second, _) = provider.records.iter().find(|own| own.0 != Fidelity::Influence).expect("modes");
+        let slowest = (2.0 * PI * (deepest / scene.gravity).sqrt()).min(scene.end);
+        let bounces = Bounces { slowest, remembered: 1.0 };
+        let apart = difference(first, second, Measure::Extremes, bounces).largest;
+        let [told, found, second] = [0, 1, 2].map(|k| choice.tried[k].estimate);
+        println!("{alpha}: {told:.3e} told for {apart:.3e}; {found:.3e} with {second:.3e} of the second run");
+        assert!((told / apart - 1.0).abs() < 6e-3, "{alpha}: {choice:?}");
+        assert!(matches!(choice.tried[1].against, TrialCheck::Run(Fidelity::Modal(1))));
+        assert!(found > apart && found - apart < 0.9 * second, "{alpha}: {apart} {choice:?}");
+    }
+}
+
+/// By the rule: the gauge changes by inertia forces of the modes, which hardly falls with their number. The search for more modes
+/// ends where half as many lack no more than 1.5 times as much, and even half of that is beyond ten times the tolerance.
+#[test]
+fn modes_that_cannot_help_are_not_computed() {
+    for (value, known) in [(0.01, 144), (0.004, 96), (0.001, 48)] {
+        let mut provider = Beam { has_effects: true, ..Beam::default() };
+        let choice = chosen(0.25, Tolerance { value, ..EXTREMES }, &mut provider);
+        assert_eq!(choice.tried[0].against, TrialCheck::Replay(known), "{value}: {choice:?}");
+    }
+}
+
+/// By the rule: one mode leaves an error between a tenth and a fifth of the tolerance. That is enough by extremes, but not in a
+/// run of more than a hundred bounces, of which this one has 109.
+#[test]
+fn runs_of_many_bounces_aim_at_a_tenth_of_the_tolerance() {
+    let mut provider = Beam::default();
+    let choice = chosen(0.0023, Tolerance { value: 1.3e-4, ..EXTREMES }, &mut provider);
+    assert!(choice.tried[0].estimate > 10.0 * 1.3e-4, "influence functions are far from enough: {choice:?}");
+    assert_eq!(provider.counts(), [2], "{choice:?}");
+}
+
+/// By the rule: without influence functions no two runs tell how much wheels amplify, and they count as remembering eight
+/// bounces where they have fewer. More than a tenth of the tolerance is then shown by the whole run.
+#[test]
+fn without_influence_functions_the_whole_run_is_repeated() {
+    for (value, is_repeated) in [(4e-6, false), (1.5e-6, true)] {
+        let mut provider = Beam { idle_steps: 5000, ..Beam::default() };
+        let choice = chosen(0.25, Tolerance { value, ..EXTREMES }, &mut provider);
+        let share = choice.tried[0].estimate / value;
+        assert_eq!(share > 0.1, is_repeated, "{choice:?}");
+        assert_eq!(!provider.wholes.is_empty(), is_repeated, "{:?}", provider.wholes);
+    }
 }
 
 /// A massless rail on which wheels open and close without end: after 1,000 steps that lead nowhere the run with influence

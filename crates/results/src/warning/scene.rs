@@ -28,6 +28,9 @@ const RADII: [f64; 2] = [0.01, 2.0];
 /// Penetration of wheels at the start, relative to their radius, above which their stiffness is implausible.
 const PENETRATION: f64 = 0.25;
 
+/// Rotation of a body, in rad, above which small rotations are no longer those of a rigid body: levers err by half its square.
+const LARGE_ROTATION: f64 = 0.1;
+
 /// Warnings about values of a scene that are probably wrong.
 #[must_use]
 pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String> {
@@ -56,6 +59,7 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
         all.extend(without_inertia(scene, body));
+        all.extend(overturned(body, record));
     }
     all.extend((0..scene.structures.len()).filter_map(|s| overhanging(scene, s)));
     all.extend(overstretched(scene, record));
@@ -124,6 +128,23 @@ fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
         scene.units.label(Dimension::LENGTH),
         number(rounded(ratio(deepest), 2))
     ))
+}
+
+/// A body that turns by more than [`LARGE_ROTATION`], by its largest rotation: it turns over, or begins far beyond a stop that
+/// pushes it back.
+fn overturned(body: &Body, record: &NamedColumns) -> Option<String> {
+    let turned = |part: &&str| -> f64 {
+        record.part(&body.name, part).iter().fold(0.0, |most, angle| most.max(angle.abs()))
+    };
+    let part = ["roll", "yaw", "pitch"].into_iter().max_by(|a, b| turned(a).total_cmp(&turned(b)))?;
+    let most = turned(&part);
+    (most > LARGE_ROTATION).then(|| {
+        format!(
+            "{}.{part} reaches {} rad, more than {LARGE_ROTATION}: the assumption of small rotations does not hold",
+            body.name,
+            number(rounded(most, 2))
+        )
+    })
 }
 
 /// A mass that is too heavy for its wheels, probably a weight entered as a mass.

@@ -163,16 +163,21 @@ fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
     solver.system().springs().iter().map(|&i| -rows.approach_row(i)[number] * at.force[i]).sum()
 }
 
-/// Stiffness of the ropes and stops that act at `at` between bodies none of which hangs, by the `moving` degrees of freedom;
-/// empty without such springs. A load on a rope follows the body that carries it, so that the rope is no spring of it.
-fn stiffness_of_springs(solver: &Solver, moving: &[usize], at: &State) -> Entries {
+/// Ropes and stops that act at `at` between bodies none of which hangs. A load on a rope follows the body that carries it, so
+/// that the rope is no spring of it.
+pub(crate) fn acting_springs(solver: &Solver, at: &State) -> Numbers {
     let system = solver.system();
-    let hangs = |i: &usize| {
-        let points = system.elements[*i].points();
+    let hangs = |i: usize| {
+        let points = system.elements[i].points();
         points.is_some_and(|points| system.scene.actuators.hanging.iter().any(|&b| points.is_on(b)))
     };
+    system.springs().iter().copied().filter(|&i| at.force[i] > 0.0 && !hangs(i)).collect()
+}
+
+/// Stiffness of [`acting_springs`] by the `moving` degrees of freedom; empty without such springs.
+fn stiffness_of_springs(solver: &Solver, moving: &[usize], at: &State) -> Entries {
     let mut sum = Entries::new();
-    for &i in system.springs().iter().filter(|i| at.force[**i] > 0.0 && !hangs(i)) {
+    for i in acting_springs(solver, at) {
         sum.resize(moving.len() * moving.len(), 0.0);
         let row = solver.geometry().rows().approach_row(i);
         let stiffness = solver.geometry().local()[i].spring.stiffness;
@@ -240,7 +245,7 @@ struct Balance<'a> {
 
 /// Numbers of contacts or of degrees of freedom, a value for each of them, and for each of both; few of them need no
 /// allocation.
-type Numbers = SmallVec<[usize; 8]>;
+pub(crate) type Numbers = SmallVec<[usize; 8]>;
 type Values = SmallVec<[f64; 8]>;
 type Entries = SmallVec<[f64; 16]>;
 

@@ -37,9 +37,11 @@ pub(crate) fn equilibrate(solver: &mut Solver, at: &mut State) -> Result<(), Err
         let scale = tensions.iter().fold(weight(solver), |max, force| max.max(force.abs()));
         let pairs = tensions.iter().zip(&before);
         let moved = pairs.fold(0.0_f64, |max, (now, then)| max.max((now - then).abs()));
-        // The tension of a rope does not change to first order when the rope inclines, so the displacements are
-        // checked as well.
-        if moved <= 1e-12 * scale && has_settled(&places, at) {
+        // A stiff stop holds its force no better than the positions are rounded from which it is found. The tension of a
+        // rope does not change to first order when the rope inclines, so the displacements are checked as well.
+        let local = solver.geometry().local();
+        let noise = system.springs().iter().fold(0.0_f64, |most, &i| most.max(local[i].spring.noise));
+        if moved <= (1e-12 * scale).max(noise) && has_settled(&places, at) {
             return Ok(());
         }
         before.copy_from_slice(&tensions);

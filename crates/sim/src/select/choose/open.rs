@@ -127,3 +127,45 @@ pub(super) fn is_unreachable(error: f64, tolerance: f64) -> bool {
 pub(super) fn largest(open: &[Open], counts: &[usize], of: impl Fn(&TailError) -> f64) -> f64 {
     open.iter().zip(counts).map(|(own, count)| of(&own.tail(*count))).fold(0.0, f64::max)
 }
+
+#[cfg(test)]
+mod tests {
+    use splines::{Error, Probe};
+
+    use super::*;
+    use crate::{Dynamics, Shapes, Structure};
+
+    /// Modes that no wheel asks for their shapes.
+    struct Unseen;
+
+    impl Shapes for Unseen {
+        fn row(&self, _: Probe, _: &mut [f64], _: &mut [f64]) -> Result<(), Error> {
+            Ok(())
+        }
+    }
+
+    /// By the rule: a run that only checks influence functions has the fewest modes whose estimate in phase is small enough, and
+    /// where none is, the fewest that are as good as the most, by their errors.
+    #[test]
+    fn a_checking_run_counts_modes_by_phase() {
+        let dynamics = Dynamics::Modes { omega: vec![1.0; 24], ratio: vec![0.0; 24] };
+        let structure = Structure { dynamics, shapes: Box::new(Unseen) };
+        let tail = |(kept, error, in_phase)| TailError { error, in_phase, ..TailError::none(kept) };
+        let open = Open {
+            structure: 0,
+            tolerance: 1.0,
+            aims: [0.2, 0.4],
+            basis: ModalBasis { structure, coupling: Vec::new(), effects: Vec::new(), is_whole: false },
+            tails: [(0, 1.0, 0.1), (1, 0.9, 0.5), (4, 0.6, 0.2), (8, 0.3, 0.15), (16, 0.25, 0.1)]
+                .map(tail)
+                .to_vec(),
+            tails_of: None,
+            choice: 0,
+        };
+        assert_eq!(open.checking_count(0.5), Some(1));
+        assert_eq!(open.checking_count(0.2), Some(4));
+        assert_eq!(open.checking_count(0.1), Some(16));
+        assert_eq!(open.checking_count(0.01), Some(8), "0.3 is not 1.5 times 0.25");
+        assert_eq!(open.sufficient_count(0.5, 1), Some(8));
+    }
+}

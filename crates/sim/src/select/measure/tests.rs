@@ -59,8 +59,9 @@ fn a_shift_in_time_moves_extremes_at_the_end_of_a_run() {
 }
 
 /// Analytic: a quantity rises from 0 to 1 in 1 s, and lacks a peak of 0.1 at 0.7 s whose phase is not known. With a reach of
-/// 0.3 s its largest value may be 1.1 or 0.9; with one of 0.2 s, at most 0.9 + 0.1, only its mean changes, by 0.1/11. What is
-/// no number stays none.
+/// 0.3 s its largest value may be 1.1 or 0.9; with one of 0.2 s, at most 0.9 + 0.1, only its mean changes, by 0.1/11. A peak of
+/// 0.3 with that reach makes 1.2 of the value at 0.9 s and leaves the largest one, so that only y + A tells it; below zero only
+/// y - A does. What is no number stays none.
 #[test]
 fn an_oscillation_changes_extremes_by_its_amplitude() {
     let bounces = Bounces { slowest: 5.0, remembered: 20.0 };
@@ -74,6 +75,11 @@ fn an_oscillation_changes_extremes_by_its_amplitude() {
                 let found = outlined.difference_by_amplitude(index, &lacking, reach);
                 assert!((found - expected).abs() < 1e-12, "{found} with {reach}");
             }
+        }
+        let beside: Vec<f64> = lacking.iter().map(|own| 3.0 * own).collect();
+        for index in 0..2 {
+            let found = outlined.difference_by_amplitude(index, &beside, 2);
+            assert!((found - 0.2).abs() < 1e-12, "{found} beside the extreme of {index}");
         }
         let broken = [&lacking[..10], &[f64::NAN][..]].concat();
         assert_eq!(outlined.difference_by_amplitude(0, &[0.0; 11], 3), 0.0);
