@@ -39,8 +39,10 @@ struct Beam {
     /// Error of the displacements that are observed, relative to their size and by the accuracy of the run.
     by_steps: f64,
     accuracy: f64,
-    /// Steps of runs with influence functions that hardly advance, and the number of modes above which runs cannot go on.
+    /// Steps of runs with influence functions that hardly advance, and the part of the run by which each does; the number of
+    /// modes above which runs cannot go on.
     idle_steps: usize,
+    idle_step: f64,
     most_modes: Option<usize>,
     /// Number of modes below which repetitions of a start show that the run is wrong, and that of the run that is repeated.
     deceptive: usize,
@@ -100,7 +102,7 @@ impl FoundationProvider for Beam {
         self.accuracy = scene.accuracy;
         let mut run = sim::run(scene, foundations, watch)?;
         if self.fidelity == Some(Fidelity::Influence) {
-            let mut idle = (0..self.idle_steps).map(|step| 0.5 * scene.end + 1e-12 * step as f64);
+            let mut idle = (0..self.idle_steps).map(|step| (0.5 + self.idle_step * step as f64) * scene.end);
             if idle.any(|time| watch(time).is_break()) {
                 run.status = Status::Stopped;
             }
@@ -309,7 +311,7 @@ fn runs_of_many_bounces_aim_at_a_tenth_of_the_tolerance() {
 #[test]
 fn without_influence_functions_the_whole_run_is_repeated() {
     for (value, is_repeated) in [(4e-6, false), (1.5e-6, true)] {
-        let mut provider = Beam { idle_steps: 5000, ..Beam::default() };
+        let mut provider = Beam { idle_steps: 5000, idle_step: 1e-12, ..Beam::default() };
         let choice = chosen(0.25, Tolerance { value, ..EXTREMES }, &mut provider);
         let share = choice.tried[0].estimate / value;
         assert_eq!(share > 0.1, is_repeated, "{choice:?}");
@@ -323,7 +325,7 @@ fn without_influence_functions_the_whole_run_is_repeated() {
 fn a_first_run_that_hardly_advances_is_given_up() {
     for (idle_steps, modes_fail) in [(900, false), (5000, false), (5000, true)] {
         let most_modes = modes_fail.then_some(0);
-        let mut provider = Beam { idle_steps, most_modes, ..Beam::default() };
+        let mut provider = Beam { idle_steps, idle_step: 1e-12, most_modes, ..Beam::default() };
         let choice = chosen(0.003, EXTREMES, &mut provider);
         let first = |&(fidelity, _): &(Fidelity, f64)| fidelity == Fidelity::Influence;
         let (is_chosen, count) =
@@ -334,12 +336,22 @@ fn a_first_run_that_hardly_advances_is_given_up() {
     }
 }
 
+/// By the rule: in a run that is shorter than a bounce, here half of one, 1,000 steps must advance it by a fiftieth of itself.
+#[test]
+fn a_first_run_shorter_than_a_bounce_must_advance_by_its_own_length() {
+    for (idle_step, is_given_up) in [(1.5e-5, true), (2.5e-5, false)] {
+        let mut provider = Beam { idle_steps: 5000, idle_step, ..Beam::default() };
+        let choice = chosen(0.5, EXTREMES, &mut provider);
+        assert_eq!(choice.failed.contains(&Fidelity::Influence), is_given_up, "{choice:?}");
+    }
+}
+
 /// Without influence functions the first run has 24 modes. Where it is not enough, and runs with more cannot go on, it is the
 /// result, with the error that it has.
 #[test]
 fn a_run_with_modes_stays_the_result_where_more_modes_cannot_go_on() {
     let tolerance = Tolerance { value: 1e-7, measure: Measure::History };
-    let mut provider = Beam { idle_steps: 5000, most_modes: Some(24), ..Beam::default() };
+    let mut provider = Beam { idle_steps: 5000, idle_step: 1e-12, most_modes: Some(24), ..Beam::default() };
     let choice = chosen(0.25, tolerance, &mut provider);
     assert_eq!((choice.fidelity, choice.reason), (Fidelity::Modal(24), Reason::NoBetter), "{choice:?}");
     assert!(choice.estimate.is_some_and(|estimate| estimate > tolerance.value), "{choice:?}");
