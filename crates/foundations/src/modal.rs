@@ -31,7 +31,7 @@ use std::sync::{Arc, OnceLock};
 use fea::{FactoredFrame, Modes, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Measure, Shapes};
-use splines::{Compliance, ExactSurface, Probe, Rails, ResidualFlexibility};
+use splines::{Compliance, ExactSurface, Probe, ResidualFlexibility};
 
 use crate::built::{BuiltFoundation, MotionBasis};
 use crate::error::Error;
@@ -51,6 +51,9 @@ const BY_PHASES: f64 = 0.05;
 /// Motion of a mode under the wheels, relative to that of the total mass moving as one rigid body, below which wheels
 /// are assumed not to excite the mode.
 const STILL: f64 = 1e-6;
+/// Where an element is sampled, as a fraction of its length: the golden section, at which no mode of a regular structure has
+/// its nodes.
+const SAMPLED: f64 = 0.381_966_011_250_105;
 /// Relative difference up to which two frequencies are treated as equal.
 const EQUAL: f64 = 1e-6;
 
@@ -88,7 +91,7 @@ impl MeshModes {
             if !has_dampers {
                 refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
             }
-            let excited = excited_by(&refined.modes, solved, excitation);
+            let excited = excited_by(&refined.modes, excitation);
             if refined.modes.next.is_some() {
                 let given = given_surface(name, solved)?;
                 return MeshModes::new(name, refined, excited, Some(given), true);
@@ -192,7 +195,7 @@ fn search(
     let mut requested = count;
     loop {
         let refined = fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
-        let excited = excited_by(&refined.modes, solved, excitation);
+        let excited = excited_by(&refined.modes, excitation);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();
         // `excited_by` combines all modes of one frequency, so that none of them may be missing
@@ -369,8 +372,8 @@ impl ModeCache {
 /// in the modes of one such group, with one row for each position and direction of a possible force and one column
 /// for each mode. The modes are rotated by the eigenvectors of R^T R, after which as few of them as possible move the
 /// rails. A mode is retained if its largest motion exceeds the fraction [`STILL`] of 1/sqrt(mass).
-fn excited_by(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> Vec<fea::Mode> {
-    let motions = rail_motions(modes, solved, excitation);
+fn excited_by(modes: &Modes, excitation: Excitation) -> Vec<fea::Mode> {
+    let motions = rail_motions(modes, excitation);
     // a mode of unit modal mass in which the total mass moves as one rigid body has the displacement 1/sqrt(mass)
     let limit = STILL / modes.rigid_mass[0][0].sqrt();
     let mut kept = Vec::new();
@@ -395,21 +398,19 @@ fn excited_by(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> Ve
     kept
 }
 
-/// Motion of the rails in each mode at the positions and in the directions of possible wheel forces, followed by the
-/// scaled coupling of each mode with the motions of a carrier: rows x modes.
-fn rail_motions(modes: &Modes, solved: &SolvedModel, excitation: Excitation) -> DMatrix<f64> {
+/// Motion of the rails in each mode, followed by the scaled coupling of each mode with the motions of a carrier: rows x
+/// modes. The rails are sampled in the directions of possible wheel forces, at one place of each element of the mesh. Places at equal
+/// distances along a member would be the nodes of one of its modes: in a mode that the mesh resolves several elements lie
+/// between two nodes.
+fn rail_motions(modes: &Modes, excitation: Excitation) -> DMatrix<f64> {
     let mut rows = Vec::new();
-    for (rail, given) in solved.rails.iter().enumerate() {
-        let sampled = match &solved.surface {
-            Some(surface) => sampling_points(surface.rails(), rail),
-            None => given.stations.clone(),
-        };
-        for x in sampled {
-            for axis in excitation.axes() {
-                // no mode moves in an unrestrained direction
-                if let Ok(shapes) = modes.at(Probe { rail, x, axis }) {
-                    rows.extend(shapes.into_iter().map(|[value, _]| value));
-                }
+    for element in modes.rail_elements() {
+        let [from, to] = element.x;
+        for axis in excitation.axes() {
+            let probe = Probe { rail: element.rail, x: from + SAMPLED * (to - from), axis };
+            // no mode moves in an unrestrained direction
+            if let Ok(shapes) = modes.at(probe) {
+                rows.extend(shapes.into_iter().map(|[value, _]| value));
             }
         }
     }
@@ -441,16 +442,6 @@ fn combination(modes: &[fea::Mode], weights: &[f64]) -> fea::Mode {
     }
     out.coupling = std::array::from_fn(|i| modes.iter().zip(weights).map(|(m, w)| w * m.coupling[i]).sum());
     out
-}
-
-/// Rail coordinates at which the motion of modes is sampled: seventeen on each rail element.
-fn sampling_points(line: &Rails, rail: usize) -> Vec<f64> {
-    let elements = line.elements().iter().filter(|element| element.rail == rail);
-    elements
-        .flat_map(|element| {
-            (0..=16).map(|k| element.x[0] + (element.x[1] - element.x[0]) * f64::from(k) / 16.0)
-        })
-        .collect()
 }
 
 /// Modal matrices with discrete dampers: M = 1, K = diag(omega^2), C = diag(2 zeta omega) + c D^T D, where D_ir is

@@ -75,6 +75,27 @@ fn influence_functions_and_modes_have_the_static_compliance_of_the_bridge() {
     assert!((give(&modal, 0.5 * l, 0.5 * l) - rest).abs() < 1e-5 * expected);
 }
 
+/// Analytic: 64 modes of one member, and all modes of meshes whose elements divide it into 16 to 80 equal parts, have every
+/// frequency of the bridge; sin(16 pi x/l) is zero at the ends of 16 equal parts.
+#[test]
+fn no_mode_is_taken_for_one_that_wheels_cannot_excite() {
+    let (document, solved) = example("yang_yau");
+    let mut structure = document.scene().structures[0].clone();
+    let modal = |modes| (Foundation::Modal { modes, damping: 0.0 }, modes);
+    let full = |elements| (Foundation::Full { elements, damping: 0.0 }, elements / 2);
+    for (foundation, count) in [modal(20), modal(64), full(16), full(32), full(64), full(80)] {
+        structure.foundation = foundation;
+        let found = frequencies(&built(&structure, &solved).expect("a bridge with mass").foundation);
+        for r in 1..=count {
+            assert!(
+                (found[r - 1] / bridge(r) - 1.0).abs() < 0.01,
+                "mode {r} of {count}: {}",
+                found[r - 1] / bridge(1)
+            );
+        }
+    }
+}
+
 /// Analytic: frequencies of the bridge, within 1e-6.
 #[test]
 fn a_number_of_modes_has_the_frequencies_of_the_bridge() {
