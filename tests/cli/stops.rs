@@ -2,6 +2,9 @@
 
 use std::fs;
 
+use serde_json::Value;
+use tempfile::TempDir;
+
 use super::{example, folder, girderway, json, text};
 
 const SCENE: &str = r#"{"format": "girderway-scene/1", "name": "stops", "units": {"length": "ft", "force": "lbf", "time": "s"},
@@ -13,14 +16,21 @@ const SCENE: &str = r#"{"format": "girderway-scene/1", "name": "stops", "units":
   {"name": "floor", "body": "ladle", "Y": -1, "k": 1e7}],
  "end": {"time": 8}, "output": {"dt": 0.001}, "accuracy": 1e-7}"#;
 
-/// Columns of a run of [`SCENE`].
-fn columns(names: [&str; 5]) -> [Vec<f64>; 5] {
+/// Folder, summary and messages of a run of `scene` on the girder of the bogie.
+fn ran(scene: &str) -> (TempDir, Value, String) {
     let folder = folder();
     fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
-    fs::write(folder.path().join("scene.json"), SCENE).expect("written");
+    fs::write(folder.path().join("scene.json"), scene).expect("written");
     let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
-    assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+    let told = text(&run.stderr).to_owned();
+    assert_eq!(run.status.code(), Some(0), "{told}");
     let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+    (folder, summary, told)
+}
+
+/// Columns of a run of [`SCENE`].
+fn columns(names: [&str; 5]) -> [Vec<f64>; 5] {
+    let (folder, summary, _) = ran(SCENE);
     assert!(summary["energy"]["residual"].as_f64().is_some_and(|left| left < 1e-7), "{summary}");
     let history = fs::read_to_string(folder.path().join("out/history.csv")).expect("a history");
     let mut lines = history.lines();
@@ -61,9 +71,7 @@ fn a_bogie_that_starts_behind_its_stop_is_turned_and_is_warned_of() {
     for phi in [0.05, 0.2] {
         let force = phi * 2.0 * contact / height;
         let stop = 31.0 - (height * phi + force / stiffness);
-        let folder = folder();
-        fs::copy(example("bogie").join("spec.json"), folder.path().join("spec.json")).expect("a copy");
-        let scene = format!(
+        let (_, summary, told) = ran(&format!(
             r#"{{"format": "girderway-scene/1", "units": {{"length": "ft", "force": "lbf", "time": "s"}}, "gravity": 32.174,
  "structures": {{"girder": {{"spec": "spec.json", "foundation": "rigid"}}}},
  "bodies": {{"bogie": {{"weight": 4.8e6, "inertia": [1e5, 1e5, 1e5], "dof": ["y", "pitch"], "x0": 30}}}},
@@ -71,15 +79,11 @@ fn a_bogie_that_starts_behind_its_stop_is_turned_and_is_warned_of() {
  "trucks": [{{"body": "bogie", "tree": [-1, 1]}}], "motions": [{{"body": "bogie", "dof": "x", "kind": "prescribed", "speed": [[0, 0]]}}],
  "stops": [{{"rail": "girder.rail", "x": {stop}, "k": {stiffness}, "side": "before"}}],
  "end": {{"time": 0.01}}, "output": {{"dt": 0.01}}}}"#
-        );
-        fs::write(folder.path().join("scene.json"), scene).expect("written");
-        let run = girderway(&folder, &["run", "scene.json", "-o", "out"]);
-        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-        let summary = json(&fs::read(folder.path().join("out/summary.json")).expect("a summary"));
+        ));
         let found = summary["peaks"]["stop1.force"]["max"]["value"].as_f64().expect("a force");
         assert!((found / force - 1.0).abs() < 1e-7, "{found} for {force}");
         let warning =
             "bogie.pitch reaches 0.2 rad, more than 0.1: the assumption of small rotations does not hold";
-        assert_eq!(text(&run.stderr).contains(warning), phi > 0.1, "{}", text(&run.stderr));
+        assert_eq!(told.contains(warning), phi > 0.1, "{told}");
     }
 }

@@ -28,7 +28,7 @@
 
 use std::sync::{Arc, OnceLock};
 
-use fea::{FactoredFrame, Modes, RefinedModes};
+use fea::{FactoredFrame, RefinedModes};
 use nalgebra::{DMatrix, Vector3};
 use sim::{Dynamics, Extent, Foundation, Measure, Shapes};
 use splines::{Compliance, ExactSurface, Probe, ResidualFlexibility};
@@ -91,7 +91,7 @@ impl MeshModes {
             if !has_dampers {
                 refined.keep_resolved(&solved.model, &forces).map_err(Error::modes(name))?;
             }
-            let excited = excited_by(&refined.modes, excitation);
+            let excited = excited_by(&refined, excitation);
             if refined.modes.next.is_some() {
                 let given = given_surface(name, solved)?;
                 return MeshModes::new(name, refined, excited, Some(given), true);
@@ -195,7 +195,7 @@ fn search(
     let mut requested = count;
     loop {
         let refined = fea::excited_modes(&solved.model, &solved.rails, &forces, requested, accuracy)?;
-        let excited = excited_by(&refined.modes, excitation);
+        let excited = excited_by(&refined, excitation);
         let highest = refined.modes.modes.last().map_or(0.0, |mode| mode.omega);
         let is_whole = refined.modes.modes.len() < requested || refined.modes.next.is_none();
         // `excited_by` combines all modes of one frequency, so that none of them may be missing
@@ -372,8 +372,8 @@ impl ModeCache {
 /// in the modes of one such group, with one row for each position and direction of a possible force and one column
 /// for each mode. The modes are rotated by the eigenvectors of R^T R, after which as few of them as possible move the
 /// rails. A mode is retained if its largest motion exceeds the fraction [`STILL`] of 1/sqrt(mass).
-fn excited_by(modes: &Modes, excitation: Excitation) -> Vec<fea::Mode> {
-    let motions = rail_motions(modes, excitation);
+fn excited_by(refined: &RefinedModes, excitation: Excitation) -> Vec<fea::Mode> {
+    let (modes, motions) = (&refined.modes, rail_motions(refined, excitation));
     // a mode of unit modal mass in which the total mass moves as one rigid body has the displacement 1/sqrt(mass)
     let limit = STILL / modes.rigid_mass[0][0].sqrt();
     let mut kept = Vec::new();
@@ -399,12 +399,13 @@ fn excited_by(modes: &Modes, excitation: Excitation) -> Vec<fea::Mode> {
 }
 
 /// Motion of the rails in each mode, followed by the scaled coupling of each mode with the motions of a carrier: rows x
-/// modes. The rails are sampled in the directions of possible wheel forces, at one place of each element of the mesh. Places at equal
-/// distances along a member would be the nodes of one of its modes: in a mode that the mesh resolves several elements lie
-/// between two nodes.
-fn rail_motions(modes: &Modes, excitation: Excitation) -> DMatrix<f64> {
+/// modes. The rails are sampled in the directions of possible wheel forces, at one place of each element of the mesh.
+/// Places at equal distances along a member would be the nodes of one of its modes: in a mode that the mesh resolves
+/// several elements lie between two nodes.
+fn rail_motions(refined: &RefinedModes, excitation: Excitation) -> DMatrix<f64> {
+    let modes = &refined.modes;
     let mut rows = Vec::new();
-    for element in modes.rail_elements() {
+    for element in refined.frame.line().map_or(&[][..], |line| line.elements()) {
         let [from, to] = element.x;
         for axis in excitation.axes() {
             let probe = Probe { rail: element.rail, x: from + SAMPLED * (to - from), axis };

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use nalgebra::{DMatrix, DVector, DVectorView, Vector3};
-use splines::{Axis, ElementResidual, ExactSurface, MemberMotion, Probe, RailElement, RailShapes, Rails};
+use splines::{Axis, ElementResidual, ExactSurface, MemberMotion, Probe, RailShapes, Rails};
 
 use crate::assembly::{Combination, bending_planes, column_norm, symmetric_product};
 use crate::error::Error;
@@ -160,12 +160,6 @@ impl FactoredFrame {
 impl Modes {
     fn line(&self) -> Result<&Arc<Rails>, Error> {
         self.line.as_ref().ok_or(Error::NoRails)
-    }
-
-    /// Elements of the rails, on which [`Modes::at`] finds the modes; none without rails.
-    #[must_use]
-    pub fn rail_elements(&self) -> &[RailElement] {
-        self.line.as_ref().map_or(&[], |line| line.elements())
     }
 
     /// Displacement of every mode at a probe, along its axis, and its derivative with respect to the rail

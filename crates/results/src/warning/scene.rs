@@ -59,7 +59,7 @@ pub(super) fn scene_warnings(scene: &Scene, record: &NamedColumns) -> Vec<String
     for (b, body) in scene.bodies.iter().enumerate() {
         all.extend(heavy(scene, b, body));
         all.extend(without_inertia(scene, body));
-        all.extend(overturned(body, record));
+        all.extend(large_rotation(body, record));
     }
     all.extend((0..scene.structures.len()).filter_map(|s| overhanging(scene, s)));
     all.extend(overstretched(scene, record));
@@ -132,12 +132,12 @@ fn soft_wheels(scene: &Scene, record: &NamedColumns) -> Option<String> {
 
 /// A body that turns by more than [`LARGE_ROTATION`], by its largest rotation: it turns over, or begins far beyond a stop that
 /// pushes it back.
-fn overturned(body: &Body, record: &NamedColumns) -> Option<String> {
-    let turned = |part: &&str| -> f64 {
-        record.part(&body.name, part).iter().fold(0.0, |most, angle| most.max(angle.abs()))
-    };
-    let part = ["roll", "yaw", "pitch"].into_iter().max_by(|a, b| turned(a).total_cmp(&turned(b)))?;
-    let most = turned(&part);
+fn large_rotation(body: &Body, record: &NamedColumns) -> Option<String> {
+    let turned = ["roll", "yaw", "pitch"].map(|part| {
+        let angles = record.part(&body.name, part).iter();
+        (part, angles.fold(0.0_f64, |most, angle| most.max(angle.abs())))
+    });
+    let (part, most) = turned.into_iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
     (most > LARGE_ROTATION).then(|| {
         format!(
             "{}.{part} reaches {} rad, more than {LARGE_ROTATION}: the assumption of small rotations does not hold",

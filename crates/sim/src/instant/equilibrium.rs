@@ -165,13 +165,13 @@ fn pull_of_springs(solver: &Solver, number: usize, at: &State) -> f64 {
 
 /// Ropes and stops that act at `at` between bodies none of which hangs. A load on a rope follows the body that carries it, so
 /// that the rope is no spring of it.
-pub(crate) fn acting_springs(solver: &Solver, at: &State) -> Numbers {
+pub(crate) fn acting_springs(solver: &Solver, at: &State) -> impl Iterator<Item = usize> {
     let system = solver.system();
-    let hangs = |i: usize| {
+    let hangs = move |i: usize| {
         let points = system.elements[i].points();
         points.is_some_and(|points| system.scene.actuators.hanging.iter().any(|&b| points.is_on(b)))
     };
-    system.springs().iter().copied().filter(|&i| at.force[i] > 0.0 && !hangs(i)).collect()
+    system.springs().iter().copied().filter(move |&i| at.force[i] > 0.0 && !hangs(i))
 }
 
 /// Stiffness of [`acting_springs`] by the `moving` degrees of freedom; empty without such springs.
@@ -219,7 +219,7 @@ impl Relaxation {
 }
 
 /// Equilibrium equations of the vertical contacts at fixed positions: p + A F = `constant` + `rows` q, F = law(p),
-/// `rows`^T F + `springs` (q - `entry`) = weight.
+/// `rows`^T F + `springs` q = weight + `pull`.
 struct Balance<'a> {
     system: &'a System<'a>,
     /// Active fraction of the law of each contact, times its number of wheels.
@@ -232,9 +232,10 @@ struct Balance<'a> {
     rows: Entries,
     constant: Values,
     weight: Values,
-    /// Stiffness of ropes and stops by the unknown degrees of freedom ([`stiffness_of_springs`]), and those on entry.
+    /// Stiffness K of ropes and stops by the unknown degrees of freedom ([`stiffness_of_springs`]), and K q0, with q0 where
+    /// their forces are part of the weight; empty without such springs.
     springs: Entries,
-    entry: Values,
+    pull: Values,
     active: Numbers,
     q: Values,
     p: Values,
@@ -245,7 +246,7 @@ struct Balance<'a> {
 
 /// Numbers of contacts or of degrees of freedom, a value for each of them, and for each of both; few of them need no
 /// allocation.
-pub(crate) type Numbers = SmallVec<[usize; 8]>;
+type Numbers = SmallVec<[usize; 8]>;
 type Values = SmallVec<[f64; 8]>;
 type Entries = SmallVec<[f64; 16]>;
 
@@ -319,6 +320,10 @@ impl<'a> Balance<'a> {
             weight[j] -= guides().map(|(_, l)| rows.force_row(l)[k] * at.force[l]).sum::<f64>();
         }
         let each = largest(&weight) / active.len().max(1) as f64;
+        let springs = stiffness_of_springs(solver, &moving, at);
+        let begun: Values = moving.iter().map(|&k| entry[k]).collect();
+        let pull =
+            springs.chunks(moving.len().max(1)).map(|column| sum_of_products(column, &begun)).collect();
         let column = |&k: &usize| (0..count).map(move |i| rows.approach_row(i)[k]);
         Ok(Balance {
             compliance: all,
@@ -327,8 +332,8 @@ impl<'a> Balance<'a> {
             q: SmallVec::from_elem(0.0, moving.len()),
             force: SmallVec::from_elem(0.0, count),
             factors: Default::default(),
-            springs: stiffness_of_springs(solver, &moving, at),
-            entry: moving.iter().map(|&k| entry[k]).collect(),
+            springs,
+            pull,
             system,
             share,
             moving,
@@ -397,8 +402,8 @@ impl<'a> Balance<'a> {
     }
 
     /// Newton's linear system: the forces of the active contacts from (A + 1/k) F = R q + constant - p + f/k and R^T
-    /// F + K (q - q0) = weight, where f and k are force and stiffness of the laws at p, and K is the stiffness of ropes and
-    /// stops about q0. Sets q.
+    /// F + K q = weight + K q0, where f and k are force and stiffness of the laws at p, and K is the stiffness of ropes and
+    /// stops. Sets q.
     fn linearised(&mut self) -> Option<Values> {
         let (size, count) = (self.active.len(), self.share.len());
         let Balance { active, compliance, factors: [factors, of_dofs], .. } = self;
@@ -432,11 +437,8 @@ impl<'a> Balance<'a> {
         let mut balance: Values =
             self.weight.iter().zip(carried).map(|(weight, carried)| weight - carried).collect();
         let moving = self.moving.len();
-        if !self.springs.is_empty() {
-            stiffness.iter_mut().zip(&self.springs).for_each(|(sum, own)| *sum += own);
-            let columns = self.springs.chunks_exact(moving);
-            balance.iter_mut().zip(columns).for_each(|(sum, own)| *sum += sum_of_products(own, &self.entry));
-        }
+        stiffness.iter_mut().zip(&self.springs).for_each(|(sum, own)| *sum += own);
+        balance.iter_mut().zip(&self.pull).for_each(|(sum, own)| *sum += own);
         let mut next = balance.clone();
         of_dofs.replace(moving, |matrix| {
             (0..moving).for_each(|r| matrix.extend(stiffness[r..].iter().step_by(moving)));

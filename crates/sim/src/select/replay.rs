@@ -445,7 +445,7 @@ impl<'a> Replay<'a> {
     /// lacks added. Where modes are kept, extremes are those with the amplitude of what is lacking: after some periods the phase
     /// of a high mode is not that of a run that contains it.
     ///
-    /// Reactions and internal forces also lack those above all known modes ([`factors_beyond`]).
+    /// Reactions and internal forces also lack those above all known modes ([`sum_beyond`], [`root_beyond`]).
     fn errors(self) -> Vec<TailError> {
         let Loaded { record, measure, bounces, .. } = *self.loaded;
         let known = self.oscillators.len();
@@ -457,14 +457,9 @@ impl<'a> Replay<'a> {
             .collect();
         let is_motion = |slot: &Slot| record.quantities[slot.quantity].channel.is_some();
         let is_cut_off = |slot: &Slot| !is_motion(slot) && !self.basis.is_whole;
-        let beyond = |slot: &Slot, kept: usize| {
-            if is_cut_off(slot) {
-                factors_beyond(kept, known)
-            } else {
-                Beyond { in_phase: 1.0, in_squares: 1.0 }
-            }
-        };
-        let in_phase_beyond = |slot: &Slot, kept: usize| beyond(slot, kept).in_phase;
+        let in_phase_beyond =
+            |slot: &Slot, kept: usize| if is_cut_off(slot) { sum_beyond(kept, known) } else { 1.0 };
+        let beyond = |slot: &Slot, kept: usize| if is_cut_off(slot) { root_beyond(kept, known) } else { 1.0 };
         // adds the error of a quantity to those of others
         let add = |found: &mut TailError, slot: &Slot, error: f64| {
             let error = if error.is_nan() { f64::INFINITY } else { error };
@@ -534,7 +529,7 @@ impl<'a> Replay<'a> {
                 add(&mut found, slot, error);
                 in_phase = f64::max(in_phase, if error.is_nan() { f64::INFINITY } else { error });
                 if kept > 0 && is_open {
-                    let lacking = lacking(slot, index, beyond(slot, kept).in_squares);
+                    let lacking = lacking(slot, index, beyond(slot, kept));
                     add(&mut found, slot, outlined.difference_by_amplitude(quantity, &lacking, reach));
                 }
             }
@@ -544,19 +539,15 @@ impl<'a> Replay<'a> {
     }
 }
 
-/// What all modes above the lowest k contribute, relative to what those from k to the known ones do.
-struct Beyond {
-    /// Of the sum, where all are in phase.
-    in_phase: f64,
-    /// Of the root of the sum of squares, where phases are not known.
-    in_squares: f64,
+/// What all modes above the lowest `kept` contribute to reactions and internal forces, relative to what those from there to the
+/// `known` ones do, where all are in phase. Mode n contributes in proportion to 1/n^2, so that it is N/(N - k).
+fn sum_beyond(kept: usize, known: usize) -> f64 {
+    1.0 / (1.0 - kept as f64 / known as f64)
 }
 
-/// The factors of reactions and internal forces, to which mode n contributes in proportion to 1/n^2: N/(N - k) in phase, and
-/// (1 - (k/N)^3)^(-1/2) in squares, for N `known` modes of which k are `kept`.
-fn factors_beyond(kept: usize, known: usize) -> Beyond {
-    let share = kept as f64 / known as f64;
-    Beyond { in_phase: 1.0 / (1.0 - share), in_squares: (1.0 - share.powi(3)).powf(-0.5) }
+/// The same where phases are not known and squares add up: the root of their sum, (1 - (k/N)^3)^(-1/2).
+fn root_beyond(kept: usize, known: usize) -> f64 {
+    (1.0 - (kept as f64 / known as f64).powi(3)).powf(-0.5)
 }
 
 /// All wheels after a share of an interval, see [`Interval::at`].

@@ -4,11 +4,11 @@
 
 pub(crate) mod books;
 pub(crate) mod collocation;
-pub(crate) mod counts;
 pub(crate) mod events;
 pub(crate) mod modal_loads;
 pub(crate) mod node_forces;
 pub(crate) mod nodes;
+pub(crate) mod outcome;
 pub(crate) mod passage;
 pub(crate) mod penetrations;
 pub(crate) mod propagator;
@@ -17,7 +17,6 @@ pub(crate) mod sdirk;
 pub(crate) mod step;
 pub(crate) mod step_size;
 pub(crate) mod stepper;
-pub(crate) mod strike;
 pub(crate) mod suitability;
 pub(crate) mod tableau;
 pub(crate) mod triggers;

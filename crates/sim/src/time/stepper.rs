@@ -8,15 +8,14 @@
 use std::f64::consts::TAU;
 
 use super::books::Books;
-use super::counts::Counts;
 use super::events::{
     OVERSHOOT, at_break, break_slack, can_predict, first_corner, first_switch, first_touch, guards,
     prescribed_break, rolling_break,
 };
 use super::modal_loads::ModalLoads;
+use super::outcome::{Counts, Strike, StruckBy};
 use super::step::Step;
 use super::step_size::StepSize;
-use super::strike::{Strike, StruckBy};
 use super::triggers::Triggers;
 use super::wheel_forces::WheelForces;
 use crate::contact::element::{Guard, GuardKind};

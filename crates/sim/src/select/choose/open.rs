@@ -56,9 +56,10 @@ impl Open {
         found.map(|tail| tail.kept).or(whole)
     }
 
-    /// That of [`Open::sufficient_count`]; where there is none, `spare` times the smallest number whose estimate, times `factor`, is within the
-    /// tolerance with the margin [`SAFE`], and otherwise the largest one that has an estimate. Where even its estimate is far
-    /// beyond the tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no worse.
+    /// That of [`Open::sufficient_count`]; where there is none, `spare` times the smallest number whose estimate, times
+    /// `factor`, is within the tolerance with the margin [`SAFE`], and otherwise the largest one that has an estimate. Where
+    /// even its estimate is far beyond the tolerance ([`UNREACHABLE`]), or a whole range, it is the smallest number that is no
+    /// worse.
     pub fn count_for(&self, limit: f64, factor: f64, least: usize, spare: usize) -> Option<usize> {
         let within = || {
             let count = self.sufficient_count(SAFE / factor * self.tolerance, least)?;

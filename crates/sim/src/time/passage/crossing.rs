@@ -18,7 +18,7 @@ use crate::mechanics::state::State;
 use crate::numerics::dense::solve_general;
 use crate::record::energy::{Audit, stored};
 use crate::record::recorder::Recorder;
-use crate::time::counts::Counts;
+use crate::time::outcome::Counts;
 use crate::{Error, History};
 
 /// Largest number of contacts.

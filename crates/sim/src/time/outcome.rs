@@ -1,4 +1,17 @@
-//! The first strike of a flange or a stop, after which runs part.
+//! What stepping tells of a run: the work done, and the first strike of a flange or a stop, after which runs part.
+
+/// Work done by a run.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Counts {
+    /// Accepted steps.
+    pub steps: usize,
+    /// Rejected steps.
+    pub rejected: usize,
+    /// Solutions of the contact forces in the stages of all steps.
+    pub stages: usize,
+    /// Instants at which a wheel left or met the rail.
+    pub events: usize,
+}
 
 /// What struck.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
