@@ -46,6 +46,91 @@ impl Influence {
 /// Probes whose displacements are evaluated together.
 const GROUP: usize = 12;
 
+/// Groups of probes that move along their rails together: a unit load of a group is the force `weight` on each of its members,
+/// and its displacement the sum of those of its members, each times its weight.
+///
+/// Made for many evaluations by [`Compliance::fill_groups`], between which the coordinates of `probes` change.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ProbeGroups {
+    /// Number of groups.
+    pub count: usize,
+    /// The probes of all groups.
+    pub probes: Vec<Probe>,
+    /// Which probe belongs to which group.
+    pub members: Vec<GroupMember>,
+}
+
+/// A probe as part of a group.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GroupMember {
+    /// Index of the group.
+    pub group: usize,
+    /// Index of the probe among those of all groups.
+    pub probe: usize,
+    /// Force on the probe per unit load of the group.
+    pub weight: f64,
+}
+
+impl ProbeGroups {
+    /// Sums the coefficients between `probes` over the groups.
+    pub(crate) fn sum(&self, of: &Influence, out: &mut Influence) {
+        let (count, size) = (self.count, self.probes.len());
+        let (values, slopes) = (of.value.as_slice(), of.slope.as_slice());
+        let (value, slope) = (out.value.as_mut_slice(), out.slope.as_mut_slice());
+        value.fill(0.0);
+        slope.fill(0.0);
+        for column in &self.members {
+            let span = column.probe * size..(column.probe + 1) * size;
+            let (values, slopes) = (&values[span.clone()], &slopes[span]);
+            for row in &self.members {
+                let weight = row.weight * column.weight;
+                let place = row.group + count * column.group;
+                value[place] += weight * values[row.probe];
+                slope[place] += weight * slopes[row.probe];
+            }
+        }
+    }
+}
+
+/// What [`Compliance::fill_groups`] keeps from call to call: products that are the same while all probes remain on their
+/// elements. It belongs to one compliance and one list of groups; the results do not depend on what was kept.
+#[derive(Clone, Debug, Default)]
+pub struct KeptProducts {
+    /// Coefficients between all probes, where they are evaluated one by one.
+    pub(crate) influence: Option<Influence>,
+    /// The half of an element and the direction of each probe.
+    pub(crate) halves: Vec<ElementHalf>,
+    /// All of these, each once in increasing order, and the coefficients c(p, q) of G = sum of c(p, q) r^p t^q between each
+    /// two of them, row by row, where r belongs to the row and t to a column that is not behind it: `[q][p]`. r and t are the
+    /// distances from the ends of the halves in lengths of the elements.
+    pub(crate) blocks: Vec<ElementHalf>,
+    pub(crate) bicubics: Vec<[[f64; 4]; 4]>,
+    /// The parts of groups on one block each, in the order of the blocks, and the part of each member.
+    pub(crate) parts: Vec<GroupPart>,
+    pub(crate) part_of: Vec<usize>,
+    /// Members in the order of their elements.
+    pub(crate) order: Vec<usize>,
+}
+
+/// Half of a rail element, and the direction of probes on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct ElementHalf {
+    pub element: usize,
+    pub axis: usize,
+    /// Which end is nearer, 0 or 1.
+    pub end: usize,
+}
+
+/// The members of a group on one half of an element: sums of the powers r^p of their places times their weights, and of
+/// the derivatives of these by the coordinate.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct GroupPart {
+    pub group: usize,
+    pub block: usize,
+    pub value: [f64; 4],
+    pub slope: [f64; 4],
+}
+
 /// Compliance of a structure at its rails: displacements per unit force between any set of probes.
 ///
 /// Implementations are [`crate::ExactSurface`] (exact), [`crate::TableReading`] and [`crate::FactoredTable`] (tables of
@@ -111,6 +196,28 @@ pub trait Compliance: Send + Sync {
                 *out = loads.iter().enumerate().map(of).sum();
             }
         }
+        Ok(())
+    }
+
+    /// Writes the coefficients of groups of probes into `out`, whose matrices are `groups.count` x `groups.count`:
+    ///
+    /// `value[(g, h)]` = sum of w_i w_j G(i, j) over the members i of g and j of h, and `slope[(g, h)]` the derivative of this
+    /// by a common motion of the members of g. What serves the next call is kept in `kept`.
+    ///
+    /// Guarantee: the sums of [`Compliance::fill`] up to rounding.
+    ///
+    /// # Errors
+    /// Those of [`Compliance::fill`].
+    fn fill_groups(
+        &self,
+        groups: &ProbeGroups,
+        kept: &mut KeptProducts,
+        out: &mut Influence,
+    ) -> Result<(), Error> {
+        out.expect(groups.count)?;
+        let all = kept.influence.get_or_insert_with(|| Influence::zeros(groups.probes.len()));
+        self.fill(&groups.probes, all)?;
+        groups.sum(all, out);
         Ok(())
     }
 

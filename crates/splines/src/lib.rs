@@ -57,7 +57,10 @@ mod surface;
 mod table;
 mod vector;
 
-pub use compliance::{Compliance, Differentiable, Influence, Partials, PlaceDisplacements};
+pub use compliance::{
+    Compliance, Differentiable, GroupMember, Influence, KeptProducts, Partials, PlaceDisplacements,
+    ProbeGroups,
+};
 pub use curve::{CurveValue, PiecewiseCubic, akima, natural_spline};
 pub use error::Error;
 pub use probe::{Axis, Probe};

@@ -170,16 +170,19 @@ impl Geometry {
     }
 
     /// Approach of element `i` at the degrees of freedom `q`, without the deflection of the rails.
+    #[inline]
     pub fn approach(&self, i: usize, q: &DVector<f64>) -> f64 {
         self.rows.approach_at(i, q)
     }
 
     /// Rate for the damper or the friction law of element `i` at the speeds `v`.
+    #[inline]
     pub fn rate(&self, i: usize, v: &DVector<f64>) -> f64 {
         self.rows.rate_at(i, v)
     }
 
     /// Deflection of the massless rail at element `i` under `force`.
+    #[inline]
     pub fn deflection(&self, i: usize, force: &[f64]) -> f64 {
         self.rails().deflection(i, force)
     }

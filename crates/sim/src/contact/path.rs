@@ -10,7 +10,7 @@
 
 use std::ops::Range;
 
-use splines::{Compliance, Influence, Probe};
+use splines::{Compliance, GroupMember, Influence, KeptProducts, Probe, ProbeGroups};
 
 use super::candidates::Candidates;
 use super::matrices::RailMatrices;
@@ -35,22 +35,13 @@ struct Group {
     tangential: Option<usize>,
 }
 
-/// The contribution of one probe to a group.
-#[derive(Clone, Copy)]
-struct Member {
-    group: usize,
-    probe: usize,
-    weight: f64,
-}
-
 /// The compliance over the groups at one node of the path.
-#[derive(Clone, Default)]
+#[derive(Clone)]
 struct PathNode {
     /// Rail coordinate of each group's wheel.
     x: Vec<f64>,
-    value: Vec<f64>,
-    /// Derivatives with respect to the position of the row's group.
-    slope: Vec<f64>,
+    /// Values, and derivatives with respect to the position of the row's group.
+    influence: Influence,
 }
 
 /// Four columns of a row of polynomials in s: coefficients of s^0 to s^(N - 1).
@@ -65,12 +56,11 @@ pub(crate) struct CompliancePath {
     groups: Vec<Group>,
     /// Groups of each element.
     groups_of: Vec<Range<usize>>,
-    /// Group, probe and weight of each entry. A drive and a brake on the same wheel have a common probe.
-    members: Vec<Member>,
-    probes: Vec<Probe>,
+    /// The probes of each group. A drive and a brake on the same wheel have a common probe.
+    loads: ProbeGroups,
     /// The wheel of each probe.
     wheels: Vec<usize>,
-    influence: Influence,
+    kept: KeptProducts,
     nodes: [PathNode; 2],
     /// Rail coordinates of all wheels at the second node.
     last: Vec<f64>,
@@ -134,16 +124,14 @@ impl CompliancePath {
                 probes.push(*probe);
                 wheels.push(*wheel);
             }
-            members.push(Member { group, probe: place, weight: *weight });
+            members.push(GroupMember { group, probe: place, weight: *weight });
         }
         let columns = elements[0]..elements[elements.len() - 1] + 1;
         let (count, width) = (groups.len(), columns.len().div_ceil(4));
-        let square = || vec![0.0; count * count];
-        let node = || PathNode { x: vec![0.0; count], value: square(), slope: square() };
+        let node = || PathNode { x: vec![0.0; count], influence: Influence::zeros(count) };
         Some(CompliancePath {
-            influence: Influence::zeros(probes.len()),
-            members,
-            probes,
+            loads: ProbeGroups { count, probes, members },
+            kept: KeptProducts::default(),
             wheels,
             nodes: [node(), node()],
             last: vec![0.0; mechanics.wheels.len()],
@@ -219,35 +207,21 @@ impl CompliancePath {
         }
     }
 
-    /// Evaluates the compliance at one node and sums its entries over the groups.
+    /// Evaluates the compliance between the groups at one node.
     fn evaluate(
         &mut self,
         number: usize,
         compliance: &dyn Compliance,
         places: &[f64],
     ) -> Result<(), splines::Error> {
-        for (probe, &wheel) in self.probes.iter_mut().zip(&self.wheels) {
+        for (probe, &wheel) in self.loads.probes.iter_mut().zip(&self.wheels) {
             probe.x = places[wheel];
         }
-        compliance.fill(&self.probes, &mut self.influence)?;
-        let (node, count, size) = (&mut self.nodes[number], self.groups.len(), self.probes.len());
-        node.value.fill(0.0);
-        node.slope.fill(0.0);
+        let node = &mut self.nodes[number];
         for (x, group) in node.x.iter_mut().zip(&self.groups) {
             *x = places[group.wheel];
         }
-        let (values, slopes) = (self.influence.value.as_slice(), self.influence.slope.as_slice());
-        for column in &self.members {
-            let span = column.probe * size..(column.probe + 1) * size;
-            let (values, slopes) = (&values[span.clone()], &slopes[span]);
-            for row in &self.members {
-                let weight = row.weight * column.weight;
-                let place = row.group * count + column.group;
-                node.value[place] += weight * values[row.probe];
-                node.slope[place] += weight * slopes[row.probe];
-            }
-        }
-        Ok(())
+        compliance.fill_groups(&self.loads, &mut self.kept, &mut node.influence)
     }
 
     /// Sets the polynomials of all pairs of groups, summed over the groups of an element: of both for values, of the
@@ -265,20 +239,23 @@ impl CompliancePath {
             ..
         } = self;
         let count = groups.len();
+        let [from_values, to_values] = [&*from, to].map(|node| node.influence.value.as_slice());
+        let [from_slopes, to_slopes] = [&*from, to].map(|node| node.influence.slope.as_slice());
         values.fill([[0.0; 4]; 4]);
         slopes.fill([[0.0; 4]; 3]);
         for i in 0..count {
             for j in 0..=i {
-                let (there, back) = (i * count + j, j * count + i);
+                let (there, back) = (i + count * j, j + count * i);
                 let (x, y) = (length[i], length[j]);
-                let along = |node: &PathNode| node.slope[there] * x + node.slope[back] * y;
-                let value = cubic([from.value[there], to.value[there]], [along(from), along(to)]);
+                let along = |slopes: &[f64]| slopes[there] * x + slopes[back] * y;
+                let value =
+                    cubic([from_values[there], to_values[there]], [along(from_slopes), along(to_slopes)]);
                 // dG/ds minus the part of linearly varying group slopes equals bend (x^2 + y^2) s (1 - s).
                 let squares = x * x + y * y;
                 let bend = if squares > 0.0 { -3.0 * value[3] / squares } else { 0.0 };
                 let slope = |pair: usize, length: f64| {
-                    let (line, by) = (to.slope[pair] - from.slope[pair], bend * length);
-                    [from.slope[pair], line + by, -by]
+                    let (line, by) = (to_slopes[pair] - from_slopes[pair], bend * length);
+                    [from_slopes[pair], line + by, -by]
                 };
                 let (row, other) = (groups[i].element, groups[j].element);
                 let [own, column] = [row, other].map(|place| elements[place] - columns.start);
@@ -340,20 +317,33 @@ impl CompliancePath {
         let span = |row: usize| row * m + columns.start..row * m + columns.end;
         for &i in &*wanted {
             let beside = &mut beside[i * *width..(i + 1) * *width];
-            beside.fill([0.0; 4]);
             for (number, group) in groups_of[i].clone().enumerate() {
                 let (terms, offset) = (&slopes[group * *width..(group + 1) * *width], offset[group]);
                 let rates = &mut slope[span(own[i])];
+                // The first group of an element sets the row, the others add to it.
                 if number == 0 {
-                    rates.fill(0.0);
+                    put_slopes(
+                        terms,
+                        s,
+                        rates,
+                        |_, slopes| slopes,
+                        |four, slopes| {
+                            beside[four] = slopes.map(|slope| offset * slope);
+                        },
+                    );
+                } else {
+                    put_slopes(
+                        terms,
+                        s,
+                        rates,
+                        |sum, slopes| std::array::from_fn(|k| sum[k] + slopes[k]),
+                        |four, slopes| {
+                            beside[four] = std::array::from_fn(|k| beside[four][k] + offset * slopes[k]);
+                        },
+                    );
                 }
-                add_slopes(terms, s, rates, |four, slopes| {
-                    beside[four] = std::array::from_fn(|k| beside[four][k] + offset * slopes[k]);
-                });
                 if let Some(contact) = groups[group].tangential {
-                    let rates = &mut tangential[span(contact)];
-                    rates.fill(0.0);
-                    add_slopes(terms, s, rates, |_, _| {});
+                    put_slopes(terms, s, &mut tangential[span(contact)], |_, slopes| slopes, |_, _| {});
                 }
             }
         }
@@ -377,21 +367,29 @@ impl CompliancePath {
     }
 }
 
-/// Adds the values at `s` of a row of polynomials to `sums`, four at a time, each four of which `each` receives with its
-/// number. They go to their place from registers: a copy would wait for them to be stored.
+/// Puts the values at `s` of a row of polynomials into `row`, four at a time, as `with` combines what is there with them. `each`
+/// receives each four of them with its number. They go to their place from registers: a copy would wait for them to be stored.
 #[inline]
-fn add_slopes(terms: &[Polynomials<3>], s: f64, sums: &mut [f64], mut each: impl FnMut(usize, [f64; 4])) {
+fn put_slopes(
+    terms: &[Polynomials<3>],
+    s: f64,
+    row: &mut [f64],
+    with: impl Fn([f64; 4], [f64; 4]) -> [f64; 4],
+    mut each: impl FnMut(usize, [f64; 4]),
+) {
     let at =
         |[p, q, r]: &Polynomials<3>| -> [f64; 4] { std::array::from_fn(|k| p[k] + s * (q[k] + s * r[k])) };
-    let (fours, rest) = sums.as_chunks_mut::<4>();
-    for (four, (sums, terms)) in fours.iter_mut().zip(terms).enumerate() {
+    let (fours, rest) = row.as_chunks_mut::<4>();
+    for (four, (there, terms)) in fours.iter_mut().zip(terms).enumerate() {
         let slopes = at(terms);
-        *sums = std::array::from_fn(|k| sums[k] + slopes[k]);
+        *there = with(*there, slopes);
         each(four, slopes);
     }
     if let Some(terms) = terms.get(fours.len()) {
         let slopes = at(terms);
-        rest.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope);
+        let mut there = [0.0; 4];
+        there[..rest.len()].copy_from_slice(rest);
+        rest.copy_from_slice(&with(there, slopes)[..rest.len()]);
         each(fours.len(), slopes);
     }
 }

@@ -201,13 +201,39 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     for (j, &pivot) in pivots.iter().enumerate() {
         b.swap(j, pivot);
     }
-    // The up to three unknowns found last are subtracted one by one: they are waited for, and the sum of the others is not.
-    for i in 1..n {
-        let (row, early) = (&a[i * n..i * n + i], i / 4 * 4);
-        let sum = b[i] - dot(&row[..early], &b[..early]);
-        b[i] = row[early..].iter().zip(&b[early..i]).fold(sum, |sum, (entry, b)| sum - entry * b);
+    // Four rows at a time: the sums over the unknowns that are known before them, which all four read together, and then the
+    // unknowns of the four one by one, each of which waits for the one before.
+    let whole = n / 4 * 4;
+    for i in (0..whole).step_by(4) {
+        let (known, own) = b.split_at_mut(i);
+        let sums = four_dots(std::array::from_fn(|k| &a[(i + k) * n..(i + k) * n + i]), known);
+        let line = |k: usize| &a[(i + k) * n + i..(i + k) * n + i + 4];
+        for k in 0..4 {
+            own[k] =
+                line(k)[..k].iter().zip(&own[..k]).fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b);
+        }
+    }
+    for i in whole..n {
+        let (row, (known, own)) = (&a[i * n..i * n + i], b.split_at_mut(whole));
+        let sum = own[i - whole] - dot(&row[..whole], known);
+        let late = row[whole..].iter().zip(&own[..i - whole]);
+        own[i - whole] = late.fold(sum, |sum, (entry, b)| sum - entry * b);
     }
     substitute(a, b);
+}
+
+/// Scalar products of four lines with `vector`, whose length is a multiple of four: those of [`dot`].
+#[inline]
+fn four_dots(lines: [&[f64]; 4], vector: &[f64]) -> [f64; 4] {
+    let [a, b, c, d] = lines.map(|line| line.as_chunks::<4>().0);
+    let mut sums = [[0.0; 4]; 4];
+    let fours = vector.as_chunks::<4>().0.iter();
+    for (v, ((a, b), (c, d))) in fours.zip(a.iter().zip(b).zip(c.iter().zip(d))) {
+        for (sum, line) in sums.iter_mut().zip([a, b, c, d]) {
+            *sum = std::array::from_fn(|k| sum[k] + line[k] * v[k]);
+        }
+    }
+    sums.map(|sum| (sum[0] + sum[2]) + (sum[1] + sum[3]))
 }
 
 /// Exchanges row `j` with the row that has the largest entry of column `j` on or below the diagonal, and returns the
@@ -245,11 +271,22 @@ fn eliminate(a: &mut [f64], j: usize, n: usize) {
 /// diagonal.
 fn substitute(a: &[f64], b: &mut [f64]) {
     let n = b.len();
-    for i in (0..n).rev() {
-        let (line, late) = (&a[i * n..(i + 1) * n], n - (n - 1 - i) / 4 * 4);
-        let sum = b[i] - dot(&line[late..], &b[late..]);
-        let latest = line[i + 1..late].iter().zip(&b[i + 1..late]).rev();
-        b[i] = latest.fold(sum, |sum, (entry, b)| sum - entry * b) * line[i];
+    let first = n % 4;
+    // As in the forward substitution, four rows at a time from the last.
+    for i in (first..n).step_by(4).rev() {
+        let (own, known) = b[i..].split_at_mut(4);
+        let sums = four_dots(std::array::from_fn(|k| &a[(i + k) * n + i + 4..(i + k + 1) * n]), known);
+        for k in (0..4).rev() {
+            let line = &a[(i + k) * n + i..(i + k) * n + i + 4];
+            let late = line[k + 1..].iter().zip(&own[k + 1..]).rev();
+            own[k] = late.fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b) * line[k];
+        }
+    }
+    for i in (0..first).rev() {
+        let line = &a[i * n..(i + 1) * n];
+        let sum = b[i] - dot(&line[first..], &b[first..]);
+        let late = line[i + 1..first].iter().zip(&b[i + 1..first]).rev();
+        b[i] = late.fold(sum, |sum, (entry, b)| sum - entry * b) * line[i];
     }
 }
 

@@ -1,9 +1,10 @@
 //! Green's function of an element clamped at both ends.
 //!
 //! This is what a rail element adds between its two node states: the displacement at one place under a unit
-//! load at another, with both ends held. It exists in three forms. `Plane::ordered` is the statement of the
+//! load at another, with both ends held. It exists in four forms. `Plane::ordered` is the statement of the
 //! function itself; `Plane::magnitude` sums the absolute values of its terms, for bounds of rounding errors;
-//! and `separated` expands it in powers of the place, for the fast evaluation of many pairs.
+//! `SeparatedLoad` holds the factors that belong to one of the places, and `separated` expands these in powers of the
+//! place, for the fast evaluation of many pairs.
 
 use super::beam_column::BeamColumn;
 use super::element::{MemberPlace, RailElement};
@@ -220,6 +221,21 @@ impl Plane {
         }
     }
 
+    /// The factors near and far of Green's function for the load at a place, seen from the first end: two of each, then their
+    /// derivatives by s.
+    #[inline]
+    fn factors(&self, at: MemberPlace, load: [f64; 2]) -> [[[f64; 2]; 2]; 2] {
+        let [far, first, _] = self.reactions(at, load);
+        let near = [[1.0, 0.0], [0.0, 1.0]].map(|[shear, moment]| {
+            let unit = Reaction { shear, moment };
+            let [bend, slope, ..] = self.derivatives(at.s, unit);
+            let value = load[0] * self.deflection(at.s, unit) + load[1] * self.rotation(at.s, unit);
+            [value, load[0] * slope + load[1] * bend]
+        });
+        let [[v, v_slope], [m, m_slope]] = near;
+        [[[v, m], [v_slope, m_slope]], [[far.shear, far.moment], [-first.shear, -first.moment]]]
+    }
+
     /// Sum of the absolute values of the terms from which `Plane::green` of a place with itself is computed.
     fn magnitude(&self, at: MemberPlace, [f, m]: [f64; 2]) -> f64 {
         let MemberPlace { s, q } = if at.s <= at.q { at } else { at.mirrored() };
@@ -351,6 +367,36 @@ impl ClampedElement {
         sum
     }
 
+    /// The factors of Green's function for a load along rail direction `axis` at a place, times `weight`. `rate` is the
+    /// derivative of s by the rail coordinate.
+    #[inline]
+    pub fn separated(&self, axis: usize, place: MemberPlace, rate: f64, weight: f64) -> SeparatedLoad {
+        let load = &self.loads[axis];
+        let (mut near, mut far) = ([Factors::default(); 2], [Factors::default(); 2]);
+        for (end, at) in [place, place.mirrored()].into_iter().enumerate() {
+            let along = if end == 0 { rate * weight } else { -rate * weight };
+            for (first, plane, load) in [(0, &self.xy, load.xy), (2, &self.xz, load.xz)] {
+                if plane.inverse == 0.0 || load == [0.0; 2] {
+                    continue;
+                }
+                let seen = if end == 0 { load } else { turned(load) };
+                let both = plane.factors(at, seen);
+                for (to, [value, slope]) in [&mut near[end], &mut far[end]].into_iter().zip(both) {
+                    for k in 0..2 {
+                        (to.value[first + k], to.slope[first + k]) = (weight * value[k], along * slope[k]);
+                    }
+                }
+            }
+            let bars = [(self.axial, load.axial), (self.torsion, load.twist)];
+            for (k, (flexibility, load)) in bars.into_iter().enumerate() {
+                let by = load * flexibility / self.length;
+                (near[end].value[4 + k], near[end].slope[4 + k]) = (weight * load * at.s, along * load);
+                (far[end].value[4 + k], far[end].slope[4 + k]) = (weight * by * at.q, -along * by);
+            }
+        }
+        SeparatedLoad { place, near, far }
+    }
+
     /// Second derivatives of [`ClampedElement::pair`] by s and t: `pp`, `pq` and `qq` alone.
     pub fn second_derivatives(
         &self,
@@ -394,6 +440,61 @@ impl ClampedElement {
     pub fn is_without_stiffness(&self, a: usize, b: usize) -> bool {
         let (p, q) = (self.loads[a].uses(), self.loads[b].uses());
         (0..4).any(|k| self.without_stiffness[k] && p[k] && q[k])
+    }
+}
+
+/// A load on a clamped element with its factors of Green's function b.
+///
+/// For a place s before t, b(s, t) = near(s) . far(t): far is the reaction (V, m0) at the first end to the load at t, near
+/// the displacement along the load at s by such a reaction, for both planes of bending; then follow the axial bar and
+/// torsion, b = s (l - t) / (stiffness l). The same holds from the last end with the places exchanged. As in `Plane::ordered`
+/// the end is used that is nearer to the place between it and the other.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct SeparatedLoad {
+    place: MemberPlace,
+    /// By end.
+    near: [Factors; 2],
+    far: [Factors; 2],
+}
+
+/// Factors of both planes, two each, of the axial bar and of torsion, and their derivatives along the rail.
+#[derive(Clone, Copy, Debug, Default)]
+struct Factors {
+    value: [f64; 6],
+    slope: [f64; 6],
+}
+
+impl SeparatedLoad {
+    /// Value and derivatives, by this place and by the other one, of Green's function between two loads on one element. At
+    /// one place the derivatives are the means of both sides.
+    #[inline]
+    pub fn with(&self, other: &SeparatedLoad) -> [f64; 3] {
+        if self.place.is_before(other.place) {
+            return self.before(other);
+        }
+        let [value, by_other, by_own] = other.before(self);
+        if other.place.is_before(self.place) {
+            return [value, by_own, by_other];
+        }
+        let seen = self.before(other);
+        [0.5 * (value + seen[0]), 0.5 * (by_own + seen[1]), 0.5 * (by_other + seen[2])]
+    }
+
+    /// [`SeparatedLoad::with`] for a place that is not behind the other.
+    #[inline]
+    fn before(&self, other: &SeparatedLoad) -> [f64; 3] {
+        let dot = |a: &[f64; 6], b: &[f64; 6]| {
+            let two: [f64; 2] =
+                std::array::from_fn(|k| a[k] * b[k] + a[2 + k] * b[2 + k] + a[4 + k] * b[4 + k]);
+            two[0] + two[1]
+        };
+        if self.place.s <= self.place.q {
+            let (near, far) = (&self.near[0], &other.far[0]);
+            [dot(&near.value, &far.value), dot(&near.slope, &far.value), dot(&near.value, &far.slope)]
+        } else {
+            let (near, far) = (&other.near[1], &self.far[1]);
+            [dot(&near.value, &far.value), dot(&near.value, &far.slope), dot(&near.slope, &far.value)]
+        }
     }
 }
 

@@ -24,6 +24,7 @@ pub use beam_column::{BeamColumn, lowered};
 pub use element::{ElementMember, Flexibility, RailElement};
 pub(crate) use element::{IDENTITY, LocalPlace, MemberPlace};
 pub use functions::ElementFunctions;
+pub(crate) use green::SeparatedLoad;
 pub(crate) use member_motion::EndForm;
 pub use member_motion::MemberMotion;
 pub(crate) use planar::{PlanarCubics, PlanarPlace};

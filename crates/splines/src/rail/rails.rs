@@ -211,6 +211,11 @@ impl Rails {
         Ok(self.cubics(span.element, axis).planar.as_ref().map(found))
     }
 
+    /// The cubics of the shape functions of an element along a rail direction.
+    pub(crate) fn shape_cubics(&self, element: usize, axis: usize) -> &ShapeCubics {
+        &self.cubics(element, axis).shapes
+    }
+
     /// The rows at both ends of an element along a rail direction; slopes by the fraction of the element.
     pub(crate) fn end_rows(&self, element: usize, axis: usize) -> [ShapeRow; 2] {
         [0, 1].map(|end| {

@@ -4,9 +4,12 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 
+use super::groups;
 use super::places::{SurfacePlaces, restrained_row};
 use super::planar::{self, PlanarProbe};
-use crate::compliance::{Compliance, Differentiable, Influence, Partials, PlaceDisplacements};
+use crate::compliance::{
+    Compliance, Differentiable, Influence, KeptProducts, Partials, PlaceDisplacements, ProbeGroups,
+};
 use crate::error::Error;
 use crate::probe::Probe;
 use crate::rail::{Rails, ShapeRow};
@@ -294,6 +297,23 @@ impl Compliance for ExactSurface {
             9..=16 => self.assemble(at, &mut [ShapeRow::EMPTY; 16][..n], &mut [0; 16][..n], out),
             _ => self.assemble(at, &mut vec![ShapeRow::EMPTY; n], &mut vec![0; n], out),
         }
+    }
+
+    /// Between two halves of elements N(p) C N(q)^T is bicubic; its coefficients are kept while probes are on both.
+    fn fill_groups(
+        &self,
+        of: &ProbeGroups,
+        kept: &mut KeptProducts,
+        out: &mut Influence,
+    ) -> Result<(), Error> {
+        out.expect(of.count)?;
+        if groups::fill(&self.rails, &self.nodal, of, kept, out)? {
+            return Ok(());
+        }
+        let all = kept.influence.get_or_insert_with(|| Influence::zeros(of.probes.len()));
+        self.fill(&of.probes, all)?;
+        of.sum(all, out);
+        Ok(())
     }
 
     /// The nodal displacements under all loads are computed once.
