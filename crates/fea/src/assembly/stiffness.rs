@@ -345,11 +345,13 @@ impl ScaledStiffness {
             parts.diagonal[column] > 0.0
                 || elastic.as_ref().is_some_and(|elastic| elastic.diagonal[column] > 0.0)
         };
-        let edges: Vec<[usize; 2]> = parts.members.iter().map(|part| part.0).collect();
-        let at: Vec<[f64; 3]> = bodies.list.iter().map(|body| m.points[body.reference]).collect();
+        // Bodies that are held take no part in the elimination.
+        let moves = |&body: &usize| bodies.list[body].free.contains(&true);
+        let pairs = parts.members.iter().map(|part| part.0);
+        let edges: Vec<[usize; 2]> = pairs.filter(|pair| pair.iter().all(moves)).collect();
         let mut unknown = vec![None; parts.diagonal.len()];
         let mut column = Vec::new();
-        let (order, operations) = order(&Graph::new(at.len(), &edges), &at);
+        let (order, operations) = order(&Graph::new(bodies.list.len(), &edges));
         for body in order {
             let Body { free, unstiffened, .. } = &bodies.list[body];
             let stiffened = |&k: &usize| free[k] && !unstiffened[k] && is_stiffened(6 * body + k);

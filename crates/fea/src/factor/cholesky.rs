@@ -126,18 +126,56 @@ impl<T: Real> Factor<T> {
 
     /// Largest row sum of |L| |L^T|, and the largest number of entries in a row of L.
     pub fn growth(&self) -> (f64, usize) {
-        let n = self.len();
-        let mut columns = vec![0.0_f64; n];
-        for_each_entry(&self.symbolic, &self.values, |_, column, value| {
-            columns[column] += value.double().abs();
-        });
+        Arch::new().dispatch(Growth { factor: self })
+    }
+}
+
+/// [`Factor::growth`], compiled for several sets of vector registers.
+struct Growth<'a, T: Real> {
+    factor: &'a Factor<T>,
+}
+
+impl<T: Real> WithSimd for Growth<'_, T> {
+    type Output = (f64, usize);
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> (f64, usize) {
+        let n = self.factor.len();
         let (mut rows, mut lengths) = (vec![0.0_f64; n], vec![0_usize; n]);
-        for_each_entry(&self.symbolic, &self.values, |row, column, value| {
-            rows[row] += value.double().abs() * columns[column];
-            lengths[row] += 1;
-        });
+        let mut sums = Vec::new();
+        for k in 0..self.factor.panels {
+            let panel = self.factor.panel(k);
+            let height = panel.height();
+            sums.clear();
+            sums.resize(height, 0.0);
+            for j in 0..panel.width {
+                let column = &panel.values[j * height + j..(j + 1) * height];
+                let size = magnitude_sum(column);
+                for (sum, value) in sums[j..].iter_mut().zip(column) {
+                    *sum += value.double().abs() * size;
+                }
+                lengths[panel.start + j] += j + 1;
+            }
+            let (own, below) = sums.split_at(panel.width);
+            rows[panel.start..][..panel.width].iter_mut().zip(own).for_each(|(row, sum)| *row += sum);
+            for (&row, sum) in panel.below.iter().zip(below) {
+                rows[row] += sum;
+                lengths[row] += panel.width;
+            }
+        }
         (rows.into_iter().fold(0.0, f64::max), lengths.into_iter().max().unwrap_or(0))
     }
+}
+
+/// Sum of the magnitudes of some numbers, in eight parts.
+#[inline(always)]
+fn magnitude_sum<T: Real>(values: &[T]) -> f64 {
+    let (parts, rest) = values.as_chunks::<8>();
+    let mut sums = [0.0_f64; 8];
+    for part in parts {
+        sums.iter_mut().zip(part).for_each(|(sum, value)| *sum += value.double().abs());
+    }
+    rest.iter().map(|value| value.double().abs()).sum::<f64>() + sums.iter().sum::<f64>()
 }
 
 /// Solution of K x = x for W vectors, compiled for several sets of vector registers.
@@ -156,7 +194,7 @@ impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
             self.factor.panel(k).forward(self.x, &mut scratch);
         }
         for k in (0..self.factor.panels).rev() {
-            self.factor.panel(k).backward(self.x);
+            self.factor.panel(k).backward(self.x, &mut scratch);
         }
     }
 }
@@ -236,13 +274,41 @@ impl<'a, T> Panel<'a, T> {
     }
 }
 
-impl<T: Real> Panel<'_, T> {
+impl<'a, T: Real> Panel<'a, T> {
+    /// Number of its rows.
+    fn height(&self) -> usize {
+        self.width + self.below.len()
+    }
+
+    /// The entry of one of its rows and columns, of the lower triangle.
+    #[inline]
+    pub fn entry(&self, row: usize, column: usize) -> T {
+        self.values[column * self.height() + row]
+    }
+
+    /// The triangle, with anything above its diagonal.
+    pub fn triangle(&self) -> MatRef<'a, T> {
+        MatRef::from_column_major_slice_with_stride(self.values, self.width, self.width, self.height())
+    }
+
+    /// The rows of `below`; there must be some.
+    pub fn lower(&self) -> MatRef<'a, T> {
+        let (rows, values) = (self.below.len(), &self.values[self.width..]);
+        MatRef::from_column_major_slice_with_stride(values, rows, self.width, self.height())
+    }
+
     /// One panel of x := L^-1 x for K vectors: divides by the pivots, subtracts the panel from the rows
     /// below it, in a dense product if the panel is wide enough.
     #[inline(always)]
-    pub fn forward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
-        let height = self.width + self.below.len();
+    fn forward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
+        let height = self.height();
         let dense = T::PANELS && K > 1 && self.width >= DENSE_WIDTH;
+        // What several columns subtract from a row below is added up before it is scattered.
+        let gathered = dense || self.width > 1;
+        scratch.clear();
+        if gathered {
+            scratch.resize(self.below.len(), [T::zero(); K]);
+        }
         for j in 0..self.width {
             let column = &self.values[j * height + j..(j + 1) * height];
             let (pivot, rest) = column.split_at(1);
@@ -256,7 +322,14 @@ impl<T: Real> Panel<'_, T> {
             for (l, target) in triangle.iter().zip(&mut x[self.start + j + 1..]) {
                 subtract_scaled(target, *l, &value);
             }
-            if !dense {
+            if dense {
+                continue;
+            }
+            if gathered {
+                for (l, sum) in below.iter().zip(scratch.iter_mut()) {
+                    (0..K).for_each(|k| sum[k] += *l * value[k]);
+                }
+            } else {
                 for (l, &row) in below.iter().zip(self.below) {
                     subtract_scaled(&mut x[row], *l, &value);
                 }
@@ -264,41 +337,52 @@ impl<T: Real> Panel<'_, T> {
         }
         if dense && !self.below.is_empty() {
             // (L21 x)^T = x^T L21^T: a row of x is a column of its transpose, in one piece.
-            scratch.clear();
-            scratch.resize(self.below.len(), [T::zero(); K]);
             let own = x[self.start..self.start + self.width].as_flattened();
-            let lower = MatRef::from_column_major_slice_with_stride(
-                &self.values[self.width..],
-                self.below.len(),
-                self.width,
-                height,
-            );
             let product =
                 MatMut::from_column_major_slice_mut(scratch.as_flattened_mut(), K, self.below.len());
             let own = MatRef::from_column_major_slice(own, K, self.width);
-            multiply(product, Accum::Replace, own, lower.transpose(), T::one());
-            for (&row, product) in self.below.iter().zip(scratch.iter()) {
-                subtract_scaled(&mut x[row], T::one(), product);
-            }
+            multiply(product, Accum::Replace, own, self.lower().transpose(), T::one());
+        }
+        for (&row, sum) in self.below.iter().zip(scratch.iter()) {
+            subtract_scaled(&mut x[row], T::one(), sum);
         }
     }
 
     /// One panel of x := L^-T x for K vectors.
     #[inline(always)]
-    fn backward<const K: usize>(&self, x: &mut [[T; K]]) {
-        let height = self.width + self.below.len();
+    fn backward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
+        let height = self.height();
+        scratch.clear();
+        scratch.extend(self.below.iter().map(|&row| x[row]));
         for j in (0..self.width).rev() {
             let column = &self.values[j * height + j..(j + 1) * height];
             let (pivot, rest) = column.split_at(1);
             let (triangle, below) = rest.split_at(self.width - 1 - j);
-            let mut value = x[self.start + j];
-            for (l, known) in triangle.iter().zip(&x[self.start + j + 1..]) {
-                subtract_scaled(&mut value, *l, known);
-            }
-            for (l, &row) in below.iter().zip(self.below) {
-                subtract_scaled(&mut value, *l, &x[row]);
-            }
+            let own = &x[self.start + j..self.start + self.width];
+            let mut value = own[0];
+            subtract_products(&mut value, triangle, &own[1..]);
+            subtract_products(&mut value, below, scratch);
             x[self.start + j] = value.map(|value| value / pivot[0]);
         }
     }
+}
+
+/// value -= sum of l_i x_i, in K lanes; the products of one lane are added up in eight parts.
+#[inline(always)]
+fn subtract_products<T: Real, const K: usize>(value: &mut [T; K], l: &[T], x: &[[T; K]]) {
+    if K > 1 {
+        l.iter().zip(x).for_each(|(l, x)| subtract_scaled(value, *l, x));
+        return;
+    }
+    let ((parts, rest), (others, last)) = (l.as_chunks::<8>(), x.as_chunks::<8>());
+    let mut sums = [T::zero(); 8];
+    for (part, other) in parts.iter().zip(others) {
+        for (sum, (l, x)) in sums.iter_mut().zip(part.iter().zip(other)) {
+            *sum += *l * x[0];
+        }
+    }
+    if !parts.is_empty() {
+        sums.iter().for_each(|sum| value[0] -= *sum);
+    }
+    rest.iter().zip(last).for_each(|(l, x)| value[0] -= *l * x[0]);
 }

@@ -1,184 +1,367 @@
-//! Forward solves w = L^-1 p of sparse loads, and products of their solutions.
+//! Products p_i^T K^-1 p_j of sparse loads by their forward solves w = L^-1 p.
+//!
+//! A load is not zero on the paths of the elimination tree from its entries to the root. The solves of all loads go up
+//! the tree together: a panel holds the loads whose paths it is on, side by side, in one dense block. Solves, updates of
+//! the panels above and products are dense products of such blocks, which run with the widest vector registers that the
+//! processor has.
 
+use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
+use faer::{Accum, MatMut, MatRef, Par};
+use nalgebra::DMatrix;
 use pulp::{Arch, Simd, WithSimd};
 
 use crate::assembly::Real;
-use crate::factor::cholesky::Factor;
+use crate::factor::cholesky::{Factor, Panel};
+use crate::factor::product::{clear_registers, multiply};
 
-/// Loads that are solved together where the columns of L are single.
-const COLUMN_LANES: usize = 8;
-/// Loads that are solved together where L has panels.
-const PANEL_LANES: usize = 32;
+/// Width of a panel from which its products are dense.
+const DENSE_WIDTH: usize = 4;
+/// Loads of a panel from which its products are dense.
+const DENSE_LOADS: usize = 4;
+/// Width of a panel from which its triangle is solved in blocks.
+const BLOCKED_WIDTH: usize = 12;
+/// Most unknowns whose products are added up at once: it bounds the roundings of a sum.
+const SLAB: usize = 64;
+/// Most loads in a column of blocks of the products.
+const STRIP: usize = 64;
 
 /// A sparse load: unknown and value of each entry.
 pub(crate) type SparseLoad = Vec<(usize, f64)>;
 
-/// w = L^-1 p of a sparse load p: the values on the path of the elimination tree from p to the root, as
-/// runs of adjoining unknowns, ascending. All other values are zero.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct ForwardSolution {
-    /// First unknown of each run.
-    pub starts: Vec<usize>,
-    /// Length of each run.
-    pub widths: Vec<usize>,
-    /// The runs, one after the other.
-    pub values: Vec<f64>,
-}
-
-impl ForwardSolution {
-    #[inline]
-    fn runs(&self) -> impl Iterator<Item = (usize, &[f64])> {
-        let mut from = 0;
-        self.starts.iter().zip(&self.widths).map(move |(&start, &width)| {
-            let run = &self.values[from..from + width];
-            from += width;
-            (start, run)
-        })
-    }
-
-    fn push(&mut self, start: usize, width: usize) {
-        match (self.starts.last(), self.widths.last_mut()) {
-            (Some(&before), Some(run)) if before + *run == start => *run += width,
-            _ => {
-                self.starts.push(start);
-                self.widths.push(width);
-            }
-        }
-    }
+/// Products of all pairs of some loads.
+#[derive(Clone, Debug)]
+pub(crate) struct Gram {
+    /// p_i^T K^-1 p_j, symmetric to the last bit.
+    pub value: DMatrix<f64>,
+    /// Most roundings that a term of a product takes part in.
+    pub roundings: usize,
 }
 
 impl<T: Real> Factor<T> {
-    /// L^-1 p of every load p, following the elimination tree from the entries of p to its root. Several
-    /// loads are solved together, so that each entry of L is read once for all of them.
+    /// Products w_i . w_j of the forward solves w = L^-1 p, rounded to doubles, of some loads.
     ///
     /// # Source
-    /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9; Davis, Direct Methods for Sparse Linear
-    /// Systems (2006), chapter 3.
-    pub fn forward(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
-        // Unused lanes are computed too: few loads are solved one at a time.
-        if loads.len() < COLUMN_LANES {
-            self.forward_in_lanes::<1>(loads)
-        } else if self.panels == self.len() || loads.len() < PANEL_LANES {
-            self.forward_in_lanes::<COLUMN_LANES>(loads)
-        } else {
-            self.forward_in_lanes::<PANEL_LANES>(loads)
-        }
-    }
-
-    fn forward_in_lanes<const K: usize>(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
-        Arch::new().dispatch(Forward::<T, K> { factor: self, loads })
-    }
-
-    /// Solves at most K loads; `x` is zero and `seen` false, before and after.
-    #[inline(always)]
-    fn forward_chunk<const K: usize>(
-        &self,
-        loads: &[SparseLoad],
-        x: &mut [[T; K]],
-        seen: &mut [bool],
-        scratch: &mut Vec<[T; K]>,
-        solutions: &mut Vec<ForwardSolution>,
-    ) {
-        for (lane, load) in loads.iter().enumerate() {
-            load.iter().for_each(|&(row, value)| x[row][lane] += T::from(value));
-        }
-        let path = self.path(loads.iter().flatten().map(|&(row, _)| row), seen);
-        for &k in &path {
-            self.panel(k).forward(x, scratch);
-        }
-        for (lane, load) in loads.iter().enumerate() {
-            // The lanes share the union of their paths; each solution keeps only its own path.
-            let own = if K == 1 { &path } else { &self.path(load.iter().map(|&(row, _)| row), seen) };
-            let mut solution = ForwardSolution::default();
-            for &k in own {
-                let panel = self.panel(k);
-                solution.push(panel.start, panel.width);
-                let values = &x[panel.start..panel.start + panel.width];
-                solution.values.extend(values.iter().map(|value| value[lane].double()));
-            }
-            solutions.push(solution);
-        }
-        for &k in &path {
-            let panel = self.panel(k);
-            x[panel.start..panel.start + panel.width].fill([T::zero(); K]);
-        }
-    }
-
-    /// Panels on the paths of the elimination tree from those of `columns` to the root, ascending; `seen` is
-    /// false, before and after.
-    fn path(&self, columns: impl Iterator<Item = usize>, seen: &mut [bool]) -> Vec<usize> {
-        let mut path = Vec::new();
-        for column in columns {
-            let mut k = self.panel_of[column];
-            while !seen[k] {
-                seen[k] = true;
-                path.push(k);
-                // The parent of a panel in the elimination tree is that of its first row below the diagonal.
-                match self.panel(k).below.iter().min() {
-                    Some(&next) => k = self.panel_of[next],
-                    None => break,
-                }
-            }
-        }
-        path.iter().for_each(|&k| seen[k] = false);
-        path.sort_unstable();
-        path
+    /// Gilbert and Peierls (1988), SIAM J. Sci. Stat. Comput. 9 (paths); Liu (1992), SIAM Review 34 (dense blocks that
+    /// go up the elimination tree).
+    pub fn gram(&self, loads: &[SparseLoad]) -> Gram {
+        Arch::new().dispatch(Products { factor: self, loads })
     }
 }
 
-/// Forward solves of loads in chunks of K, compiled for several sets of vector registers.
-struct Forward<'a, T: Real, const K: usize> {
+/// Products of loads, compiled for several sets of vector registers.
+struct Products<'a, T: Real> {
     factor: &'a Factor<T>,
     loads: &'a [SparseLoad],
 }
 
-impl<T: Real, const K: usize> WithSimd for Forward<'_, T, K> {
-    type Output = Vec<ForwardSolution>;
+impl<T: Real> WithSimd for Products<'_, T> {
+    type Output = Gram;
 
     #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) -> Vec<ForwardSolution> {
-        let mut solutions = Vec::with_capacity(self.loads.len());
-        let mut seen = vec![false; self.factor.panels];
-        let mut x = vec![[T::zero(); K]; self.factor.len()];
+    fn with_simd<S: Simd>(self, _: S) -> Gram {
+        let paths = Paths::new(self.factor, self.loads);
+        let mut solved = Solved::new(self.factor, paths, self.loads);
+        solved.solve();
+        solved.products(self.loads.len())
+    }
+}
+
+/// The loads whose paths each panel is on.
+struct Paths {
+    /// First of its loads, by panel; the number of all at the end.
+    starts: Vec<usize>,
+    /// Loads, ascending for each panel.
+    loads: Vec<usize>,
+    /// Next panel on the way to the root, by panel; itself for a root.
+    parents: Vec<usize>,
+}
+
+impl Paths {
+    fn new<T: Real>(factor: &Factor<T>, loads: &[SparseLoad]) -> Paths {
+        let panels = factor.panels;
+        // The parent of a panel in the elimination tree is that of its first row below the diagonal.
+        let parent = |k: usize| factor.panel(k).below.iter().min().map_or(k, |&row| factor.panel_of[row]);
+        let parents: Vec<usize> = (0..panels).map(parent).collect();
+        let mut last = vec![usize::MAX; panels];
+        let (mut path, mut ends) = (Vec::new(), Vec::with_capacity(loads.len()));
+        let mut starts = vec![0; panels + 1];
+        for (index, load) in loads.iter().enumerate() {
+            for &(row, _) in load {
+                let mut k = factor.panel_of[row];
+                while last[k] != index {
+                    last[k] = index;
+                    path.push(k);
+                    starts[k + 1] += 1;
+                    k = parents[k];
+                }
+            }
+            ends.push(path.len());
+        }
+        (0..panels).for_each(|k| starts[k + 1] += starts[k]);
+        let mut next = starts.clone();
+        let mut by_panel = vec![0; path.len()];
+        let mut from = 0;
+        for (index, &end) in ends.iter().enumerate() {
+            for &k in &path[from..end] {
+                by_panel[next[k]] = index;
+                next[k] += 1;
+            }
+            from = end;
+        }
+        Paths { starts, loads: by_panel, parents }
+    }
+
+    fn of(&self, panel: usize) -> &[usize] {
+        &self.loads[self.starts[panel]..self.starts[panel + 1]]
+    }
+
+    fn count(&self, panel: usize) -> usize {
+        self.starts[panel + 1] - self.starts[panel]
+    }
+
+    /// Where the loads of a panel are among those of a panel above it.
+    fn within(&self, panel: usize, above: usize) -> Places {
+        let (own, all) = (self.of(panel), self.of(above));
+        let first = all.partition_point(|load| *load < own[0]);
+        if all.get(first + own.len() - 1) == Some(&own[own.len() - 1]) {
+            return Places::Adjoining(first);
+        }
+        let mut at = first;
+        let place = |load: &usize| {
+            at += all[at..].iter().position(|other| other == load).expect("paths end at the root");
+            at
+        };
+        Places::Apart(own.iter().map(place).collect())
+    }
+}
+
+/// Places of some loads in a list that has them all.
+enum Places {
+    Adjoining(usize),
+    Apart(Vec<usize>),
+}
+
+/// Forward solves: a block for each panel, with a column of numbers for each unknown and a row for each of the loads.
+struct Solved<'a, T: Real> {
+    factor: &'a Factor<T>,
+    paths: Paths,
+    /// First number of the block of each panel; their sum at the end.
+    offsets: Vec<usize>,
+    values: Vec<T>,
+}
+
+impl<'a, T: Real> Solved<'a, T> {
+    /// The blocks of the loads before they are solved.
+    #[inline(always)]
+    fn new(factor: &'a Factor<T>, paths: Paths, loads: &[SparseLoad]) -> Solved<'a, T> {
+        let mut offsets = Vec::with_capacity(factor.panels + 1);
+        let mut size = 0;
+        for k in 0..factor.panels {
+            offsets.push(size);
+            size += factor.panel(k).width * paths.count(k);
+        }
+        offsets.push(size);
+        let mut values = vec![T::zero(); size];
+        for (index, load) in loads.iter().enumerate() {
+            for &(row, value) in load {
+                let k = factor.panel_of[row];
+                let place = paths.of(k).partition_point(|other| *other < index);
+                let column = row - factor.panel(k).start;
+                values[offsets[k] + column * paths.count(k) + place] += T::from(value);
+            }
+        }
+        Solved { factor, paths, offsets, values }
+    }
+
+    #[inline(always)]
+    fn solve(&mut self) {
         let mut scratch = Vec::new();
-        for some in self.loads.chunks(K) {
-            self.factor.forward_chunk(some, &mut x, &mut seen, &mut scratch, &mut solutions);
+        for k in 0..self.factor.panels {
+            let count = self.paths.count(k);
+            if count == 0 {
+                continue;
+            }
+            let panel = self.factor.panel(k);
+            let (own, above) = self.values[self.offsets[k]..].split_at_mut(panel.width * count);
+            solve_triangle(&panel, own, count);
+            let dense = T::PANELS && panel.width >= DENSE_WIDTH && count >= DENSE_LOADS;
+            if dense && !panel.below.is_empty() {
+                scratch.clear();
+                scratch.resize(panel.below.len() * count, T::zero());
+                let product = MatMut::from_column_major_slice_mut(&mut scratch, count, panel.below.len());
+                let own = MatRef::from_column_major_slice(own, count, panel.width);
+                multiply(product, Accum::Replace, own, panel.lower().transpose(), T::one());
+            }
+            let behind = self.offsets[k + 1];
+            for_each_run(self.factor, panel.below, |above_panel, rows| {
+                let places = self.paths.within(k, above_panel);
+                let (start, all) = (self.factor.panel(above_panel).start, self.paths.count(above_panel));
+                for row in rows {
+                    let from = self.offsets[above_panel] - behind + (panel.below[row] - start) * all;
+                    let target = &mut above[from..from + all];
+                    if dense {
+                        subtract(target, &places, T::one(), &scratch[row * count..(row + 1) * count]);
+                        continue;
+                    }
+                    for (j, own) in own.chunks_exact(count).enumerate() {
+                        subtract(target, &places, panel.entry(panel.width + row, j), own);
+                    }
+                }
+            });
         }
-        solutions
+    }
+
+    /// Products of all pairs of `loads` loads.
+    #[inline(always)]
+    fn products(&self, loads: usize) -> Gram {
+        let mut value = DMatrix::zeros(loads, loads);
+        let slabs = self.slabs();
+        let (mut wide, mut strip) = (Vec::new(), Vec::new());
+        for slab in &slabs {
+            let own = self.paths.of(slab.panel);
+            let count = own.len();
+            wide.clear();
+            wide.extend(self.values[slab.from..slab.from + slab.width * count].iter().map(|w| w.double()));
+            let block = MatRef::from_column_major_slice(&wide, count, slab.width);
+            let adjoin = own[count - 1] - own[0] == count - 1;
+            for from in (0..count).step_by(STRIP) {
+                let (rows, columns) = (count - from, STRIP.min(count - from));
+                let [a, b] = [block.subrows(from, rows), block.subrows(from, columns)];
+                if adjoin {
+                    let first = (own[from]) * loads + own[from];
+                    let target = &mut value.as_mut_slice()[first..];
+                    let target =
+                        MatMut::from_column_major_slice_with_stride_mut(target, rows, columns, loads);
+                    multiply(target, Accum::Add, a, b.transpose(), 1.0);
+                    continue;
+                }
+                strip.clear();
+                strip.resize(rows * columns, 0.0);
+                let target = MatMut::from_column_major_slice_mut(&mut strip, rows, columns);
+                multiply(target, Accum::Replace, a, b.transpose(), 1.0);
+                for (column, products) in strip.chunks_exact(rows).enumerate() {
+                    let target = &mut value.as_mut_slice()[own[from + column] * loads..][..loads];
+                    for (&row, product) in own[from..].iter().zip(products) {
+                        target[row] += product;
+                    }
+                }
+            }
+        }
+        for j in 0..loads {
+            for i in 0..j {
+                value[(i, j)] = value[(j, i)];
+            }
+        }
+        Gram { value, roundings: self.roundings(&slabs) }
+    }
+
+    /// Adjoining unknowns on the paths of the same loads, at most [`SLAB`] together, ascending.
+    fn slabs(&self) -> Vec<Slab> {
+        let mut slabs: Vec<Slab> = Vec::new();
+        let mut before = None;
+        for panel in (0..self.factor.panels).filter(|&k| self.paths.count(k) > 0) {
+            let (count, width) = (self.paths.count(panel), self.factor.panel(panel).width);
+            // The loads of a panel are among those of the next one on their path: as many are the same.
+            let continues = before.is_some_and(|k| {
+                k + 1 == panel && self.paths.parents[k] == panel && self.paths.count(k) == count
+            });
+            before = Some(panel);
+            let mut done = 0;
+            if continues && let Some(slab) = slabs.last_mut() {
+                done = width.min(SLAB - slab.width);
+                slab.width += done;
+                slab.panel = panel;
+            }
+            while done < width {
+                let part = SLAB.min(width - done);
+                slabs.push(Slab {
+                    first: panel,
+                    panel,
+                    width: part,
+                    from: self.offsets[panel] + done * count,
+                });
+                done += part;
+            }
+        }
+        slabs
+    }
+
+    /// A term of a product is rounded with those of its slab, and with each slab after it on the way to the root.
+    fn roundings(&self, slabs: &[Slab]) -> usize {
+        let mut after = vec![0; self.factor.panels];
+        let (mut most, mut widest) = (0, 0);
+        for slab in slabs.iter().rev() {
+            let parent = self.paths.parents[slab.panel];
+            let own = after[slab.panel].max(after[parent]) + 1;
+            after[slab.first..=slab.panel].fill(own);
+            (most, widest) = (most.max(own), widest.max(slab.width));
+        }
+        most + widest
     }
 }
 
-/// Calls `each` with the product of `solution` with each of `others`; `x` is scratch, zero before and after.
-pub(crate) fn dot_products<'a>(
-    x: &mut [f64],
-    solution: &ForwardSolution,
-    others: impl Iterator<Item = &'a ForwardSolution>,
-    mut each: impl FnMut(f64),
+/// Unknowns whose products are added up at once.
+struct Slab {
+    /// First panel that it is of.
+    first: usize,
+    /// Last panel that it is of.
+    panel: usize,
+    width: usize,
+    /// First of its numbers.
+    from: usize,
+}
+
+/// Calls `each` with every panel that some rows belong to, and the range of these rows, which adjoin.
+#[inline(always)]
+fn for_each_run<T: Real>(
+    factor: &Factor<T>,
+    rows: &[usize],
+    mut each: impl FnMut(usize, std::ops::Range<usize>),
 ) {
-    solution.runs().for_each(|(start, run)| x[start..start + run.len()].copy_from_slice(run));
-    for other in others {
-        let mut sum = 0.0;
-        for (start, run) in other.runs() {
-            sum += dot(run, &x[start..start + run.len()]);
-        }
-        each(sum);
+    let mut from = 0;
+    while from < rows.len() {
+        let panel = factor.panel_of[rows[from]];
+        let count = rows[from..].iter().take_while(|&&row| factor.panel_of[row] == panel).count();
+        each(panel, from..from + count);
+        from += count;
     }
-    solution.runs().for_each(|(start, run)| x[start..start + run.len()].fill(0.0));
 }
 
-/// Sum of products in four lanes: the order of the additions depends on the length alone.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (fours, rest) = a.as_chunks::<4>();
-    let (others, last) = b.as_chunks::<4>();
-    let mut lanes = [0.0; 4];
-    for (p, q) in fours.iter().zip(others) {
-        for (lane, (x, y)) in lanes.iter_mut().zip(p.iter().zip(q)) {
-            *lane += x * y;
+/// x := L11^-1 x for the `count` loads of a panel, whose numbers for an unknown adjoin.
+#[inline(always)]
+fn solve_triangle<T: Real>(panel: &Panel<'_, T>, x: &mut [T], count: usize) {
+    if T::PANELS && panel.width >= BLOCKED_WIDTH && count >= DENSE_LOADS {
+        let x = MatMut::from_row_major_slice_mut(x, panel.width, count);
+        solve_lower_triangular_in_place(panel.triangle(), x, Par::Seq);
+        clear_registers();
+        return;
+    }
+    for j in 0..panel.width {
+        let (before, rest) = x.split_at_mut((j + 1) * count);
+        let own = &mut before[j * count..];
+        let pivot = panel.entry(j, j);
+        own.iter_mut().for_each(|value| *value /= pivot);
+        for (i, target) in rest.chunks_exact_mut(count).enumerate() {
+            subtract(target, &Places::Adjoining(0), panel.entry(j + 1 + i, j), own);
         }
     }
-    let tail: f64 = rest.iter().zip(last).map(|(x, y)| x * y).sum();
-    (lanes[0] + lanes[2]) + (lanes[1] + lanes[3]) + tail
+}
+
+/// target -= factor * values, at the places given.
+#[inline(always)]
+fn subtract<T: Real>(target: &mut [T], places: &Places, factor: T, values: &[T]) {
+    match places {
+        Places::Adjoining(first) => {
+            for (target, value) in target[*first..*first + values.len()].iter_mut().zip(values) {
+                *target -= factor * *value;
+            }
+        }
+        Places::Apart(places) => {
+            for (&place, value) in places.iter().zip(values) {
+                target[place] -= factor * *value;
+            }
+        }
+    }
 }
 
 #[cfg(test)]
@@ -216,13 +399,17 @@ mod tests {
             assert_eq!(factor.panels < n, panels && T::PANELS, "another kind of factor than meant");
             let inverse = dense.clone().try_inverse().expect("positive definite");
             let scale = inverse.amax();
-            let mut scratch = vec![0.0; n];
             let loads = [vec![(3, 1.0)], vec![(n - 1, 1.0), (7, -2.0)]];
-            let solutions = factor.forward(&loads);
-            let many: Vec<_> = (0..20).flat_map(|_| loads.clone()).collect();
-            for (a, b) in factor.forward(&many).iter().zip(solutions.iter().cycle()) {
-                let size = b.values.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
-                assert!(a.values.iter().zip(&b.values).all(|(a, b)| (a - b).abs() < 1e-14 * size));
+            let products = factor.gram(&loads).value;
+            let many: Vec<_> = (0..120).flat_map(|_| loads.clone()).collect();
+            let all = factor.gram(&many);
+            assert!(all.roundings <= n);
+            for i in 0..240 {
+                for j in 0..240 {
+                    let (own, size) = (products[(i % 2, j % 2)], products.amax());
+                    assert!((all.value[(i, j)] - own).abs() < 1e-14 * size);
+                    assert_eq!(all.value[(i, j)], all.value[(j, i)]);
+                }
             }
             let full = loads.each_ref().map(|load| {
                 let mut x = DVector::zeros(n);
@@ -230,11 +417,9 @@ mod tests {
                 x
             });
             for i in 0..2 {
-                let mut products = Vec::new();
-                dot_products(&mut scratch, &solutions[i], solutions.iter(), |product| products.push(product));
                 for j in 0..2 {
                     let exact = (full[i].transpose() * &inverse * &full[j])[0];
-                    assert!((products[j] - exact).abs() < 1e-13 * scale);
+                    assert!((products[(i, j)] - exact).abs() < 1e-13 * scale);
                 }
                 let mut x: Vec<T> = full[i].iter().map(|&x| T::from(x)).collect();
                 factor.solve(&mut x);

@@ -18,7 +18,7 @@ mod solver;
 
 pub use certificate::Certificate;
 pub(crate) use cholesky::{Factor, FactorError};
-pub(crate) use forward::{ForwardSolution, SparseLoad, dot_products};
+pub(crate) use forward::{Gram, SparseLoad};
 pub(crate) use indefinite::{IndefiniteFactor, negative_eigenvalues};
 pub use memory::MEMORY_LIMIT;
 pub(crate) use memory::allow_square;

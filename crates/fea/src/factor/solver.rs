@@ -5,7 +5,7 @@ use crate::dof::Dof;
 use crate::error::{EntryAttribute, Error};
 use crate::factor::certificate::Certificate;
 use crate::factor::cholesky::{Factor, FactorError};
-use crate::factor::forward::{ForwardSolution, SparseLoad};
+use crate::factor::forward::{Gram, SparseLoad};
 use crate::factor::memory::allow;
 use crate::model::Model;
 
@@ -61,11 +61,11 @@ impl Solver {
         }
     }
 
-    /// w = L^-1 p of every load, rounded to doubles.
-    pub fn forward(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
+    /// Products w_i . w_j of the loads, w = L^-1 p rounded to doubles.
+    pub fn gram(&self, loads: &[SparseLoad]) -> Gram {
         match self {
-            Solver::Double(factor) => factor.forward(loads),
-            Solver::Extended(factor) => factor.forward(loads),
+            Solver::Double(factor) => factor.gram(loads),
+            Solver::Extended(factor) => factor.gram(loads),
         }
     }
 

@@ -7,7 +7,7 @@ use splines::{Axis, Probe, Rails};
 
 use crate::assembly::{Bodies, Combination, Element, Extended, Real, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
-use crate::factor::{Certificate, Factored, ForwardSolution, Solver, SparseLoad, ill_conditioned};
+use crate::factor::{Certificate, Factored, Gram, Solver, SparseLoad, ill_conditioned};
 use crate::influence::layout::{ExactLayout, Layout, StateRows};
 use crate::influence::load::RailLoads;
 use crate::model::{Model, Rail};
@@ -317,9 +317,9 @@ impl FactoredFrame {
         self.stiffness.numbering.scale[unknown]
     }
 
-    /// w = L^-1 p of scaled loads.
-    pub(crate) fn forward(&self, loads: &[SparseLoad]) -> Vec<ForwardSolution> {
-        self.solver().forward(loads)
+    /// Products of all pairs of scaled loads.
+    pub(crate) fn gram(&self, loads: &[SparseLoad]) -> Gram {
+        self.solver().gram(loads)
     }
 
     /// The six displacements and rotations of a point.

@@ -7,7 +7,7 @@ use splines::{Probe, RailElement, ShapeRow};
 
 use crate::assembly::Matrix12;
 use crate::error::{EntryAttribute, Error};
-use crate::factor::{Certificate, ForwardSolution, allow_square, dot_products};
+use crate::factor::{Certificate, Gram, allow_square};
 use crate::influence::frame::FactoredFrame;
 use crate::influence::layout::to_rail_axes;
 use crate::influence::rounding::Evaluation;
@@ -100,34 +100,16 @@ impl FactoredFrame {
                 places.push((carrier.id, cell, k));
             }
         }
-        let solutions = self.forward(&loads);
-        let mut value = self.gram(&solutions);
+        let Gram { mut value, roundings } = self.gram(&loads);
         places.sort_unstable();
         // Places on the same member also act on each other between its fixed ends.
         for same in places.chunk_by(|a, b| a.0 == b.0) {
             self.add_clamped(at, same, &mut value)?;
         }
         let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
-        let longest = solutions.iter().map(|solution| solution.values.len()).max().unwrap_or(0);
         let mut certificate = self.certificate();
-        certificate.error_bound += self.rounding(at, longest, &diagonal, Evaluation::Doubles)?;
+        certificate.error_bound += self.rounding(at, roundings, &diagonal, Evaluation::Doubles)?;
         Ok(InfluenceGrid { value, certificate })
-    }
-
-    /// Products of all pairs of forward solutions.
-    pub(crate) fn gram(&self, solutions: &[ForwardSolution]) -> DMatrix<f64> {
-        let n = solutions.len();
-        let mut value = DMatrix::zeros(n, n);
-        let mut scratch = vec![0.0; self.unknowns()];
-        for (i, solution) in solutions.iter().enumerate() {
-            let mut j = 0;
-            dot_products(&mut scratch, solution, solutions[..=i].iter(), |product| {
-                value[(i, j)] = product;
-                value[(j, i)] = product;
-                j += 1;
-            });
-        }
-        value
     }
 
     /// Adds b: influence coefficients of places on one member, each with its rail element and its index among the

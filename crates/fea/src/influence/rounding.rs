@@ -20,8 +20,8 @@ const LOAD: f64 = 12.0;
 const ELEMENT: f64 = 16.0;
 /// Roundings in products and reciprocals of the sections, and in the last sum.
 pub(super) const SECTION: f64 = 4.0;
-/// Roundings in the four lanes of a product, beside one for every fourth term.
-const LANES: f64 = 8.0;
+/// Roundings of a product of two solves beside those of its sum.
+const PRODUCT: f64 = 2.0;
 /// Roundings in the compliance of the releases of a member, relative to those of Green's function.
 const RELEASE: f64 = 4.0;
 /// Roundings of double-doubles in loads, Green's function and products of two loads: 12, 16 and at most 24.
@@ -52,7 +52,7 @@ impl Evaluation {
 
 impl FactoredFrame {
     /// Bound of |error of G_ij| / sqrt(G_ii G_jj) from the rounding of loads, products and rail elements in doubles,
-    /// for the probes `at` with G_ii = `diagonal`; `longest` is the number of terms of a product.
+    /// for the probes `at` with G_ii = `diagonal`; `roundings` are those of the sum that a product is.
     ///
     /// With w = L^-1 p an error dp changes w by |L^-1 dp| <= sum |dp_k| |L^-1 e_k|, and G_ij by that times
     /// |w_j|. An error of the place changes the load by its derivative. The norms |L^-1 e_k| are at first bounded by
@@ -63,11 +63,11 @@ impl FactoredFrame {
     pub(super) fn rounding(
         &self,
         at: &[Probe],
-        longest: usize,
+        roundings: usize,
         diagonal: &[f64],
         evaluation: Evaluation,
     ) -> Result<f64, Error> {
-        let products = UNIT * (SECTION + 0.25 * longest as f64 + LANES);
+        let products = UNIT * (SECTION + roundings as f64 + PRODUCT);
         let bound = match self.solver() {
             Solver::Double(_) => Some(self.inverse_norm().sqrt()),
             Solver::Extended(_) => None,
@@ -250,8 +250,8 @@ impl UnitNorms<'_> {
 
     fn of(&mut self, unknown: usize) -> f64 {
         let compute = || {
-            let solutions = self.frame.forward(&[vec![(unknown, 1.0)]]);
-            solutions.iter().flat_map(|solution| &solution.values).map(|w| w * w).sum::<f64>().sqrt()
+            let own = self.frame.gram(&[vec![(unknown, 1.0)]]).value;
+            own[(0, 0)].sqrt()
         };
         self.bound.unwrap_or_else(|| *self.computed.entry(unknown).or_insert_with(compute))
     }

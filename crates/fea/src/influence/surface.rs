@@ -106,7 +106,7 @@ impl FactoredFrame {
         // Rows that nothing stiffens have no load: their products are zero, their own compliance is infinite.
         let unstiffened: Vec<usize> = (0..loads.len()).filter(|&k| loads[k].is_none()).collect();
         let loads: Vec<_> = loads.into_iter().map(Option::unwrap_or_default).collect();
-        let mut out = self.gram(&self.forward(&loads));
+        let mut out = self.gram(&loads).value;
         for k in unstiffened {
             out[(k, k)] = f64::INFINITY;
         }
