@@ -157,6 +157,11 @@ fn lowest_linked(m: &Model, n: usize) -> Vec<usize> {
 }
 
 impl<T: Real> Body<T> {
+    /// Whether it moves as its basis, the identity, says: nothing holds or turns it.
+    pub fn is_free(&self) -> bool {
+        self.basis == Matrix6::identity()
+    }
+
     /// The body of a group of linked points; writes their arms.
     ///
     /// The reference is the point with the most fixed degrees of freedom. Every fixed degree of freedom of

@@ -176,7 +176,11 @@ impl<T: Real> Element<T> {
     /// # Errors
     /// A member without length or local axes; releases that leave a mechanism in a member.
     pub fn all(m: &Model) -> Result<Vec<Element<T>>, Error> {
-        (0..m.members.len()).map(|index| Element::new(m, index)).collect()
+        let mut elements = Vec::with_capacity(m.members.len());
+        for index in 0..m.members.len() {
+            elements.push(Element::new(m, index)?);
+        }
+        Ok(elements)
     }
 
     /// The element of one member.

@@ -37,7 +37,7 @@ impl<T: Real> Triplets<T> {
             *place += 1;
         }
         let mut starts = Vec::with_capacity(n + 1);
-        let (mut rows, mut values) = (Vec::new(), Vec::new());
+        let (mut rows, mut values) = (Vec::with_capacity(sorted.len()), Vec::with_capacity(sorted.len()));
         // Index of each row in `order`, valid if the entry there has this row.
         let mut place = vec![usize::MAX; n];
         let mut order: Vec<(u32, T)> = Vec::new();

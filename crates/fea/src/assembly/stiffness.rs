@@ -81,7 +81,7 @@ pub(crate) fn transformation_and_size<T: Real>(
     for end in 0..2 {
         let motion = bodies.motion(element.points[end], &element.offsets[end]);
         let value = product(&rotation, &motion);
-        let bulk = (magnitudes(rotation) + axes_error) * magnitudes(motion);
+        let bulk = product(&(magnitudes(rotation) + axes_error), &magnitudes(motion));
         let clean =
             value.zip_map(
                 &bulk,
@@ -171,9 +171,12 @@ impl<T: Real> Contributions<T> {
         if pair[0] == pair[1] {
             return;
         }
-        let (b, size) = transformation_and_size(element, bodies);
-        let basis = bases(pair, bodies);
-        let (b, size) = (product(&b, &basis), size * basis.map(|x| x.double().abs()));
+        let (mut b, mut size) = transformation_and_size(element, bodies);
+        // Most bodies are free: their basis is the identity.
+        if !pair.iter().all(|&body| bodies.list[body].is_free()) {
+            let basis = bases(pair, bodies);
+            (b, size) = (product(&b, &basis), product(&size, &basis.map(|x| x.double().abs())));
+        }
         let k = congruence(&element.stiffness, &b);
         // |K_ij| <= sqrt(K_ii K_jj) bounds what the congruence adds up for a diagonal entry. An error dB of the
         // transformation changes the entry by 2 B^T K dB + dB^T K dB.

@@ -23,6 +23,9 @@ use crate::factor::product::multiply;
 /// Width of a panel from which a dense matrix product pays.
 const DENSE_WIDTH: usize = 4;
 
+/// Vectors from which panels are solved for all of them together.
+const DENSE_LANES: usize = 4;
+
 /// Why a matrix has no factor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FactorError {
@@ -124,6 +127,17 @@ impl<T: Real> Factor<T> {
         Arch::new().dispatch(Solve { factor: self, x });
     }
 
+    #[inline(always)]
+    fn solve_panels<const W: usize>(&self, x: &mut [[T; W]]) {
+        let mut scratch = Vec::new();
+        for k in 0..self.panels {
+            self.panel(k).forward(x, &mut scratch);
+        }
+        for k in (0..self.panels).rev() {
+            self.panel(k).backward(x, &mut scratch);
+        }
+    }
+
     /// Largest row sum of |L| |L^T|, and the largest number of entries in a row of L.
     pub fn growth(&self) -> (f64, usize) {
         Arch::new().dispatch(Growth { factor: self })
@@ -189,13 +203,40 @@ impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let mut scratch = Vec::new();
-        for k in 0..self.factor.panels {
-            self.factor.panel(k).forward(self.x, &mut scratch);
+        if let SymbolicCholeskyRaw::Simplicial(columns) = self.factor.symbolic.raw() {
+            solve_columns(columns.col_ptr(), columns.row_idx(), &self.factor.values, self.x);
+            return;
         }
-        for k in (0..self.factor.panels).rev() {
-            self.factor.panel(k).backward(self.x, &mut scratch);
+        if W == 1 || W >= DENSE_LANES {
+            self.factor.solve_panels(self.x);
+            return;
         }
+        for lane in 0..W {
+            let mut own: Vec<[T; 1]> = self.x.iter().map(|x| [x[lane]]).collect();
+            self.factor.solve_panels(&mut own);
+            self.x.iter_mut().zip(own).for_each(|(x, [value])| x[lane] = value);
+        }
+    }
+}
+
+/// Solves K x = x in place by a factor in single columns, by the starts of the columns, their rows and their values.
+#[inline(always)]
+fn solve_columns<T: Real, const W: usize>(starts: &[usize], rows: &[usize], values: &[T], x: &mut [[T; W]]) {
+    for (k, ends) in starts.windows(2).enumerate() {
+        let (rows, values) = (&rows[ends[0] + 1..ends[1]], &values[ends[0]..ends[1]]);
+        let value = x[k].map(|value| value / values[0]);
+        x[k] = value;
+        for (&row, l) in rows.iter().zip(&values[1..]) {
+            subtract_scaled(&mut x[row], *l, &value);
+        }
+    }
+    for (k, ends) in starts.windows(2).enumerate().rev() {
+        let (rows, values) = (&rows[ends[0] + 1..ends[1]], &values[ends[0]..ends[1]]);
+        let mut value = x[k];
+        for (&row, l) in rows.iter().zip(&values[1..]) {
+            subtract_scaled(&mut value, *l, &x[row]);
+        }
+        x[k] = value.map(|value| value / values[0]);
     }
 }
 
@@ -303,12 +344,9 @@ impl<'a, T: Real> Panel<'a, T> {
     fn forward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
         let height = self.height();
         let dense = T::PANELS && K > 1 && self.width >= DENSE_WIDTH;
-        // What several columns subtract from a row below is added up before it is scattered.
-        let gathered = dense || self.width > 1;
+        // What the columns subtract from a row below is added up before it is scattered.
         scratch.clear();
-        if gathered {
-            scratch.resize(self.below.len(), [T::zero(); K]);
-        }
+        scratch.resize(self.below.len(), [T::zero(); K]);
         for j in 0..self.width {
             let column = &self.values[j * height + j..(j + 1) * height];
             let (pivot, rest) = column.split_at(1);
@@ -325,14 +363,8 @@ impl<'a, T: Real> Panel<'a, T> {
             if dense {
                 continue;
             }
-            if gathered {
-                for (l, sum) in below.iter().zip(scratch.iter_mut()) {
-                    (0..K).for_each(|k| sum[k] += *l * value[k]);
-                }
-            } else {
-                for (l, &row) in below.iter().zip(self.below) {
-                    subtract_scaled(&mut x[row], *l, &value);
-                }
+            for (l, sum) in below.iter().zip(scratch.iter_mut()) {
+                sum.iter_mut().zip(&value).for_each(|(sum, value)| *sum += *l * *value);
             }
         }
         if dense && !self.below.is_empty() {

@@ -18,6 +18,8 @@ use crate::factor::product::{clear_registers, multiply};
 const DENSE_WIDTH: usize = 4;
 /// Loads of a panel from which its products are dense.
 const DENSE_LOADS: usize = 4;
+/// Numbers of a block of solves from which products of its columns are dense.
+const DENSE_NUMBERS: usize = 48;
 /// Width of a panel from which its triangle is solved in blocks.
 const BLOCKED_WIDTH: usize = 12;
 /// Most unknowns whose products are added up at once: it bounds the roundings of a sum.
@@ -222,6 +224,10 @@ impl<'a, T: Real> Solved<'a, T> {
             let count = own.len();
             wide.clear();
             wide.extend(self.values[slab.from..slab.from + slab.width * count].iter().map(|w| w.double()));
+            if count < DENSE_LOADS || count * slab.width < DENSE_NUMBERS {
+                add_products(value.as_mut_slice(), loads, own, &wide);
+                continue;
+            }
             let block = MatRef::from_column_major_slice(&wide, count, slab.width);
             let adjoin = own[count - 1] - own[0] == count - 1;
             for from in (0..count).step_by(STRIP) {
@@ -343,6 +349,19 @@ fn solve_triangle<T: Real>(panel: &Panel<'_, T>, x: &mut [T], count: usize) {
         own.iter_mut().for_each(|value| *value /= pivot);
         for (i, target) in rest.chunks_exact_mut(count).enumerate() {
             subtract(target, &Places::Adjoining(0), panel.entry(j + 1 + i, j), own);
+        }
+    }
+}
+
+/// Adds the products of the columns of a small block to the lower triangle of a matrix of `n` rows, at the places `own`.
+#[inline(always)]
+fn add_products(value: &mut [f64], n: usize, own: &[usize], block: &[f64]) {
+    let count = own.len();
+    for (j, &column) in own.iter().enumerate() {
+        let target = &mut value[column * n..(column + 1) * n];
+        for (i, &row) in own.iter().enumerate().skip(j) {
+            let products = block.chunks_exact(count).map(|unknown| unknown[i] * unknown[j]);
+            target[row] += products.sum::<f64>();
         }
     }
 }
