@@ -120,7 +120,7 @@ impl<T: Real> Bodies<T> {
 
     /// What the supports leave of a combination of the motions of the references.
     pub fn supported(&self, row: &Combination<T>) -> Combination<T> {
-        let mut out = Combination::default();
+        let mut out = Combination::with_capacity(row.terms.len());
         for &(column, value) in &row.terms {
             let basis = &self.list[column / 6].basis;
             (0..6).for_each(|k| out.add(column - column % 6 + k, value * basis[(column % 6, k)]));
@@ -187,7 +187,10 @@ impl<T: Real> Body<T> {
         for point in std::iter::once(reference).chain(others) {
             let motion: Matrix6<Extended> = arm(&arms[point]);
             for (dof, _) in fixed[point].iter().enumerate().filter(|(_, fixed)| **fixed) {
-                rows.push(std::array::from_fn(|k| motion[(dof, k)] / unit(k)));
+                let zero = Extended::zero();
+                let entry =
+                    |k: usize| if motion[(dof, k)] == zero { zero } else { motion[(dof, k)] / unit(k) };
+                rows.push(std::array::from_fn(entry));
                 names.push((point, dof));
             }
         }
@@ -196,7 +199,8 @@ impl<T: Real> Body<T> {
         let mut free = [true; 6];
         for &(row, pivot) in &pivots {
             free[pivot] = false;
-            for k in 0..6 {
+            basis[(pivot, pivot)] = T::zero();
+            for k in (0..6).filter(|&k| k != pivot && rows[row][k] != Extended::zero()) {
                 basis[(pivot, k)] = T::rounded(-rows[row][k] * (unit(k) / unit(pivot)));
             }
         }
@@ -227,7 +231,7 @@ fn gauss_jordan(rows: &mut [[Extended; 6]]) -> Vec<(usize, usize)> {
         let factor = rest[pivot];
         for value in &mut rest {
             let small = value.double().abs() <= DEPENDENT * before;
-            *value = if small { Extended::zero() } else { *value / factor };
+            *value = if small { Extended::zero() } else { quotient(*value, factor) };
         }
         // Jordan step: earlier rows no longer depend on the new pivot.
         for &(other, _) in &pivots {
@@ -237,6 +241,11 @@ fn gauss_jordan(rows: &mut [[Extended; 6]]) -> Vec<(usize, usize)> {
         pivots.push((row, pivot));
     }
     pivots
+}
+
+/// a / b; most divisors are 1, and quotients of double-doubles take long.
+fn quotient(a: Extended, b: Extended) -> Extended {
+    if b == Extended::one() { a } else { a / b }
 }
 
 /// Subtracts the multiple of `other`, which is 1 at `pivot`, that makes `row` zero there.

@@ -26,6 +26,11 @@ impl<T: Real> Default for Combination<T> {
 }
 
 impl<T: Real> Combination<T> {
+    /// An empty combination with room for some terms.
+    pub fn with_capacity(terms: usize) -> Combination<T> {
+        Combination { terms: Vec::with_capacity(terms), magnitudes: Vec::with_capacity(terms) }
+    }
+
     /// Adds `value` times a column.
     #[inline]
     pub fn add(&mut self, column: usize, value: T) {

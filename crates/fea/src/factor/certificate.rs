@@ -56,8 +56,8 @@ impl Certificate {
         let inverse_bound = ESTIMATE_MARGIN * inverse;
         let (growth, longest) = factor.growth();
         let formed = FORMING * stiffness.cancellation * norm;
-        // The factor and the two solves each round a sum as long as the longest row.
-        let factored = 3.0 * effective_roundings(longest + 1) * growth;
+        // The factor and the two solves each round a sum as long as the longest row, and a quotient by its reciprocal.
+        let factored = 3.0 * effective_roundings(longest + 2) * growth;
         let shift = T::ROUNDING * (formed + factored) * inverse_bound;
         let error_bound = if shift < 0.5 { shift / (1.0 - shift) } else { f64::INFINITY };
         (Certificate { condition: norm * inverse, error_bound, extended }, inverse_bound)

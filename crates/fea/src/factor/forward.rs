@@ -345,8 +345,9 @@ fn solve_triangle<T: Real>(panel: &Panel<'_, T>, x: &mut [T], count: usize) {
     for j in 0..panel.width {
         let (before, rest) = x.split_at_mut((j + 1) * count);
         let own = &mut before[j * count..];
-        let pivot = panel.entry(j, j);
-        own.iter_mut().for_each(|value| *value /= pivot);
+        // Quotients of double-doubles take several times as long as products.
+        let reciprocal = T::one() / panel.entry(j, j);
+        own.iter_mut().for_each(|value| *value *= reciprocal);
         for (i, target) in rest.chunks_exact_mut(count).enumerate() {
             subtract(target, &Places::Adjoining(0), panel.entry(j + 1 + i, j), own);
         }

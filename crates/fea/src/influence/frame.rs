@@ -3,7 +3,7 @@
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::{Matrix3, SVector, Vector3};
-use splines::{Axis, Probe, Rails};
+use splines::{Axis, Probe, Rails, ShapeRow};
 
 use crate::assembly::{Bodies, Combination, Element, Extended, Real, ScaledStiffness};
 use crate::error::{EntryFault, Error, ModelEntry};
@@ -263,10 +263,15 @@ impl FactoredFrame {
 
     /// Scaled load of a unit force at a probe, and the rail element of the probe.
     pub(crate) fn load(&self, probe: Probe) -> Result<(SparseLoad, usize), Error> {
-        let (row, cell) = self.row(probe)?;
+        let row = self.line()?.row(probe)?;
+        Ok((self.load_of_row(probe, &row)?, row.element))
+    }
+
+    /// The same by the shape row of the probe.
+    pub(crate) fn load_of_row(&self, probe: Probe, row: &ShapeRow) -> Result<SparseLoad, Error> {
         let Probe { rail, x, axis } = probe;
-        let load = self.scaled(&row).ok_or(splines::Error::NoStiffness { rail, x, axis })?;
-        Ok((load, cell))
+        let load = self.scaled(&self.rail_loads().of_row(row));
+        Ok(load.ok_or(splines::Error::NoStiffness { rail, x, axis })?)
     }
 
     /// A combination as a load on the scaled unknowns; `None` if it acts on a degree of freedom that nothing

@@ -90,21 +90,23 @@ impl FactoredFrame {
 
     /// The grid by arithmetic in doubles, whatever its bound.
     fn grid_in_doubles(&self, at: &[Probe]) -> Result<InfluenceGrid, Error> {
+        let line = self.line()?;
+        let mut rows = Vec::with_capacity(at.len());
         let mut loads = Vec::with_capacity(at.len());
         // Member, rail element and index of each probe on a member.
         let mut places = Vec::with_capacity(at.len());
         for (k, &probe) in at.iter().enumerate() {
-            let (load, cell) = self.load(probe)?;
-            loads.push(load);
-            if let Some(carrier) = self.line()?.elements()[cell].member {
-                places.push((carrier.id, cell, k));
+            rows.push(line.row(probe)?);
+            loads.push(self.load_of_row(probe, &rows[k])?);
+            if let Some(carrier) = line.elements()[rows[k].element].member {
+                places.push((carrier.id, rows[k].element, k));
             }
         }
         let Gram { mut value, roundings } = self.gram(&loads);
         places.sort_unstable();
         // Places on the same member also act on each other between its fixed ends.
         for same in places.chunk_by(|a, b| a.0 == b.0) {
-            self.add_clamped(at, same, &mut value)?;
+            self.add_clamped(&rows, same, &mut value)?;
         }
         let diagonal: Vec<f64> = (0..at.len()).map(|k| value[(k, k)]).collect();
         let mut certificate = self.certificate();
@@ -116,27 +118,25 @@ impl FactoredFrame {
     /// probes, while the tips of the rigid offsets at both ends of the member are fixed.
     fn add_clamped(
         &self,
-        at: &[Probe],
+        all: &[ShapeRow],
         same: &[(usize, usize, usize)],
         value: &mut DMatrix<f64>,
     ) -> Result<(), Error> {
         let line = self.line()?;
-        let rows = same.iter().map(|&(_, _, k)| Ok(line.row(at[k])?)).collect::<Result<Vec<_>, Error>>()?;
+        let rows: Vec<&ShapeRow> = same.iter().map(|&(_, _, k)| &all[k]).collect();
         let releases = self.elements[same[0].0].released.as_deref();
         let released = releases.map(|released| {
             let loads = rows.iter().map(|row| released_load(&line.elements()[row.element], row));
             (&released.compliance, loads.collect::<Vec<_>>())
         });
-        for (i, &(_, _, a)) in same.iter().enumerate() {
-            for (j, &(_, _, b)) in same[..=i].iter().enumerate() {
-                let mut own = line.clamped_between(&rows[i], &rows[j]);
-                if let Some((compliance, loads)) = &released {
-                    own += (loads[i].transpose() * *compliance * loads[j])[0];
-                }
-                value[(a, b)] += own;
-                value[(b, a)] = value[(a, b)];
+        line.clamped_pairs(&rows, |i, j, mut own| {
+            if let Some((compliance, loads)) = &released {
+                own += (loads[i].transpose() * *compliance * loads[j])[0];
             }
-        }
+            let (a, b) = (same[i].2, same[j].2);
+            value[(a, b)] += own;
+            value[(b, a)] = value[(a, b)];
+        });
         Ok(())
     }
 

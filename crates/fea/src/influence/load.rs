@@ -1,10 +1,13 @@
 //! Loads of unit forces on the rails, over the unknowns of the stiffness.
 
-use splines::{Probe, Rails};
+use splines::{Probe, Rails, ShapeRow};
 
 use crate::assembly::{Bodies, Combination, Numbering};
 use crate::error::Error;
 use crate::factor::SparseLoad;
+
+/// Columns of the bodies at both ends of a rail element.
+const MOST_COLUMNS: usize = 12;
 
 /// What turns a force on a rail into a load: the rail elements, the states at their ends, and the unknowns.
 #[derive(Clone, Copy)]
@@ -21,31 +24,39 @@ impl RailLoads<'_> {
     /// Displacement at a probe over the motions of the bodies, and the rail element of the probe.
     pub fn row(&self, probe: Probe) -> Result<(Combination, usize), Error> {
         let row = self.line.ok_or(Error::NoRails)?.row(probe)?;
-        let mut sum = Combination::default();
+        Ok((self.of_row(&row), row.element))
+    }
+
+    /// The displacement that a shape row gives, over the motions of the bodies.
+    pub fn of_row(&self, row: &ShapeRow) -> Combination {
+        let mut sum = Combination::with_capacity(MOST_COLUMNS);
         for (&index, &value) in row.indices().iter().zip(row.values()) {
             sum.add_scaled(&self.states[index / 6][index % 6], value);
         }
-        Ok((sum, row.element))
+        sum
     }
 
     /// A combination as a load on the scaled unknowns; `None` if it acts on a degree of freedom that nothing
     /// stiffens.
     pub fn scaled(&self, row: &Combination) -> Option<SparseLoad> {
-        self.terms(row).collect()
+        let row = self.bodies.supported(row);
+        let mut load = SparseLoad::with_capacity(row.terms.len());
+        for (column, value) in row.significant() {
+            load.push(self.term(column, value)?);
+        }
+        Some(load)
     }
 
     /// A combination as a load on the scaled unknowns, without what acts on degrees of freedom that nothing
     /// stiffens.
     pub fn scaled_where_stiffened(&self, row: &Combination) -> SparseLoad {
-        self.terms(row).flatten().collect()
+        let row = self.bodies.supported(row);
+        row.significant().filter_map(|(column, value)| self.term(column, value)).collect()
     }
 
-    /// The terms of a load; `None` for one on a degree of freedom that nothing stiffens.
-    fn terms(&self, row: &Combination) -> impl Iterator<Item = Option<(usize, f64)>> {
-        let supported: Vec<(usize, f64)> = self.bodies.supported(row).significant().collect();
-        supported.into_iter().map(|(column, value)| {
-            let k = self.numbering.unknown[column]?;
-            Some((k, value * self.numbering.scale[k]))
-        })
+    /// A term of a load; `None` on a degree of freedom that nothing stiffens.
+    fn term(&self, column: usize, value: f64) -> Option<(usize, f64)> {
+        let k = self.numbering.unknown[column]?;
+        Some((k, value * self.numbering.scale[k]))
     }
 }

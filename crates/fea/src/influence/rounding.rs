@@ -160,7 +160,7 @@ impl FactoredFrame {
         evaluation: Evaluation,
     ) -> Result<(usize, f64, RoundingSizes), Error> {
         let line = self.line()?;
-        let near = line.row(probe)?.element;
+        let near = line.element_at(probe)?;
         let layout = self.exact_layout();
         if evaluation == Evaluation::Extended {
             let element = self.carrier(near, probe);
@@ -194,12 +194,17 @@ impl FactoredFrame {
     /// Sum of |p_k| |L^-1 e_k| over the unknowns of a load along degree of freedom `dof` of a state, with the
     /// magnitudes of its row.
     fn state_norm(&self, state: usize, dof: usize, norms: &mut UnitNorms, evaluation: Evaluation) -> f64 {
-        match &self.exact_layout().states[state] {
+        if let Some(&known) = norms.of_states.get(&(state, dof)) {
+            return known;
+        }
+        let norm = match &self.exact_layout().states[state] {
             StateRows::Tip { point, offset, rail } if evaluation == Evaluation::Extended => {
                 self.load_norm(&tip_rows(&self.bodies, *point, offset, rail)[dof], norms)
             }
             _ => self.load_norm(&self.states()[state][dof], norms),
-        }
+        };
+        norms.of_states.insert((state, dof), norm);
+        norm
     }
 
     fn load_norm<T: Real>(&self, row: &Combination<T>, norms: &mut UnitNorms) -> f64 {
@@ -241,11 +246,13 @@ struct UnitNorms<'a> {
     frame: &'a FactoredFrame,
     bound: Option<f64>,
     computed: BTreeMap<usize, f64>,
+    /// Norms of the loads along the degrees of freedom of states, in one precision.
+    of_states: BTreeMap<(usize, usize), f64>,
 }
 
 impl UnitNorms<'_> {
     fn new(frame: &FactoredFrame, bound: Option<f64>) -> UnitNorms<'_> {
-        UnitNorms { frame, bound, computed: BTreeMap::new() }
+        UnitNorms { frame, bound, computed: BTreeMap::new(), of_states: BTreeMap::new() }
     }
 
     fn of(&mut self, unknown: usize) -> f64 {

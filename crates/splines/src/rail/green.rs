@@ -480,14 +480,22 @@ impl SeparatedLoad {
         [0.5 * (value + seen[0]), 0.5 * (by_own + seen[1]), 0.5 * (by_other + seen[2])]
     }
 
+    /// The value alone: [`ClampedElement::value`] of the two.
+    #[inline]
+    pub fn value_with(&self, other: &SeparatedLoad) -> f64 {
+        let (first, second) = if other.place.is_before(self.place) { (other, self) } else { (self, other) };
+        let (near, far) = if first.place.s <= first.place.q {
+            (&first.near[0], &second.far[0])
+        } else {
+            (&second.near[1], &first.far[1])
+        };
+        sum_of_products(&near.value, &far.value)
+    }
+
     /// [`SeparatedLoad::with`] for a place that is not behind the other.
     #[inline]
     fn before(&self, other: &SeparatedLoad) -> [f64; 3] {
-        let dot = |a: &[f64; 6], b: &[f64; 6]| {
-            let two: [f64; 2] =
-                std::array::from_fn(|k| a[k] * b[k] + a[2 + k] * b[2 + k] + a[4 + k] * b[4 + k]);
-            two[0] + two[1]
-        };
+        let dot = sum_of_products;
         if self.place.s <= self.place.q {
             let (near, far) = (&self.near[0], &other.far[0]);
             [dot(&near.value, &far.value), dot(&near.slope, &far.value), dot(&near.value, &far.slope)]
@@ -496,6 +504,12 @@ impl SeparatedLoad {
             [dot(&near.value, &far.value), dot(&near.value, &far.slope), dot(&near.slope, &far.value)]
         }
     }
+}
+
+#[inline(always)]
+fn sum_of_products(a: &[f64; 6], b: &[f64; 6]) -> f64 {
+    let two: [f64; 2] = std::array::from_fn(|k| a[k] * b[k] + a[2 + k] * b[2 + k] + a[4 + k] * b[4 + k]);
+    two[0] + two[1]
 }
 
 /// Green's function along one rail direction as b(s, t) = far(s) . near(t) for s >= t, far and near having

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::OnceLock;
 
 use super::element::{LocalPlace, RailElement};
-use super::green::ClampedElement;
+use super::green::{ClampedElement, SeparatedLoad};
 use super::interior::uniform_load;
 use super::load::AxisLoad;
 use super::member_motion::MemberMotion;
@@ -176,6 +176,14 @@ impl Rails {
         let mut row = ShapeRow::EMPTY;
         self.row_into(p, &mut row)?;
         Ok(row)
+    }
+
+    /// Index of the element that carries a probe.
+    ///
+    /// # Errors
+    /// As [`Rails::row`].
+    pub fn element_at(&self, p: Probe) -> Result<usize, Error> {
+        Ok(self.stiff_span(p)?.element)
     }
 
     /// [`Rails::row`] into memory that the caller has.
@@ -366,6 +374,27 @@ impl Rails {
     pub fn clamped_between(&self, p: &ShapeRow, q: &ShapeRow) -> f64 {
         self.clamped_on_one_member(p.element, q.element)
             .map_or(0.0, |[own, other]| own.value(p.axis, p.place, other, q.axis, q.place))
+    }
+
+    /// [`Rails::clamped_between`] for all pairs of rows whose elements belong to one member: calls `each` with the indices
+    /// i >= j of two rows and the value, length/force. What belongs to one place is evaluated once.
+    ///
+    /// Both functions agree up to the rounding of their terms.
+    ///
+    /// # Source
+    /// b(s, t) = near(s) . far(t): see `SeparatedLoad` in `rail/green.rs`.
+    pub fn clamped_pairs(&self, rows: &[&ShapeRow], mut each: impl FnMut(usize, usize, f64)) {
+        let mut loads: Vec<SeparatedLoad> = Vec::with_capacity(rows.len());
+        for (i, row) in rows.iter().enumerate() {
+            let Some(clamped) = self.clamped(row.element) else {
+                (0..=i).for_each(|j| each(i, j, 0.0));
+                continue;
+            };
+            loads.push(clamped.separated(row.axis, row.place, 1.0, 1.0));
+            for (j, other) in loads.iter().enumerate() {
+                each(i, j, loads[i].value_with(other));
+            }
+        }
     }
 
     /// Green's function of a clamped element; `None` for a rigid arm or an element that does not exist.
