@@ -10,6 +10,8 @@ use faer::sparse::linalg::amd;
 
 /// Number of bodies at which dissection stops.
 const LEAF: usize = 6;
+/// Product of two sides, by that of equal ones, from which a separator of one node is as good as any.
+const BALANCED: f64 = 0.9;
 /// Number of loads for which the order is chosen.
 const LOADS: f64 = 200.0;
 
@@ -184,12 +186,18 @@ impl Dissection<'_> {
         self.unreach(part);
         let from_first = self.search(end);
         let first: Vec<usize> = from_first.iter().map(|&node| self.distance[node]).collect();
+        let mut best = None;
+        self.find_cut(from_first.clone(), &mut best);
+        // No separator is smaller than one node: where it lies near the middle, nothing better is looked for.
+        let half = 0.5 * part.len() as f64;
+        if let Some(cut) = best.take_if(|cut| cut.ratio * BALANCED * half * half <= 1.0) {
+            return self.separate(cut);
+        }
         self.unreach(part);
         let from_second = self.search(from_first[part.len() - 1]);
         let farthest = self.distance[from_second[part.len() - 1]];
         let difference = self.by_difference(&from_first, &first, farthest);
-        let mut best = None;
-        for sorted in [from_first, from_second, difference] {
+        for sorted in [from_second, difference] {
             self.find_cut(sorted, &mut best);
         }
         best.map_or(Division::Whole, |cut| self.separate(cut))
