@@ -93,7 +93,7 @@ fn estimate_inverse_norm<T: Real>(factor: &Factor<T>) -> f64 {
     let one_norm = |x: &[f64]| x.iter().map(|v| v.abs()).sum::<f64>();
     // The mean of the unit vectors, and a vector with alternating signs: one solve for both.
     let step = 1.0 / (n.max(2) - 1) as f64;
-    let alternating = |k: usize| (1.0 + k as f64 * step) * if k % 2 == 0 { 1.0 } else { -1.0 };
+    let alternating = |k: usize| (1.0 + k as f64 * step) * if k.is_multiple_of(2) { 1.0 } else { -1.0 };
     let mut starts: Vec<[T; 2]> =
         (0..n).map(|k| [T::from(1.0 / n as f64), T::from(alternating(k))]).collect();
     factor.solve_lanes(&mut starts);
