@@ -320,7 +320,7 @@ struct Tally {
     steps: usize,
 }
 
-/// Judges `count` scenes from the sequence `seed` at 1e-2, 1e-3 and 1e-4, by the default method and by SDIRK4.
+/// Judges `count` scenes from the sequence `seed` at 1e-2, 1e-3 and 1e-4, by the default method, SDIRK4 and ESDIRK5.
 fn judge_at_random(seed: u64, count: usize) -> Tally {
     let mut random = Random(seed);
     let mut tally = Tally::default();
@@ -342,8 +342,8 @@ fn judge_at_random(seed: u64, count: usize) -> Tally {
                 tally.open += 1;
                 continue;
             }
-            for method in [Method::Auto, Method::Sdirk4] {
-                if method == Method::Sdirk4 && Method::Radau.suits(&scene, &foundation).is_err() {
+            for method in [Method::Auto, Method::Sdirk4, Method::Esdirk5] {
+                if method == Method::Esdirk5 && Method::Radau.suits(&scene, &foundation).is_err() {
                     continue;
                 }
                 let run = go(method, &scene, accuracy, &foundation);

@@ -2,10 +2,12 @@
 
 use std::ops::ControlFlow;
 
-use sim::{Body, Contact, Damper, Flange, Foundation, GapCause, NormalLaw, Run, Scene, Wheel, run};
+use sim::{
+    Body, Contact, Damper, Flange, Foundation, GapCause, Method, NormalLaw, Run, Scene, Wheel, run_by,
+};
 
-/// A body of 10 t that swings between the flanges of one wheel on a rigid rail.
-fn between_flanges(accuracy: f64) -> Run {
+/// A body of 10 t that swings between the flanges of one wheel on a rigid rail, by `method`.
+fn between_flanges(method: Method, accuracy: f64) -> Run {
     let mut wheel = Wheel::new(0.5, NormalLaw::linear(1e8, 0.0, Damper::Rail));
     wheel.flange = Some(Flange { stiffness: 1e7, clearance: 0.01, release: None });
     let mut scene = Scene {
@@ -17,15 +19,18 @@ fn between_flanges(accuracy: f64) -> Run {
         ..Scene::default()
     };
     scene.bodies[0].free = [false, true, true, false, false, false];
-    run(&scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
+    run_by(method, &scene, &[Foundation::rigid()], &mut |_| ControlFlow::Continue(())).expect("a valid scene")
 }
 
-/// Identity: nothing is lost; the sums by cause are the imbalance at the end, and the largest gaps, in order, are those of
-/// steps that end at a flange.
+/// Identity: nothing is lost; the sums by cause are the imbalance at the end. By SDIRK4, whose errors between flanges are small
+/// here, the largest gaps, in order, are those of steps that end at a flange.
 #[test]
 fn energy_of_a_body_between_flanges_is_kept_and_gaps_are_attributed() {
-    for accuracy in [1e-3, 1e-4, 1e-5] {
-        let run = between_flanges(accuracy);
+    for (method, accuracy) in [Method::Sdirk4, Method::Esdirk5]
+        .into_iter()
+        .flat_map(|method| [1e-3, 1e-4, 1e-5].map(|accuracy| (method, accuracy)))
+    {
+        let run = between_flanges(method, accuracy);
         assert!(run.status.is_complete());
         let audit = &run.audit;
         assert!(audit.residual() < accuracy, "{accuracy}: {:e} ({:?})", audit.residual(), audit.gaps);
@@ -34,6 +39,9 @@ fn energy_of_a_body_between_flanges_is_kept_and_gaps_are_attributed() {
         let end = audit.end.total() + audit.exchanged.net_loss() - audit.start.total();
         assert!((sum - end).abs() <= 1e-9 * audit.peak_stored, "{accuracy}: {sum:e} {end:e}");
         assert!(gaps.largest.windows(2).all(|pair| pair[0].energy.abs() >= pair[1].energy.abs()));
+        if method == Method::Esdirk5 {
+            continue;
+        }
         let at_flange = |gap: &sim::EnergyGap| gap.cause == GapCause::Flange(0);
         assert!(gaps.largest.iter().all(at_flange), "{accuracy}: {gaps:?}");
         assert!(gaps.flanges.abs() > 0.5 * sum.abs(), "{accuracy}: {gaps:?}");

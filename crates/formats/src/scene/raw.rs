@@ -90,7 +90,7 @@ pub(crate) struct RawScene {
     pub practice: Option<RawPractice>,
     /// Relative error of displacements that is permitted over the run; by default 1e-4.
     pub accuracy: Option<f64>,
-    /// Method of time integration: "auto" (default), "sdirk4", "radau", "series", "gauss2" or "gauss3".
+    /// Method of time integration: "auto" (default), "sdirk4", "esdirk5", "radau", "series", "gauss2" or "gauss3".
     pub stepper: Option<String>,
     /// Constant step size, time; needed with "gauss2" and "gauss3". By default the step size is adaptive.
     pub step: Option<f64>,

@@ -104,7 +104,7 @@ const RESTRICTIONS: &[(&str, &str, Restriction)] = &[
     ("Scene", "gravity", NotNegative),
     ("Scene", "analysis", Words(&["dynamic", "quasi-static"])),
     ("Scene", "accuracy", Positive),
-    ("Scene", "stepper", Words(&["auto", "sdirk4", "radau", "series", "gauss2", "gauss3"])),
+    ("Scene", "stepper", Words(&["auto", "sdirk4", "esdirk5", "radau", "series", "gauss2", "gauss3"])),
     ("Scene", "step", Positive),
     ("Structure", "foundation", Words(&["rigid", "parts", "influence", "modal", "full", "ties", "auto"])),
     ("Structure", "reading", Words(&["exact", "natural", "akispl", "cubspl"])),

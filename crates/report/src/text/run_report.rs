@@ -142,6 +142,7 @@ fn analysis(scene: &Scene, method: Option<Method>) -> String {
     let method = match method.unwrap_or(scene.stepping.method) {
         Method::Auto => "a method chosen by the program",
         Method::Sdirk4 => "SDIRK, a method of order 4,",
+        Method::Esdirk5 => "ESDIRK, a method of order 5,",
         Method::Radau => {
             "Radau IIA collocation, a method of order 9 (5 with dampers between wheels and rails),"
         }

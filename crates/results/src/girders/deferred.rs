@@ -105,7 +105,7 @@ impl GirderInputs {
         // a repetition costs as much as the run; after a strike forces jump between any rows, and more rows do not help
         let repetitions = usize::from(run.strike.is_none() && run.status.is_complete());
         let (steps, has_rows) = (take(&mut run.steps), run.history.len() >= 2);
-        let has_inner_times = run.method != Some(Method::Sdirk4);
+        let has_inner_times = !matches!(run.method, Some(Method::Sdirk4 | Method::Esdirk5));
         GirderInputs { scene, built, members, steps, has_inner_times, has_rows, rows: None, repetitions }
     }
 

@@ -43,7 +43,7 @@ impl Nodes {
     pub fn new(method: Method, has_memory: bool) -> Option<Nodes> {
         let fifteen = 15.0_f64.sqrt();
         let c = match method {
-            Method::Auto | Method::Sdirk4 | Method::Series => return None,
+            Method::Auto | Method::Sdirk4 | Method::Esdirk5 | Method::Series => return None,
             Method::Radau if has_memory => Self::RADAU_3.to_vec(),
             Method::Radau => Self::RADAU_5.to_vec(),
             Method::Gauss2 => vec![0.5 - 3.0_f64.sqrt() / 6.0, 0.5 + 3.0_f64.sqrt() / 6.0],

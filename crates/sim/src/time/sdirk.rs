@@ -1,17 +1,33 @@
-//! Steps of a diagonally implicit Runge-Kutta method. In every stage the contact forces are solved once.
+//! Steps of diagonally implicit Runge-Kutta methods. In every stage the contact forces are solved once.
+//!
+//! The first stage of ESDIRK5 is the start of the step, whose accelerations and rates of penetrations are those of the last
+//! stage of the step before. Where they jump, or a transient follows that no step resolves, they would not be damped: Y_1 =
+//! y_0 (1 + gamma z)/(1 - gamma z) tends to -y_0. The first step after a break or an event is therefore one of SDIRK4, whose
+//! stages do not depend on them.
 
 use nalgebra::DVector;
 
-use super::tableau::{SDIRK4, Tableau};
+use super::tableau::{ESDIRK5, SDIRK4, Tableau};
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::{Known, State};
 use crate::record::energy::power;
-use crate::{Error, Exchanged};
+use crate::{Error, Exchanged, Method};
+
+/// Length of a step of SDIRK4, relative to one of ESDIRK5 with the same error.
+const RESTART: f64 = 0.5;
+
+/// Number of step lengths covered by the path along which the compliance is interpolated, of SDIRK4 and of ESDIRK5.
+const PATHS: [f64; 2] = [8.0, 4.0];
 
 /// The stages of one step.
 pub(crate) struct Sdirk {
+    /// The method of steps that go on smoothly.
+    smooth: &'static Tableau,
+    /// The method of the step just taken.
     tableau: &'static Tableau,
+    /// Powers at the start of the next step.
+    power: Exchanged,
     stage: State,
     known: Known,
     done: Vec<Done>,
@@ -29,9 +45,9 @@ struct Done {
 }
 
 impl Sdirk {
-    pub fn new(system: &System, start: &State) -> Self {
+    pub fn new(system: &System, start: &State, method: Method) -> Self {
         let (n, count) = (system.mechanics.dofs, start.p.len());
-        let tableau = &SDIRK4;
+        let smooth = if method == Method::Esdirk5 { &ESDIRK5 } else { &SDIRK4 };
         let done = || Done {
             accelerations: DVector::zeros(n),
             rates: DVector::zeros(n),
@@ -41,15 +57,41 @@ impl Sdirk {
             excess: f64::NEG_INFINITY,
         };
         Sdirk {
-            tableau,
+            smooth,
+            tableau: smooth,
+            power: Exchanged::default(),
             stage: start.clone(),
             known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
-            done: std::iter::repeat_with(done).take(tableau.stages()).collect(),
+            done: std::iter::repeat_with(done).take(ESDIRK5.stages().max(SDIRK4.stages())).collect(),
+        }
+    }
+
+    /// The method of a step that `begins_smoothly`, or after a break or an event.
+    fn tableau(&self, begins_smoothly: bool) -> &'static Tableau {
+        if begins_smoothly { self.smooth } else { &SDIRK4 }
+    }
+
+    /// Length of a step that `begins_smoothly`, or after a break or an event, relative to one that begins smoothly with the same
+    /// error, and the power of the length with which its estimated error decreases.
+    pub fn lengths(&self, begins_smoothly: bool) -> [f64; 2] {
+        let own = self.tableau(begins_smoothly);
+        [if own.c.len() < self.smooth.c.len() { RESTART } else { 1.0 }, own.error_power]
+    }
+
+    /// Number of step lengths covered by the path along which the compliance is interpolated.
+    pub fn path(&self) -> f64 {
+        PATHS[usize::from(self.smooth.c.len() > SDIRK4.c.len())]
+    }
+
+    /// Notes the powers at the start of the next step, `from`, to which the geometry of the solver must belong.
+    pub fn note_start(&mut self, solver: &Solver, from: &State) {
+        if self.smooth.weight(0) != 0.0 {
+            self.power = power(solver.system(), solver.geometry(), from);
         }
     }
 
     /// Takes a step of length `h` from `from` with the active elements; returns false if a stage does not converge.
-    /// `stages` counts the stages. Afterwards the geometry of the solver is that of the last stage.
+    /// `begins_smoothly` is false after a break or an event, `stages` counts the stages. Afterwards the geometry of the solver is that of the last stage.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
@@ -58,18 +100,20 @@ impl Sdirk {
         solver: &mut Solver,
         from: &State,
         h: f64,
-        limit: f64,
+        (limit, begins_smoothly): (f64, bool),
         (to, stages): (&mut State, &mut usize),
     ) -> Result<bool, Error> {
+        self.tableau = self.tableau(begins_smoothly);
         let tableau = self.tableau;
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(from);
         solver.begin_step(from, h);
-        for i in 0..tableau.stages() {
+        self.start(solver, from);
+        for i in 1..tableau.stages() {
             self.fill_known(solver, from, h, i);
             // The stage is evaluated just before the limit, because a prescribed motion may jump there.
             self.stage.t = (from.t + tableau.c[i] * h).min(limit.next_down());
-            self.guess(solver, from, i);
+            self.guess(solver, i);
             *stages += 1;
             if !solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
                 return Ok(false);
@@ -96,6 +140,20 @@ impl Sdirk {
         Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
     }
 
+    /// Sets the first stage to the start of the step.
+    fn start(&mut self, solver: &mut Solver, from: &State) {
+        let done = &mut self.done[0];
+        done.forces.copy_from_slice(&from.force);
+        done.accelerations.copy_from(&from.a);
+        if self.tableau.weight(0) == 0.0 {
+            return;
+        }
+        done.rates.copy_from(&from.v);
+        solver.end_stage(from, [&mut done.rates, &mut done.accelerations]);
+        done.p_rates.copy_from_slice(&from.p_rate);
+        done.power = self.power;
+    }
+
     /// Computes the known parts of stage `i` from the start of the step and the previous stages.
     fn fill_known(&mut self, solver: &Solver, from: &State, h: f64, i: usize) {
         let known = &mut self.known;
@@ -103,7 +161,8 @@ impl Sdirk {
         known.v.copy_from(&from.v);
         solver.begin_stage(known);
         known.p.copy_from_slice(&from.p);
-        for (weight, done) in self.tableau.a[i].iter().zip(&self.done) {
+        let weights = self.tableau.a[i].iter().zip(&self.done);
+        for (weight, done) in weights.filter(|(weight, _)| **weight != 0.0) {
             known.q.axpy(h * weight, &done.rates, 1.0);
             known.v.axpy(h * weight, &done.accelerations, 1.0);
             for (p, rate) in known.p.iter_mut().zip(&done.p_rates) {
@@ -112,27 +171,27 @@ impl Sdirk {
         }
     }
 
-    /// Extrapolates accelerations and forces of stage `i` by the polynomial through those at the start of the step
-    /// and of the previous stages [`Tableau::guess`].
-    fn guess(&mut self, solver: &Solver, from: &State, i: usize) {
-        if i == 0 || !solver.system().mechanics.moves_freely {
+    /// Extrapolates accelerations and forces of stage `i` by the polynomial through those of the previous stages
+    /// [`Tableau::guess`].
+    fn guess(&mut self, solver: &Solver, i: usize) {
+        if i <= 1 || !solver.system().mechanics.moves_freely {
             return;
         }
         let (c, stages) = (self.tableau.c, self.tableau.guess[i]);
-        // Lagrange weights of 0 and the abscissae of these stages.
-        let node = |j: usize| j.checked_sub(1).map_or(0.0, |j| c[stages[j]]);
+        // Lagrange weights of the abscissae of these stages.
+        let node = |j: usize| c[stages[j]];
         let weight = |j: usize| {
-            let others = (0..=stages.len()).filter(|&k| k != j);
+            let others = (0..stages.len()).filter(|&k| k != j);
             others.map(|k| (c[i] - node(k)) / (node(j) - node(k))).product::<f64>()
         };
         let is_guessed = |k: &usize| !solver.is_charted(*k);
-        let (first, stage) = (weight(0), &mut self.stage);
+        let stage = &mut self.stage;
         for k in (0..stage.a.len()).filter(is_guessed) {
-            stage.a[k] = first * from.a[k];
+            stage.a[k] = 0.0;
         }
-        stage.force.iter_mut().zip(&from.force).for_each(|(to, from)| *to = first * from);
+        stage.force.fill(0.0);
         for (j, &before) in stages.iter().enumerate() {
-            let (share, done) = (weight(j + 1), &self.done[before]);
+            let (share, done) = (weight(j), &self.done[before]);
             for k in (0..stage.a.len()).filter(is_guessed) {
                 stage.a[k] += share * done.accelerations[k];
             }
@@ -143,7 +202,7 @@ impl Sdirk {
     /// Stages of the step just taken, as fractions of it, with the largest force by which a vertical contact had exceeded its
     /// limit of opening or closing there.
     pub fn excesses(&self) -> impl Iterator<Item = (f64, f64)> {
-        self.tableau.c.iter().zip(&self.done).map(|(share, done)| (*share, done.excess))
+        self.tableau.c.iter().zip(&self.done).skip(1).map(|(share, done)| (*share, done.excess))
     }
 
     /// Embedded error of q and v of degree of freedom `k`, per unit of step length.
@@ -166,7 +225,7 @@ impl Sdirk {
     /// Energy exchanged in the step of length `h`, by the quadrature of the Runge-Kutta weights.
     pub fn exchanged(&self, h: f64) -> Exchanged {
         let mut sum = Exchanged::default();
-        for (i, done) in self.done.iter().enumerate() {
+        for (i, done) in self.done.iter().take(self.tableau.stages()).enumerate() {
             sum.add(&done.power, h * self.tableau.weight(i));
         }
         sum

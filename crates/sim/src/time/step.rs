@@ -11,8 +11,11 @@ use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::{Error, Exchanged, Method};
 
-/// Number of step lengths covered by the path along which the compliance is interpolated.
+/// Number of step lengths covered by the path along which the compliance is interpolated, of collocation.
 const PATH: f64 = 8.0;
+
+/// Power of the step length with which the errors of collocation are taken to decrease.
+const ERROR_POWER: f64 = 4.0;
 
 /// Number of bounces of a wheel up to which the errors of their forces may add up.
 pub(crate) const BOUNCES: f64 = 100.0;
@@ -75,7 +78,7 @@ impl<'a, 'b> Step<'a, 'b> {
         let system = solver.system();
         let integrator = match Nodes::new(method, system.traits.has_memory) {
             Some(nodes) => Integrator::Collocation(Box::new(Collocation::new(system, nodes, &start))),
-            None => Integrator::Sdirk(Box::new(Sdirk::new(system, &start))),
+            None => Integrator::Sdirk(Box::new(Sdirk::new(system, &start, method))),
         };
         let zeros = |count: usize| vec![0.0; count];
         let errors = Errors {
@@ -149,7 +152,8 @@ impl<'a, 'b> Step<'a, 'b> {
                 done
             }
             Integrator::Sdirk(sdirk) => {
-                let done = sdirk.attempt(self.solver, &self.from, h, limit, (&mut self.to, stages))?;
+                let how = (limit, self.begins_smoothly);
+                let done = sdirk.attempt(self.solver, &self.from, h, how, (&mut self.to, stages))?;
                 self.geometry_time = sdirk.time();
                 done
             }
@@ -161,6 +165,22 @@ impl<'a, 'b> Step<'a, 'b> {
             }
         }
         Ok(has_converged)
+    }
+
+    /// Length of the step, relative to one that begins smoothly with the same error, and the power of the length with which its
+    /// estimated error decreases.
+    pub fn lengths(&self) -> [f64; 2] {
+        match &self.integrator {
+            Integrator::Sdirk(sdirk) => sdirk.lengths(self.begins_smoothly),
+            Integrator::Collocation(_) => [1.0, ERROR_POWER],
+        }
+    }
+
+    /// Notes that the next step starts at the end of this one, to which the geometry of the solver must belong.
+    pub fn note_start(&mut self) {
+        if let Integrator::Sdirk(sdirk) = &mut self.integrator {
+            sdirk.note_start(self.solver, &self.to);
+        }
     }
 
     /// Length `h`, reduced to a power of 2^(1/4) if modal responses are stored by step length.
@@ -327,8 +347,12 @@ impl<'a, 'b> Step<'a, 'b> {
         if !self.solver.wants_paths() {
             return;
         }
+        let path = match &self.integrator {
+            Integrator::Sdirk(sdirk) => sdirk.path(),
+            Integrator::Collocation(_) => PATH,
+        };
         let (from, to, beyond) = (&self.from, &mut self.probe, &mut self.beyond);
-        for (h, at) in [(h, &mut *to), (PATH * h, &mut *beyond)] {
+        for (h, at) in [(h, &mut *to), (path * h, &mut *beyond)] {
             extrapolate(from, h, at);
         }
         let ends = [from, &*to, &*beyond].map(|at| (at.t, &at.q));

@@ -4,8 +4,10 @@
 //! scale of a displacement is its largest value so far, and at least the penetration at rest divided by the lever arm
 //! of the degree of freedom; the scale of a speed is its largest value so far, and at least the least scale of the
 //! displacement times the bounce frequency. Let e be the error divided by the tolerance. A step with e > 1 is
-//! rejected and repeated with 0.9 e^(-1/4) of its length. Otherwise the next step is 0.9 e^(-0.175) e_last^0.1 times
-//! as long, where the factor is limited to the range from 1/5 to 5.
+//! rejected and repeated with 0.9 e^(-1/k) of its length, where k is the power of the length with which e decreases.
+//! Otherwise the next step is 0.9 e^(-0.7/k) e_last^(0.4/k) times as long, where the factor is limited to the range from 1/5
+//! to 5. After breaks and events a step of another method may follow: lengths are planned for steps that begin smoothly, and
+//! those of other steps are in a constant ratio to them.
 //!
 //! # Source
 //! Hairer, Wanner, Solving Ordinary Differential Equations II (1996), section IV.2: a PI controller of step sizes.
@@ -56,9 +58,9 @@ impl StepSize {
         }
     }
 
-    /// Planned length of the next step, at most `widest`.
-    pub fn planned(&self, widest: f64) -> f64 {
-        self.fixed.unwrap_or(self.h.min(widest))
+    /// Planned length of the next step, `share` times that of one that begins smoothly, at most `widest`.
+    pub fn planned(&self, share: f64, widest: f64) -> f64 {
+        self.fixed.unwrap_or((share * self.h).min(widest))
     }
 
     /// Length `planned`, limited to the time `left` before a limit. The step is extended to the limit if otherwise
@@ -78,15 +80,19 @@ impl StepSize {
         (h * dq / scale).abs().max((h * dv / rate_scale).abs())
     }
 
-    /// Length of the next trial after a step of length `h` with error `error` was rejected.
-    pub fn shorter(h: f64, error: f64) -> f64 {
-        h * if error.is_finite() { (0.9 * error.powf(-0.25)).clamp(0.1, 0.9) } else { 0.25 }
+    /// Length of the next trial after a step of length `h` with error `error` was rejected, where the error decreases with the
+    /// given power of the length.
+    pub fn shorter(h: f64, error: f64, power: f64) -> f64 {
+        h * if error.is_finite() { (0.9 * error.powf(-1.0 / power)).clamp(0.1, 0.9) } else { 0.25 }
     }
 
-    /// Plans the next step after a step of length `h` with error `error`; `rounded` reduces a length to one for which
-    /// the modal responses are stored.
-    pub fn plan(&mut self, h: f64, error: f64, rounded: impl Fn(f64) -> f64) {
-        let growth = if error > 0.0 { 0.9 * error.powf(-0.175) * self.last_error.powf(0.1) } else { 5.0 };
+    /// Plans the next step after a step of length `h` with error `error`, which was `share` times as long as one that begins
+    /// smoothly and whose error decreases with the given `power` of the length; `rounded` reduces a length to one for which the
+    /// modal responses are stored.
+    pub fn plan(&mut self, h: f64, error: f64, [share, power]: [f64; 2], rounded: impl Fn(f64) -> f64) {
+        let h = h / share;
+        let factor = || 0.9 * error.powf(-0.7 / power) * self.last_error.powf(0.4 / power);
+        let growth = if error > 0.0 { factor() } else { 5.0 };
         self.last_error = error.max(1e-4);
         let proposed = h * growth.clamp(0.2, 5.0);
         // A step that was shortened by a limit is no reason to shorten the planned step.

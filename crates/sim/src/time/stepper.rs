@@ -180,7 +180,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
         let touches = guards(solver, GuardKind::Touch, &start);
         let (triggers, books) = (Triggers::new(system)?, Books::new(solver, &start));
         let size = StepSize::new(solver, &start, tolerance, stepping.step, first);
-        let step = Step::new(solver, start, stepping.method);
+        let mut step = Step::new(solver, start, stepping.method);
+        step.note_start();
         Ok(Stepper {
             period: if period.is_finite() { period } else { 0.0 },
             triggers,
@@ -267,7 +268,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         // A step that was shortened gives no information about the error of longer steps.
         if !trial.ends_at_event {
             let step = &self.step;
-            self.size.plan(trial.h, trial.error, |h| step.rounded(h));
+            self.size.plan(trial.h, trial.error, step.lengths(), |h| step.rounded(h));
         }
         self.stalled = if trial.h <= 4.0 * trial.smallest { self.stalled + 1 } else { 0 };
         self.chatter = if trial.ends_at_event && trial.breaks == 0 { self.chatter + 1 } else { 0 };
@@ -297,7 +298,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.meets = None;
         let smallest = 1e-13 * limit.abs().max(1e-3);
         let instant = if self.chatter >= RATTLE { self.instant() } else { 0.0 };
-        let planned = self.size.planned(widest.max(instant));
+        let planned = self.size.planned(self.step.lengths()[0], widest.max(instant));
         let mut trial = Trial {
             h: self.size.within(planned, limit - self.step.from.t),
             smallest,
@@ -389,7 +390,11 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 }
                 self.counts.rejected += 1;
                 trial.ends_at_event = false;
-                return Ok(Some(self.step.rounded(StepSize::shorter(trial.h, trial.error))));
+                return Ok(Some(self.step.rounded(StepSize::shorter(
+                    trial.h,
+                    trial.error,
+                    self.step.lengths()[1],
+                ))));
             }
             Reason::Switch => {
                 let largest = self.largest_force();
@@ -519,6 +524,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         self.books.close_step(self.step.solver, &self.step.to, after, cause);
         let Step { solver, to, .. } = &self.step;
         self.touches = self.ending.take().unwrap_or_else(|| guards(solver, GuardKind::Touch, to));
+        self.step.note_start();
         Ok(())
     }
 
@@ -628,6 +634,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             self.books.turn_page(self.step.solver, &self.step.to, after);
             due = self.due()?;
         }
+        self.step.note_start();
         Ok((fired, ends))
     }
 }

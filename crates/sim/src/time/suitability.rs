@@ -31,7 +31,7 @@ impl Method {
         match self {
             Method::Auto if Method::Series.check(system).is_ok() => Method::Series,
             Method::Auto if Method::Radau.check(system).is_ok() && !is_large(system) => Method::Radau,
-            Method::Auto => Method::Sdirk4,
+            Method::Auto => Method::Esdirk5,
             method => method,
         }
     }
@@ -40,7 +40,7 @@ impl Method {
     /// vertical contacts with one force per wheel, and structures in natural modes with damping ratios below
     /// 1. Gauss collocation also needs contacts without a damper between wheel and rail.
     pub(crate) fn check(self, system: &System) -> Result<(), Error> {
-        if matches!(self, Method::Auto | Method::Sdirk4) {
+        if matches!(self, Method::Auto | Method::Sdirk4 | Method::Esdirk5) {
             return Ok(());
         }
         let modal =

@@ -34,7 +34,9 @@ fn has_mass(structure: &Structure) -> bool {
 /// Rejects a method that is not applicable to a scene without other faults.
 pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
     let method = scene.stepping.method;
-    if scene.analysis == Analysis::QuasiStatic || matches!(method, Method::Auto | Method::Sdirk4) {
+    if scene.analysis == Analysis::QuasiStatic
+        || matches!(method, Method::Auto | Method::Sdirk4 | Method::Esdirk5)
+    {
         return;
     }
     let Ok(cast) = simulation_input(scene) else { return };
@@ -61,7 +63,7 @@ pub(super) fn suits(scene: &Scene, root: &Place<'_>, faults: &mut Faults) {
         let word = stepper_word(method);
         let fault = Fault::new(&root.key("stepper"), format!("needs {wanted}")).got(format!("\"{word}\""));
         faults.add(
-            fault.hint("\"sdirk4\" integrates every scene, \"auto\" chooses a method that suits the scene"),
+            fault.hint("\"sdirk4\" and \"esdirk5\" integrate every scene, \"auto\" chooses a method that suits the scene"),
         );
     }
 }

@@ -134,9 +134,10 @@ pub fn mean_lateral_position(scene: &Scene, body: usize, rail: usize) -> f64 {
 }
 
 /// Keywords of the methods of integration.
-pub const STEPPERS: [(&str, Method); 6] = [
+pub const STEPPERS: [(&str, Method); 7] = [
     ("auto", Method::Auto),
     ("sdirk4", Method::Sdirk4),
+    ("esdirk5", Method::Esdirk5),
     ("radau", Method::Radau),
     ("series", Method::Series),
     ("gauss2", Method::Gauss2),

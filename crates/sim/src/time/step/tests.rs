@@ -266,6 +266,8 @@ fn end(method: Method, law: NormalLaw, foundation: Foundation, steps: u32) -> Re
     settle(&mut solver, &mut state)?;
     solver.store_open(&state);
     let mut step = Step::new(&mut solver, state, method);
+    // Nothing jumps at the start, so that every step of ESDIRK5 may be its own.
+    step.begins_smoothly = true;
     for _ in 0..steps {
         step.begin();
         assert!(step.attempt(1.0 / f64::from(steps), f64::INFINITY, &mut 0)?);
@@ -305,10 +307,19 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
             let radau = if law == "rail" { 5.0 } else { 9.0 };
             let wheel = || NormalLaw::linear(100.0, damping, damper);
             let wanted = end(best, wheel(), foundation(), if law == "rail" { 1280 } else { 640 })?;
-            for (method, order) in
-                [(Method::Sdirk4, 4.0), (Method::Radau, radau), (Method::Gauss2, 4.0), (Method::Gauss3, 6.0)]
-            {
+            for (method, order) in [
+                (Method::Sdirk4, 4.0),
+                (Method::Esdirk5, 5.0),
+                (Method::Radau, radau),
+                (Method::Gauss2, 4.0),
+                (Method::Gauss3, 6.0),
+            ] {
                 if law == "rail" && matches!(method, Method::Gauss2 | Method::Gauss3) {
+                    continue;
+                }
+                // Its errors are near rounding before it resolves the fastest mode, and the relaxation on parts.
+                let is_fine = matches!((name, law), ("full", "none" | "ground") | ("parts", "rail"));
+                if method == Method::Esdirk5 && is_fine {
                     continue;
                 }
                 // The deflection of the rail relaxes against the damper within a time of 0.02, which only shorter
@@ -317,6 +328,10 @@ fn collocation_keeps_its_order_on_every_foundation() -> Result<(), Error> {
                     (Method::Sdirk4, "rail") if structure => [160, 320, 640],
                     (Method::Sdirk4, "rail") => [320, 640, 1280],
                     (Method::Sdirk4, _) => [80, 160, 320],
+                    (Method::Esdirk5, "rail") if structure => [160, 320, 640],
+                    (Method::Esdirk5, "rail") if name == "rigid" => [40, 80, 160],
+                    (Method::Esdirk5, "rail") => [320, 640, 1280],
+                    (Method::Esdirk5, _) => [20, 40, 80],
                     (_, "rail") => [80, 160, 320],
                     (Method::Radau, _) if name == "full" => [10, 20, 40],
                     (Method::Radau, _) if name == "modal" => [10, 20, 40],
@@ -353,11 +368,15 @@ fn methods_keep_their_order_with_laws_that_are_not_linear() -> Result<(), Error>
         // The fastest mode of the mesh has a period of 0.06.
         let stages = if name == "full" { [80, 160, 320] } else { [40, 80, 160] };
         let under_dampers = if name == "influence" { [320, 640, 1280] } else { [80, 160, 320] };
-        let by_ground = vec![
+        let mut by_ground = vec![
             (Method::Sdirk4, 4.0, stages),
             (Method::Gauss3, 6.0, [40, 80, 160]),
             (Method::Radau, 9.0, if is_massless { [6, 12, 24] } else { [10, 20, 40] }),
         ];
+        // On the mesh its errors are near rounding before it resolves the fastest mode.
+        if name != "full" {
+            by_ground.push((Method::Esdirk5, 5.0, if is_massless { [15, 30, 60] } else { [40, 80, 160] }));
+        }
         for (damper, finest, cases) in [
             (Damper::Ground, 320, by_ground),
             (Damper::Rail, 5120, vec![(Method::Radau, 5.0, under_dampers)]),
