@@ -51,6 +51,8 @@ pub struct CaseResult {
     pub fatigue: Vec<FatigueResult>,
     /// What first order leaves out, once it has been asked for.
     pub(crate) second_order: OnceLock<Vec<FirstOrderDoubt>>,
+    /// Its warnings, once they have been asked for.
+    pub(crate) warnings: OnceLock<Vec<String>>,
 }
 
 /// How far first order does not hold for a structure, where that is to be told: as a warning or a note.

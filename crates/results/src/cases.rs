@@ -215,7 +215,6 @@ fn run_case(
             found.map_err(|_| Error::Stopped)?.into()
         }
     };
-    let second_order = OnceLock::new();
     Ok(CaseResult {
         label,
         input,
@@ -227,7 +226,8 @@ fn run_case(
         girders,
         codes,
         fatigue,
-        second_order,
+        second_order: OnceLock::new(),
+        warnings: OnceLock::new(),
     })
 }
 

@@ -255,6 +255,10 @@ fn figure(section: usize, index: usize, figure: &Figure, running: usize) -> Resu
             let data = data(chart, &drawing);
             (drawing.svg, "picture chart", Some(data))
         }
+        Picture::Drawn(drawn) => {
+            let (chart, drawing) = &**drawn;
+            (drawing.svg.clone(), "picture chart", Some(data(chart, drawing)))
+        }
     };
     let label = format!("figure-{running}");
     Ok(html! {

@@ -1,6 +1,6 @@
 //! Sections of a report and their parts: facts, tables, figures.
 
-use crate::chart::{Chart, Svg};
+use crate::chart::{self, Chart, Drawing, Svg};
 use crate::document::animated::Animation;
 
 /// A section of a report. Its parts are shown in the order of the fields; empty parts are omitted.
@@ -158,10 +158,47 @@ pub struct ReportTable {
 pub enum Picture {
     /// A chart; where scripts run, values are shown under the pointer.
     Chart(Box<Chart>),
+    /// The same, with its drawing.
+    Drawn(Box<(Chart, Drawing)>),
     /// A finished SVG picture; it is trusted and inserted unchanged.
     Svg(Svg),
     /// An animation, which requires scripts; without them it shows one frame.
     Animation(Box<Animation>),
+}
+
+impl Picture {
+    /// The drawing of a chart that has none yet.
+    ///
+    /// # Errors
+    /// Data that the chart cannot draw.
+    pub fn drawing(&self) -> Result<Option<Drawing>, chart::Error> {
+        match self {
+            Picture::Chart(chart) => chart.draw().map(Some),
+            Picture::Drawn(_) | Picture::Svg(_) | Picture::Animation(_) => Ok(None),
+        }
+    }
+
+    /// The picture with its drawing, so that a page does not repeat it.
+    #[must_use]
+    pub fn with_drawing(self, drawing: Option<Drawing>) -> Picture {
+        match (self, drawing) {
+            (Picture::Chart(chart), Some(drawing)) => Picture::Drawn(Box::new((*chart, drawing))),
+            (picture, _) => picture,
+        }
+    }
+
+    /// As SVG.
+    ///
+    /// # Errors
+    /// Data that the chart cannot draw.
+    pub fn svg(&self) -> Result<Svg, chart::Error> {
+        match self {
+            Picture::Chart(chart) => chart.svg(),
+            Picture::Drawn(drawn) => Ok(drawn.1.svg.clone()),
+            Picture::Svg(svg) => Ok(svg.clone()),
+            Picture::Animation(animation) => Ok(animation.svg.clone()),
+        }
+    }
 }
 
 impl From<Chart> for Picture {

@@ -46,9 +46,16 @@ impl RunFigures {
 
     /// Draws all figures, on at most `threads` threads. A figure that cannot be drawn is moved to `omitted`.
     pub fn draw(&mut self, threads: Option<u16>) -> Vec<(String, Svg)> {
-        let drawn = parallel_map(&self.figures, threads, |_, figure| figure.svg());
+        let drawn = parallel_map(&self.figures, threads, |_, figure| figure.picture.drawing());
         let mut pictures = Vec::new();
-        for (figure, svg) in std::mem::take(&mut self.figures).into_iter().zip(drawn) {
+        for (mut figure, drawing) in std::mem::take(&mut self.figures).into_iter().zip(drawn) {
+            let svg = match drawing {
+                Ok(drawing) => {
+                    figure.picture = figure.picture.with_drawing(drawing);
+                    figure.svg()
+                }
+                Err(error) => Err(error),
+            };
             match svg {
                 Ok(svg) => {
                     pictures.push((figure.name.clone(), svg));

@@ -6,6 +6,7 @@ use trains::{MemberForces, PassedLoads, SectionSide};
 
 use super::distributed::{DistributedForces, FORCES, Quantities};
 use super::instants::{LoadState, LoadStates};
+use super::peaks::ScannedRow;
 use super::points::{DIRECTIONS, PointDeflections, probe};
 use super::sections::{MemberSection, Sections};
 use crate::response::displacements;
@@ -17,12 +18,16 @@ pub(super) struct LoadedGirders<'a> {
     pub distributed: &'a DistributedForces,
     pub sections: &'a Sections,
     pub states: &'a LoadStates,
+    /// The rows at which all sections and points are evaluated; extremes are followed among the rows between them.
+    pub scanned: &'a [usize],
     /// The deflections of all points.
     pub points: &'a PointDeflections<'a>,
     /// Whether nobody wants the results any more: loops over rows and points end early.
     pub is_stopped: &'a dyn Fn() -> bool,
-    /// Every how many rows deflections are evaluated: they change more slowly than forces.
+    /// Of how many rows the first is among those at which deflections are evaluated: they change more slowly than forces.
     pub deflection_stride: usize,
+    /// The scanned rows at which deflections are evaluated.
+    pub deflected: Vec<usize>,
 }
 
 /// A load that stands at a section: its index, and whether the section is just behind it.
@@ -46,6 +51,12 @@ impl LoadedGirders<'_> {
     /// The rows, or the first of them where the results are not wanted any more.
     pub fn rows(&self) -> impl Iterator<Item = usize> {
         (0..self.states.len()).take_while(|row| !row.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
+    }
+
+    /// The scanned rows by their numbers, or the first of them where the results are not wanted any more.
+    pub fn scanned_rows(&self) -> impl Iterator<Item = ScannedRow> {
+        let rows = self.scanned.iter().enumerate().map(|(number, row)| ScannedRow { number, row: *row });
+        rows.take_while(|at| !at.number.is_multiple_of(ROWS_BETWEEN) || !(self.is_stopped)())
     }
 
     /// Whether each quantity, in the order of [`trains::GirderResponse::ALL`], is not zero throughout.

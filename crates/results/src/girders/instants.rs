@@ -217,12 +217,21 @@ impl LoadStates {
         corners
     }
 
+    /// Channels of the values of a row by kind: places and forces of the loads, displacements, and accelerations.
+    pub fn kinds(&self) -> [Vec<usize>; 4] {
+        let half = self.motions + (self.width - self.motions) / 2;
+        let [places, forces] =
+            [false, true].map(|wanted| (1..self.motions).filter(|c| self.may_jump[*c] == wanted).collect());
+        [places, forces, (self.motions..half).collect(), (half..self.width).collect()]
+    }
+
     /// Number of rows.
     pub fn len(&self) -> usize {
         self.values.len() / self.width
     }
 
-    fn row(&self, row: usize) -> &[f64] {
+    /// The values of a row: the time first.
+    pub fn row(&self, row: usize) -> &[f64] {
         &self.values[row * self.width..(row + 1) * self.width]
     }
 
@@ -486,7 +495,8 @@ impl<'a> Cubic<'a> {
         }
         let values = self.rows.map(|row| row[c]);
         let value: f64 = values.iter().zip(self.weights).map(|(value, weight)| weight * value).sum();
-        let [low, high] = [f64::min, f64::max].map(|of| values.into_iter().reduce(of).unwrap_or(value));
+        let low = values.iter().fold(values[0], |low, value| low.min(*value));
+        let high = values.iter().fold(values[0], |high, value| high.max(*value));
         let beyond = OVERSHOOT * (high - low);
         (low - beyond <= value && value <= high + beyond).then_some(value)
     }

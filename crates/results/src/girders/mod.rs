@@ -6,9 +6,9 @@
 //! ([`trains::MemberForces`]). Inertia and dead load are added (`distributed`). Between the rows positions, forces and
 //! motions are interpolated (`instants`).
 //!
-//! 1. All sections, and both sides of each wheel, are evaluated at all rows; so are the instants at which wheels pass
-//!    sections, on both sides, and deflections at all listed places and under each wheel (`scan`).
-//! 2. Each peak is refined over time between its neighbouring rows and, at sections without a wheel, along the member
+//! 1. All sections, and both sides of each wheel, are evaluated at rows near enough to each other (`scanned_rows`); so are the
+//!    instants at which wheels pass sections, on both sides, and deflections at all listed places and under each wheel (`scan`).
+//! 2. Each peak is followed to the row with the largest value, refined over time and, at sections without a wheel, along the member
 //!    (`refine`, `spans`); deflections likewise along the rail and along the paths of wheels (`deflections`).
 //! 3. Envelopes are evaluated at stations, ends of members and spans, twentieths of spans, and the places of all
 //!    extremes (`structure`).
@@ -22,7 +22,7 @@
 //! The largest and smallest reactions of supports are found at the same rows and refined in the same way (`reactions`).
 //! Where the scene asks for stresses, the largest ones are found among the same forces (`fibres`, `stresses`).
 //!
-//! Files, lowest first: solved, peaks, kept_rows, instants, fibres, sections, points, distributed, girder, scan, refine, deflections, spans,
+//! Files, lowest first: solved, peaks, kept_rows, instants, scanned_rows, fibres, sections, points, distributed, girder, scan, refine, deflections, spans,
 //! stresses, reactions, structure, rows, this one, and `deferred`, which computes all of it when it is asked for.
 
 mod deferred;
@@ -38,6 +38,7 @@ mod reactions;
 mod refine;
 mod rows;
 mod scan;
+mod scanned_rows;
 mod sections;
 mod solved;
 mod spans;

@@ -13,14 +13,53 @@ pub(super) const SIGNS: [f64; 2] = [1.0, -1.0];
 /// row is known as well.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Peaks {
-    /// Row of the last value, the last two values, and how many of them there are.
-    last: usize,
+    last: LastRows,
     values: [f64; 2],
-    count: usize,
     found: [Peak; 2],
 }
 
-/// A peak: height of its vertex, its row, and the value there, times the sign for which it is a peak.
+/// A row among those that are scanned.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct ScannedRow {
+    /// Its number: those of consecutive ones follow each other.
+    pub number: usize,
+    /// The row of the history.
+    pub row: usize,
+}
+
+/// The last row of a sequence, how many of the last two values are known, and the distance of their rows.
+#[derive(Clone, Copy, Debug, Default)]
+struct LastRows {
+    own: ScannedRow,
+    count: usize,
+    gap: usize,
+}
+
+impl LastRows {
+    /// Whether a row follows the last one.
+    fn is_followed_by(&self, next: ScannedRow) -> bool {
+        self.count > 0 && next.number == self.own.number + 1
+    }
+
+    fn add(&mut self, next: ScannedRow) {
+        *self =
+            LastRows { own: next, count: 2.min(self.count + 1), gap: next.row.saturating_sub(self.own.row) };
+    }
+
+    /// A change of the value from the last row but one, if there is one, as a part of a peak.
+    fn rise(&self, change: impl FnOnce() -> f64) -> Option<Fall> {
+        (self.count > 1).then(|| Fall { change: change(), gap: self.gap })
+    }
+}
+
+/// By how much the value of a row is above that of one beside it, so many rows away.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fall {
+    pub change: f64,
+    pub gap: usize,
+}
+
+/// A peak: height of its vertex, the number of its row, and the value there, times the sign for which it is a peak.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Vertex {
     pub height: f64,
@@ -28,11 +67,29 @@ pub(super) struct Vertex {
     pub value: f64,
 }
 
-/// The peak whose vertex is the highest, and the one with the largest value at its row.
+/// The peak whose vertex is the highest, the next lower ones, and the one with the largest value at its row.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Peak {
     pub highest: Vertex,
+    pub lower: [Vertex; 2],
     pub largest: Vertex,
+}
+
+impl Peak {
+    fn offer(&mut self, vertex: Vertex) {
+        if vertex.height > self.lower[1].height {
+            self.lower[1] = vertex;
+            if vertex.height > self.lower[0].height {
+                self.lower.swap(0, 1);
+                if vertex.height > self.highest.height {
+                    std::mem::swap(&mut self.highest, &mut self.lower[0]);
+                }
+            }
+        }
+        if vertex.value > self.largest.value {
+            self.largest = vertex;
+        }
+    }
 }
 
 impl Default for Vertex {
@@ -57,65 +114,67 @@ impl From<[Peak; 2]> for Peaks {
 
 impl Peaks {
     /// Adds the value of a row; rows that are left out separate sequences.
-    pub fn add(&mut self, row: usize, value: f64) {
-        if self.count > 0 && row == self.last + 1 {
+    pub fn add(&mut self, row: ScannedRow, value: f64) {
+        if self.last.is_followed_by(row) {
             let [before, own] = self.values;
             // a value between its neighbours is no peak
-            if self.count < 2 || (own - before) * (value - own) <= 0.0 {
-                self.offer(Some(value));
+            if self.last.count < 2 || (own - before) * (value - own) <= 0.0 {
+                self.offer(Some(Fall { change: own - value, gap: row.row - self.last.own.row }));
             }
         } else {
             self.finish();
         }
         self.values = [self.values[1], value];
-        (self.last, self.count) = (row, 2.min(self.count + 1));
+        self.last.add(row);
     }
 
     /// Ends the sequence.
     pub fn finish(&mut self) {
-        if self.count > 0 {
+        if self.last.count > 0 {
             self.offer(None);
         }
-        self.count = 0;
+        self.last.count = 0;
     }
 
     /// Considers the last value, now that the next one is known.
-    fn offer(&mut self, next: Option<f64>) {
+    fn offer(&mut self, fall: Option<Fall>) {
         let [before, own] = self.values;
-        let rise = (self.count > 1).then_some(own - before);
-        offer(&mut self.found, (self.last, own), rise, next.map(|next| own - next));
+        let rise = self.last.rise(|| own - before);
+        offer(&mut self.found, (self.last.own.number, own), rise, fall);
     }
 }
 
 /// Considers the value of a row, by how much it is above the value before and above the next one, where there are such.
-fn offer(found: &mut [Peak; 2], (row, own): (usize, f64), rise: Option<f64>, fall: Option<f64>) {
+fn offer(found: &mut [Peak; 2], (row, own): (usize, f64), rise: Option<Fall>, fall: Option<Fall>) {
     for (peak, sign) in found.iter_mut().zip(SIGNS) {
-        let is_beyond = |change: Option<f64>| change.is_none_or(|change| sign * change >= 0.0);
-        if !(is_beyond(rise) && is_beyond(fall)) {
-            continue;
+        let is_beyond = |fall: Option<Fall>| fall.is_none_or(|fall| sign * fall.change >= 0.0);
+        if is_beyond(rise) && is_beyond(fall) {
+            peak.offer(Vertex { height: sign * own + bulge(rise, fall), row, value: sign * own });
         }
-        let bulge = match (rise, fall) {
-            (Some(rise), Some(fall)) if rise + fall != 0.0 => {
-                (rise - fall).powi(2) / (8.0 * (rise + fall).abs())
+    }
+}
+
+/// By how much the vertex of the parabola through three values is beyond the middle one; 0 where one of the others is not known.
+pub(super) fn bulge(rise: Option<Fall>, fall: Option<Fall>) -> f64 {
+    match (rise, fall) {
+        (Some(rise), Some(fall)) if rise.change + fall.change != 0.0 => {
+            let (up, down) = (rise.change, fall.change);
+            if rise.gap == fall.gap {
+                return (up - down).powi(2) / (8.0 * (up + down).abs());
             }
-            _ => 0.0,
-        };
-        let vertex = Vertex { height: sign * own + bulge, row, value: sign * own };
-        if vertex.height > peak.highest.height {
-            peak.highest = vertex;
+            let [before, after] = [rise.gap, fall.gap].map(|gap| gap as f64);
+            let (up, down) = (up * after, down * before);
+            (up * after - down * before).powi(2)
+                / (4.0 * before * after * (before + after) * (up + down).abs())
         }
-        if vertex.value > peak.largest.value {
-            peak.largest = vertex;
-        }
+        _ => 0.0,
     }
 }
 
 /// The highest and the lowest peaks of many sequences that have values at the same rows: those of [`Peaks`].
 #[derive(Clone, Debug, Default)]
 pub(super) struct PeakRows {
-    /// Row of the last values, and how many of the last two are known.
-    last: usize,
-    count: usize,
+    last: LastRows,
     /// The last values but one, and the last ones.
     before: Vec<f64>,
     own: Vec<f64>,
@@ -126,44 +185,45 @@ impl PeakRows {
     /// Peaks of a number of sequences.
     pub fn new(sequences: usize) -> PeakRows {
         let (before, own) = (vec![0.0; sequences], vec![0.0; sequences]);
-        PeakRows { last: 0, count: 0, before, own, found: vec![Default::default(); sequences] }
+        PeakRows { last: LastRows::default(), before, own, found: vec![Default::default(); sequences] }
     }
 
     /// Adds the values of a row; rows that are left out separate sequences.
-    pub fn add(&mut self, row: usize, values: &[f64]) {
-        if self.count > 0 && row != self.last + 1 {
+    pub fn add(&mut self, row: ScannedRow, values: &[f64]) {
+        if self.last.count > 0 && !self.last.is_followed_by(row) {
             self.finish();
         }
-        if self.count > 1 {
+        let (last, gap) = (self.last, row.row.saturating_sub(self.last.own.row));
+        if last.count > 1 {
             // a value between its neighbours is no peak
             let is_turn = |(before, own, next): (f64, f64, f64)| (own - before) * (next - own) <= 0.0;
             let rows = || self.before.iter().zip(&self.own).zip(values).map(|((a, b), c)| (*a, *b, *c));
             if rows().fold(false, |any, three| any | is_turn(three)) {
                 for (found, (before, own, next)) in self.found.iter_mut().zip(rows()) {
                     if is_turn((before, own, next)) {
-                        offer(found, (self.last, own), Some(own - before), Some(own - next));
+                        let rise = last.rise(|| own - before);
+                        offer(found, (last.own.number, own), rise, Some(Fall { change: own - next, gap }));
                     }
                 }
             }
-        } else if self.count == 1 {
+        } else if last.count == 1 {
             for ((found, own), next) in self.found.iter_mut().zip(&self.own).zip(values) {
-                offer(found, (self.last, *own), None, Some(own - next));
+                offer(found, (last.own.number, *own), None, Some(Fall { change: own - next, gap }));
             }
         }
         std::mem::swap(&mut self.before, &mut self.own);
         self.own.copy_from_slice(values);
-        (self.last, self.count) = (row, 2.min(self.count + 1));
+        self.last.add(row);
     }
 
     /// Ends the sequences.
     pub fn finish(&mut self) {
-        if self.count > 0 {
+        if self.last.count > 0 {
             for ((found, own), before) in self.found.iter_mut().zip(&self.own).zip(&self.before) {
-                let rise = (self.count > 1).then_some(own - before);
-                offer(found, (self.last, *own), rise, None);
+                offer(found, (self.last.own.number, *own), self.last.rise(|| own - before), None);
             }
         }
-        self.count = 0;
+        self.last.count = 0;
     }
 
     /// The highest and the lowest peak of each sequence.
@@ -286,16 +346,44 @@ fn vertex([x, w, v]: &[(f64, f64); 3]) -> Option<(f64, f64)> {
 mod tests {
     use super::*;
 
+    /// A row of which none is left out.
+    fn at(row: usize) -> ScannedRow {
+        ScannedRow { number: row, row }
+    }
+
+    /// Analytic: of a parabola the vertex is found from uneven rows, and of four crests the three highest are known.
+    #[test]
+    fn vertices_between_uneven_rows_are_those_of_the_parabola() {
+        for rows in [[0, 4, 12], [0, 8, 9], [3, 4, 5]] {
+            let mut peaks = Peaks::default();
+            for (number, row) in rows.into_iter().enumerate() {
+                peaks.add(ScannedRow { number, row }, 2.0 - 0.01 * (row as f64 - 4.4).powi(2));
+            }
+            peaks.finish();
+            assert!((peaks[0].highest.height - 2.0).abs() < 1e-12, "{rows:?}: {:?}", peaks[0]);
+        }
+        let mut peaks = Peaks::default();
+        for (row, value) in [0.0, 3.0, 0.0, 5.0, 0.0, 2.0, 0.0, 4.0, 0.0].into_iter().enumerate() {
+            peaks.add(at(row), value);
+        }
+        peaks.finish();
+        let Peak { highest, lower, .. } = peaks[0];
+        assert_eq!(
+            [highest, lower[0], lower[1]].map(|vertex| (vertex.row, vertex.value)),
+            [(3, 5.0), (7, 4.0), (1, 3.0)]
+        );
+    }
+
     /// Analytic: of two equal waves the one whose crest lies between rows has the lower rows.
     #[test]
     fn the_higher_of_two_crests_is_found_between_rows() {
         let mut peaks = Peaks::default();
         let wave = |x: f64, height: f64| height - x * x;
         for (row, x) in [-1.0, 0.0, 1.0].into_iter().enumerate() {
-            peaks.add(row, wave(x, 1.0));
+            peaks.add(at(row), wave(x, 1.0));
         }
         for (row, x) in [-1.5, -0.5, 0.5, 1.5].into_iter().enumerate() {
-            peaks.add(3 + row, wave(x, 1.1));
+            peaks.add(at(3 + row), wave(x, 1.1));
         }
         peaks.finish();
         let [highest, lowest] = peaks.found;
@@ -312,10 +400,10 @@ mod tests {
     fn a_peak_beside_a_jump_does_not_hide_a_larger_one() {
         let mut peaks = Peaks::default();
         for (row, value) in [1.0, 2.2, 1.0, 1.9, 2.0, -3.0].into_iter().enumerate() {
-            peaks.add(row, value);
+            peaks.add(at(row), value);
         }
         peaks.finish();
-        let [Peak { highest, largest }, _] = peaks.found;
+        let [Peak { highest, largest, .. }, _] = peaks.found;
         assert!(highest.row == 4 && highest.height > 2.5 && (largest.row, largest.value) == (1, 2.2));
     }
 
@@ -326,8 +414,8 @@ mod tests {
         let (mut together, mut alone) = (PeakRows::new(5), [Peaks::default(); 5]);
         for row in (0..90).filter(|row| row % 31 != 7) {
             let values: [f64; 5] = std::array::from_fn(|k| value(row, k));
-            together.add(row, &values);
-            alone.iter_mut().zip(values).for_each(|(one, value)| one.add(row, value));
+            together.add(at(row), &values);
+            alone.iter_mut().zip(values).for_each(|(one, value)| one.add(at(row), value));
         }
         together.finish();
         for (mut alone, found) in alone.into_iter().zip(together.found()) {

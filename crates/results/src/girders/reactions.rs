@@ -297,19 +297,19 @@ impl Refinement<'_> {
         let mut passages = vec![[NONE; 2]; count];
         let (mut ordinates, mut values) = (Vec::new(), vec![0.0; count]);
         let mut sizes = [0.0_f64; 2];
-        for row in self.girders.rows() {
-            let state = states.at_row(row);
+        for at in self.girders.scanned_rows() {
+            let state = states.at_row(at.row);
             reactions.fill(&state, &mut ordinates, &mut values);
-            peaks.add(row, &values);
+            peaks.add(at, &values);
             for (value, reaction) in values.iter().zip(&reactions.all) {
                 let size = &mut sizes[usize::from(reaction.direction >= Dof::Rx)];
                 *size = size.max(value.abs());
             }
-            if row > 0 {
-                for (position, state) in self.passed_corners(reactions, row - 1) {
-                    reactions.fill(&state, &mut ordinates, &mut values);
-                    keep_larger(&mut passages, &values, position);
-                }
+        }
+        for row in self.girders.rows().skip(1) {
+            for (position, state) in self.passed_corners(reactions, row - 1) {
+                reactions.fill(&state, &mut ordinates, &mut values);
+                keep_larger(&mut passages, &values, position);
             }
         }
         let mut out = Vec::new();
@@ -322,18 +322,22 @@ impl Refinement<'_> {
             let size = sizes[usize::from(reaction.direction >= Dof::Rx)];
             let most = peaks.iter().fold(0.0_f64, |most, peak| most.max(peak.largest.value.abs()));
             for (kind, peak) in peaks.iter().enumerate() {
-                let refined = |position: f64| {
-                    self.near_in_time(position, 1, &mut |position| {
+                let refined = |row: usize| {
+                    self.near_scanned(row, &mut |position| {
                         SIGNS[kind] * reactions.value(index, &states.at(position))
                     })
                 };
-                let mut found = (peak.highest.value, peak.highest.row as f64);
+                let mut found = (peak.highest.value, self.girders.scanned[peak.highest.row] as f64);
                 // a value that is only rounding has no crest
                 if most > ROUNDING * size {
-                    found = refined(found.1);
+                    found = refined(peak.highest.row);
+                    for vertex in self.lower_peaks(peak, (1, size)) {
+                        let other = refined(vertex.row);
+                        found = if other.0 > found.0 + ROUNDING * size { other } else { found };
+                    }
                     // the crest beside the row of the highest vertex may be lower than its parabola says
                     if peak.largest.value > found.0 + ROUNDING * size {
-                        found = refined(peak.largest.row as f64);
+                        found = refined(peak.largest.row);
                     }
                 }
                 if passages[index][kind].0 > found.0 + ROUNDING * size {

@@ -5,7 +5,7 @@ use trains::{GirderResponse, SectionSide};
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
 use super::instants::LoadState;
-use super::peaks::{Peak, SIGNS, SearchEnd, Vertex, largest, largest_between};
+use super::peaks::{Fall, Peak, SIGNS, SearchEnd, Vertex, bulge, largest, largest_between};
 use super::scan::Scan;
 
 /// Largest number of evaluations for the peak between two rows.
@@ -13,6 +13,9 @@ const EVALUATIONS: usize = 20;
 /// Height of a vertex above a value up to which it is not looked for, and difference of values from which a parabola is trusted,
 /// relative to the accuracy and the largest value of its kind.
 const ENOUGH: f64 = 1e-2;
+/// How much lower a peak may seem than another one at rows between which others are left out, relative to the largest value of its
+/// kind, and still be followed.
+pub(super) const RANKED: f64 = 1e-4;
 /// Rounds of refinement over time and along the girder in turn.
 pub(super) const ROUNDS: usize = 3;
 /// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
@@ -145,21 +148,100 @@ impl Refinement<'_> {
         quantity: usize,
         value: &mut dyn FnMut(f64) -> f64,
     ) -> (f64, f64) {
-        let mut near = |vertex: &Vertex| {
-            let known = (vertex.value, (vertex.row * stride) as f64);
+        let end = self.search_end(self.size(quantity));
+        let mut near = |vertex: &Vertex, least: f64| {
+            let vertex = self.among_rows(vertex, stride, &mut *value);
+            let known = (vertex.value, vertex.row as f64);
             let ends = self.rows_beside(known.1, stride);
-            let end = self.search_end(self.size(quantity));
-            if vertex.height - vertex.value <= end.enough || ends[1] <= ends[0] {
+            if vertex.height - vertex.value <= end.enough || ends[1] <= ends[0] || vertex.height <= least {
                 return known;
             }
             largest_between(ends, known, end, &mut *value)
         };
-        let found = near(&peak.highest);
+        let mut found = near(&peak.highest, f64::NEG_INFINITY);
+        for vertex in self.lower_peaks(peak, (stride, self.size(quantity))) {
+            if vertex.height + RANKED * self.size(quantity) > found.0 {
+                let other = near(vertex, found.0);
+                found = if other.0 > found.0 { other } else { found };
+            }
+        }
         if peak.largest.row == peak.highest.row || peak.largest.height <= found.0 {
             return found;
         }
-        let other = near(&peak.largest);
+        let other = near(&peak.largest, f64::NEG_INFINITY);
         if other.0 > found.0 { other } else { found }
+    }
+
+    /// The peaks below the highest one that may be as high: those not much lower, between whose rows others have been left out.
+    pub fn lower_peaks<'p>(
+        &self,
+        peak: &'p Peak,
+        (stride, size): (usize, f64),
+    ) -> impl Iterator<Item = &'p Vertex> + use<'p, '_> {
+        let least = peak.highest.value - RANKED * size;
+        peak.lower
+            .iter()
+            .filter(move |vertex| vertex.height > least && self.rows_between(vertex.row, stride).is_some())
+    }
+
+    /// The rows at which forces, or for a stride of more than 1 deflections, are evaluated.
+    fn evaluated(&self, stride: usize) -> &[usize] {
+        if stride == 1 { self.girders.scanned } else { &self.girders.deflected }
+    }
+
+    /// The vertex at the evaluated row of a number: at the row itself, or where others have been left out beside it at the one
+    /// with the largest value as far as the evaluated rows beside it, which is found by halves.
+    fn among_rows(&self, vertex: &Vertex, stride: usize, value: &mut dyn FnMut(f64) -> f64) -> Vertex {
+        let own = self.evaluated(stride)[vertex.row];
+        let Some([before, after]) = self.rows_between(vertex.row, stride) else {
+            return Vertex { row: own, ..*vertex };
+        };
+        let mut best = (vertex.value, own);
+        let mut beside = [None; 2];
+        let mut step = (own - before).max(after - own).next_power_of_two();
+        while step > stride {
+            step /= 2;
+            let rows = [best.1.checked_sub(step), Some(best.1 + step)];
+            beside = rows.map(|row| {
+                let row = row.filter(|row| *row >= before && *row <= after)?;
+                Some((value(row as f64), row))
+            });
+            let higher = beside.into_iter().flatten().fold(best, |a, b| if b.0 > a.0 { b } else { a });
+            if higher.1 != best.1 {
+                // beside the new one the values at this distance are that of the old one, and one beyond
+                beside = [None; 2];
+                best = higher;
+            }
+        }
+        let known = |row: Option<usize>| {
+            let row = row.filter(|row| *row >= before && *row <= after)?;
+            let known = beside.into_iter().flatten().find(|known: &(f64, usize)| known.1 == row);
+            Some(known.map_or_else(|| value(row as f64), |known| known.0))
+        };
+        let fall = |beside: Option<f64>| {
+            let change = best.0 - beside?;
+            change.is_finite().then_some(Fall { change, gap: 1 })
+        };
+        let [rise, fall] = [best.1.checked_sub(stride), Some(best.1 + stride)].map(known).map(fall);
+        Vertex { height: best.0 + bulge(rise, fall), row: best.1, value: best.0 }
+    }
+
+    /// The evaluated rows beside that of a number; `None` where none have been left out between.
+    fn rows_between(&self, number: usize, stride: usize) -> Option<[usize; 2]> {
+        let rows = self.evaluated(stride);
+        let own = rows[number];
+        let [before, after] = [number.saturating_sub(1), (number + 1).min(rows.len() - 1)].map(|k| rows[k]);
+        (own - before > stride || after - own > stride).then_some([before, after])
+    }
+
+    /// The largest value in the intervals beside the scanned row of a number, as [`Refinement::near_in_time`].
+    pub fn near_scanned(&self, number: usize, value: &mut dyn FnMut(f64) -> f64) -> (f64, f64) {
+        let mut row = self.girders.scanned[number];
+        if self.rows_between(number, 1).is_some() {
+            let own = value(row as f64);
+            row = self.among_rows(&Vertex { height: own, row: number, value: own }, 1, value).row;
+        }
+        self.near_in_time(row as f64, 1, value)
     }
 
     /// The times `stride` rows before a row and behind it, within the run.

@@ -7,7 +7,7 @@ use super::distributed::{FORCES, Quantities};
 use super::fibres::StressRows;
 use super::girder::{LoadedGirders, passing};
 use super::instants::LoadState;
-use super::peaks::{PeakRows, Peaks};
+use super::peaks::{PeakRows, Peaks, ScannedRow};
 use super::points::{PointBlock, probe};
 
 /// Peaks of the largest and of the smallest values of each quantity.
@@ -30,7 +30,7 @@ pub(super) struct Passage {
 pub(super) struct Scan {
     /// By section.
     pub sections: Vec<ForcePeaks>,
-    /// By point and plane, with rows counted in steps of [`LoadedGirders::deflection_stride`].
+    /// By point and plane, with the numbers of the rows among [`LoadedGirders::deflected`].
     pub points: Vec<[Peaks; 2]>,
     /// By load, side (before, behind) and number of the span over all rails.
     pub wheels: Vec<ForcePeaks>,
@@ -61,28 +61,30 @@ struct Workspace {
 /// A row of girders as a row of a scan.
 struct Target<'s> {
     scan: &'s mut Scan,
-    row: usize,
-    /// Number of the row among those with deflections.
-    deflections: Option<usize>,
+    row: ScannedRow,
+    /// The same among those with deflections.
+    deflections: Option<ScannedRow>,
 }
 
 impl<'s> Target<'s> {
-    fn new(scan: &'s mut Scan, girders: &LoadedGirders<'_>, row: usize) -> Target<'s> {
-        let stride = girders.deflection_stride;
-        Target { scan, row, deflections: row.is_multiple_of(stride).then_some(row / stride) }
+    fn new(scan: &'s mut Scan, girders: &LoadedGirders<'_>, row: ScannedRow) -> Target<'s> {
+        let number = girders.deflected.binary_search(&row.row).ok();
+        let deflections = number.map(|number| ScannedRow { number, row: row.row });
+        Target { scan, row, deflections }
     }
 }
 
 impl Scan {
-    /// Scans all rows of `fine`, and those of `coarse`, which are the rows `chosen` of `fine`.
+    /// Scans the rows of `fine`, and those of `coarse`, which are the ones of `fine` with the numbers `chosen`.
     pub fn both(fine: &LoadedGirders<'_>, coarse: &LoadedGirders<'_>, chosen: &[usize]) -> [Scan; 2] {
         let [mut all, mut few] = [Scan::empty(fine, true), Scan::empty(coarse, true)];
         let (mut next, mut memory) = (0, Workspace::default());
-        for row in fine.rows() {
-            let state = fine.states.at_row(row);
-            let own = Target::new(&mut all, fine, row);
-            if chosen.get(next) == Some(&row) {
-                add_row(&mut [own, Target::new(&mut few, coarse, next)], fine, &state, &mut memory);
+        for at in fine.scanned_rows() {
+            let state = fine.states.at_row(at.row);
+            let own = Target::new(&mut all, fine, at);
+            if chosen.get(next) == Some(&at.number) {
+                let other = ScannedRow { number: next, row: coarse.scanned[next] };
+                add_row(&mut [own, Target::new(&mut few, coarse, other)], fine, &state, &mut memory);
                 next += 1;
             } else {
                 add_row(&mut [own], fine, &state, &mut memory);
@@ -91,12 +93,12 @@ impl Scan {
         [all.finished(fine), few.finished(coarse)]
     }
 
-    /// Scans all rows for the sections and points alone: without the places of loads.
+    /// Scans the rows for the sections and points alone: without the places of loads.
     pub fn of_sections(girders: &LoadedGirders<'_>) -> Scan {
         let (mut scan, mut memory) = (Scan::empty(girders, false), Workspace::default());
-        for row in girders.rows() {
-            let own = Target::new(&mut scan, girders, row);
-            add_row(&mut [own], girders, &girders.states.at_row(row), &mut memory);
+        for at in girders.scanned_rows() {
+            let own = Target::new(&mut scan, girders, at);
+            add_row(&mut [own], girders, &girders.states.at_row(at.row), &mut memory);
         }
         scan.finished(girders)
     }
@@ -135,8 +137,9 @@ impl Scan {
 
     /// Ends all sequences, and adds the sections that loads pass between the rows.
     fn finished(mut self, girders: &LoadedGirders<'_>) -> Scan {
+        let mut clear = Vec::new();
         for row in girders.rows().skip(1) {
-            self.add_passages(girders, row - 1);
+            self.add_passages(girders, row - 1, &mut clear);
         }
         self.wheels.iter_mut().flatten().for_each(Peaks::finish);
         self.under.iter_mut().flatten().for_each(Peaks::finish);
@@ -175,11 +178,18 @@ impl Scan {
         *size = values.iter().fold(*size, |most, value| if value.abs() > most { value.abs() } else { most });
     }
 
-    /// Adds the sections that loads pass between a row and the next.
-    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize) {
+    /// Adds the sections that loads pass between a row and the next. `clear` are the stretches of rails without sections on which
+    /// the loads stood last; none before the first row.
+    fn add_passages(&mut self, girders: &LoadedGirders<'_>, row: usize, clear: &mut Vec<[f64; 2]>) {
         let sections = girders.sections;
         let [before, after] = [row, row + 1].map(|row| girders.states.loads(row));
+        clear.resize(before.len(), [0.0; 2]);
         for (load, (from, to)) in before.iter().zip(after).enumerate() {
+            let [low, high] = clear[load];
+            if low < from.x && from.x < high && low < to.x && to.x < high {
+                continue;
+            }
+            clear[load] = sections.clear_about(to.rail, to.x);
             // a load that rests is at the same place at all rows
             if (from.force == [0.0; 3] && to.force == [0.0; 3]) || (from.x == to.x && row > 0) {
                 continue;
@@ -251,7 +261,7 @@ fn add_forces(
                 for Target { scan, row, .. } in targets.iter_mut() {
                     let at = scan.wheel(load, is_behind, rail, span);
                     add(&mut scan.wheels[at], (&scan.acting, &mut scan.sizes), *row, &values);
-                    scan.stresses.add_wheel((load, is_behind), fibres, *row, &values);
+                    scan.stresses.add_wheel((load, is_behind), fibres, row.row, &values);
                 }
             }
         }
@@ -277,7 +287,7 @@ fn add_sections(
     if fibres.is_some() {
         for Target { scan, row, .. } in targets.iter_mut() {
             let each = own.iter().zip(&*all);
-            each.for_each(|(section, values)| scan.stresses.add_section(*section, fibres, *row, values));
+            each.for_each(|(section, values)| scan.stresses.add_section(*section, fibres, row.row, values));
         }
     }
     values.resize(places.len(), 0.0);
@@ -334,7 +344,7 @@ fn add_deflections(targets: &mut [Target<'_>], girders: &LoadedGirders<'_>, stat
 fn add(
     peaks: &mut ForcePeaks,
     (acting, sizes): (&[bool; FORCES], &mut [f64]),
-    row: usize,
+    row: ScannedRow,
     values: &[f64; FORCES],
 ) {
     for k in (0..FORCES).filter(|k| acting[*k]) {

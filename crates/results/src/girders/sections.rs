@@ -46,6 +46,15 @@ impl RailSpans {
         [from.map_or(self.range[0], |x| *x), to.map_or(self.range[1], |x| *x)]
     }
 
+    /// Lengths of the spans and overhangs that are longer than rounding.
+    pub fn lengths(&self) -> impl Iterator<Item = f64> + '_ {
+        let length = |span: usize| {
+            let [from, to] = self.bounds(span);
+            to - from
+        };
+        (0..=self.ends.len()).map(length).filter(|length| *length > self.slack())
+    }
+
     /// The spans in which a coordinate lies; two at the end that they have in common.
     pub fn spans_at(&self, x: f64) -> impl Iterator<Item = usize> + '_ {
         (0..=self.ends.len()).filter(move |span| {
@@ -180,6 +189,14 @@ impl Sections {
                 rail == index && x <= high
             };
             (first..self.sections.len()).take_while(own)
+        })
+    }
+
+    /// The stretch of a rail of the structure about a coordinate, its ends left out, in which there are no sections.
+    pub fn clear_about(&self, rail: usize, x: f64) -> [f64; 2] {
+        let places = self.rails.iter().filter(|own| own.rail == rail).flat_map(|own| &own.places);
+        places.fold([f64::NEG_INFINITY, f64::INFINITY], |[low, high], &place| {
+            [if place <= x { low.max(place) } else { low }, if place >= x { high.min(place) } else { high }]
         })
     }
 

@@ -13,7 +13,8 @@ use super::points::PointDeflections;
 use super::reactions::{GirderReaction, Reactions};
 use super::refine::{GirderValue, Refinement};
 use super::scan::Scan;
-use super::sections::Sections;
+use super::scanned_rows::scanned_rows;
+use super::sections::{RailSpans, Sections};
 use super::solved::SolvedMembers;
 use super::spans::SpanValue;
 use super::stresses::GirderStresses;
@@ -69,10 +70,10 @@ pub(super) enum RowChoice {
     /// Those between which loads differ from straight lines by more than the tolerances [`NEEDED`], finer and coarser,
     /// relative to the largest load. They are raised until there are no more than [`MAX_VALUES`] of all rows.
     Needed,
-    /// One of so many rows and every second one of these, at most [`MAX_SAMPLED`] values, and in both the rows beside those
-    /// at which a load is at an end of a member or a motion has a corner: rows at the ends of long steps, which end at such
-    /// times, and inside of them.
-    Sampled(usize),
+    /// Every row and every second one, at most [`MAX_SAMPLED`] values, and in both the rows beside those at which a load is at
+    /// an end of a member or a motion has a corner: rows at the ends of long steps, which end at such times, and inside of
+    /// them.
+    Sampled,
 }
 
 /// Rows of a history that are evaluated.
@@ -83,6 +84,8 @@ pub(super) struct ChosenRows {
     pub stride: usize,
     /// Indices of those of the coarser choice.
     coarse: Vec<usize>,
+    /// Indices of those that are scanned in any case.
+    kept: Vec<usize>,
     /// Number of rows above which deflections are evaluated at fewer of them.
     most_deflections: usize,
 }
@@ -92,8 +95,9 @@ pub(super) struct SpanExtremes {
     pub values: Vec<SpanValue>,
     /// Those of the coarser choice of rows.
     pub coarse: Vec<SpanValue>,
-    /// The states at these rows, and the scan from which the extremes follow.
+    /// The states at these rows, those of them that were scanned, and the scan from which the extremes follow.
     states: LoadStates,
+    scanned: Vec<usize>,
     scan: Scan,
     pub sizes: [f64; FORCES + 2],
     /// The rows that were evaluated.
@@ -154,13 +158,14 @@ impl<'a> PreparedGirders<'a> {
         let Rows { history, loads, foundations, .. } = rows;
         let width = self.width(history, loads).max(1);
         let all: Vec<usize> = (0..history.len()).collect();
-        if let RowChoice::Sampled(least) = choice {
+        if choice == RowChoice::Sampled {
             let beside = self.rows_beside_corners(rows);
-            let stride = (history.len() * width).div_ceil(MAX_SAMPLED).max(least);
+            let stride = (history.len() * width).div_ceil(MAX_SAMPLED).max(1);
             let rows = with(every(&all, stride), &beside);
-            let kept = (0..rows.len()).filter(|index| beside.binary_search(&rows[*index]).is_ok());
-            let coarse = with(every(&(0..rows.len()).collect::<Vec<_>>(), 2), &kept.collect::<Vec<_>>());
-            return ChosenRows { rows, stride, coarse, most_deflections: MAX_STEPS };
+            let is_kept = |index: &usize| beside.binary_search(&rows[*index]).is_ok();
+            let kept: Vec<usize> = (0..rows.len()).filter(is_kept).collect();
+            let coarse = with(every(&(0..rows.len()).collect::<Vec<_>>(), 2), &kept);
+            return ChosenRows { rows, stride, coarse, kept, most_deflections: MAX_STEPS };
         }
         if choice == RowChoice::Needed {
             // places, forces, displacements and accelerations
@@ -177,12 +182,12 @@ impl<'a> PreparedGirders<'a> {
             };
             let rows = needed(&all, NEEDED[0]);
             let coarse = needed(&rows, NEEDED[1]);
-            return ChosenRows { rows, stride: 1, coarse, most_deflections: MAX_STEPS };
+            return ChosenRows { rows, stride: 1, coarse, kept: Vec::new(), most_deflections: MAX_STEPS };
         }
         let stride = (history.len() * width).div_ceil(MAX_VALUES).max(1);
         let rows = every(&all, stride);
         let coarse = every(&(0..rows.len()).collect::<Vec<_>>(), 2);
-        ChosenRows { rows, stride, coarse, most_deflections: MAX_DEFLECTIONS }
+        ChosenRows { rows, stride, coarse, kept: Vec::new(), most_deflections: MAX_DEFLECTIONS }
     }
 
     /// Rows at which a load is at an end of a member of its rail, or a motion or load has a corner, and the [`BESIDE`] rows on
@@ -201,9 +206,13 @@ impl<'a> PreparedGirders<'a> {
         &'b self,
         Rows { foundations, .. }: Rows<'b>,
         (sections, points): (&'b Sections, &'b PointDeflections<'b>),
-        states: &'b LoadStates,
+        (states, scanned): (&'b LoadStates, &'b [usize]),
         most_deflections: usize,
     ) -> LoadedGirders<'b> {
+        let most = (states.len() / most_deflections).max(1);
+        // a power of two, as the distances of scanned rows are
+        let deflection_stride = 1 << most.ilog2();
+        let is_deflected = |row: &usize| row.is_multiple_of(deflection_stride);
         LoadedGirders {
             foundation: &foundations[self.s],
             members: self.members,
@@ -211,8 +220,10 @@ impl<'a> PreparedGirders<'a> {
             sections,
             points,
             is_stopped: self.is_stopped,
-            deflection_stride: (states.len() / most_deflections).max(1),
+            deflection_stride,
             states,
+            scanned,
+            deflected: scanned.iter().copied().filter(is_deflected).collect(),
         }
     }
 
@@ -228,15 +239,31 @@ impl<'a> PreparedGirders<'a> {
         let states = self.states(rows, &chosen.rows);
         let points = PointDeflections::new(&rows.foundations[self.s], &self.sections, &states);
         let places = (&self.sections, &points);
-        let fine = self.loaded(rows, places, &states, chosen.most_deflections);
+        let scanned = self.scanned(&states, &chosen.kept);
+        let fine = self.loaded(rows, places, (&states, &scanned), chosen.most_deflections);
         let few = self.states(rows, &few);
-        let coarse = self.loaded(rows, places, &few, chosen.most_deflections);
-        let [scan, few] = Scan::both(&fine, &coarse, &chosen.coarse);
+        let common: Vec<[usize; 2]> = scanned
+            .iter()
+            .enumerate()
+            .filter_map(|(number, row)| Some([number, chosen.coarse.binary_search(row).ok()?]))
+            .collect();
+        let [numbers, own] = [0, 1].map(|k| common.iter().map(|pair| pair[k]).collect::<Vec<usize>>());
+        let coarse = self.loaded(rows, places, (&few, &own), chosen.most_deflections);
+        let [scan, few] = Scan::both(&fine, &coarse, &numbers);
         let values = |girders: &LoadedGirders<'_>, scan: &Scan| {
             Refinement { girders, scan, sizes: scan.sizes, accuracy }.spans()
         };
         let (values, coarse) = (values(&fine, &scan), values(&coarse, &few));
-        SpanExtremes { values, coarse, sizes: scan.sizes, states, scan, chosen }
+        SpanExtremes { values, coarse, sizes: scan.sizes, states, scanned, scan, chosen }
+    }
+
+    /// The rows at which peaks are looked for: all of them where stresses are wanted, of which only the largest row is known.
+    fn scanned(&self, states: &LoadStates, kept: &[usize]) -> Vec<usize> {
+        if !self.sections.stressed.all.is_empty() {
+            return (0..states.len()).collect();
+        }
+        let lengths = self.sections.rails.iter().flat_map(RailSpans::lengths);
+        scanned_rows(states, kept, lengths.fold(f64::INFINITY, f64::min))
     }
 
     /// The extremes of spans and reactions as results, and the envelopes at all places and at those of the extremes.
@@ -249,7 +276,8 @@ impl<'a> PreparedGirders<'a> {
         let (sizes, most) = (found.sizes, found.chosen.most_deflections);
         let (foundation, states) = (&rows.foundations[self.s], &found.states);
         let points = PointDeflections::new(foundation, &self.sections, states);
-        let girders = self.loaded(rows, (&self.sections, &points), states, most);
+        let states_of = (states, &found.scanned[..]);
+        let girders = self.loaded(rows, (&self.sections, &points), states_of, most);
         let refinement = Refinement { girders: &girders, scan: &found.scan, sizes, accuracy };
         let extremes = found.values.iter().map(|value| extreme(&refinement, value)).collect();
         let stresses = refinement.stresses(&found.values);
@@ -258,7 +286,7 @@ impl<'a> PreparedGirders<'a> {
         let places: Vec<(usize, f64)> = found.values.iter().map(|v| (v.rail, v.found.x)).collect();
         let sections = self.sections.at(&places, self.members);
         let points = PointDeflections::new(foundation, &sections, states);
-        let girders = self.loaded(rows, (&sections, &points), states, most);
+        let girders = self.loaded(rows, (&sections, &points), states_of, most);
         let scan = Scan::of_sections(&girders);
         all.extend(envelopes(&Refinement { girders: &girders, scan: &scan, sizes, accuracy }));
         // places in order; quantities keep theirs

@@ -49,14 +49,17 @@ fn of_second_order<'a>(
 /// The warnings of a case: of its run, and of the foundations chosen for it.
 #[must_use]
 pub fn case_warnings(scene: &Scene, outcome: &CaseResult) -> Vec<String> {
-    let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
-    all.extend(bounces::cycles_of_bounces(scene, outcome));
-    all.extend(of_second_order(scene, outcome, true));
-    all.extend(outcome.choices.iter().filter_map(|choice| {
-        let structure = &scene.structures[choice.structure];
-        foundations::selection_doubt(&structure.name, choice, structure.tolerance)
-    }));
-    all
+    let find = || {
+        let mut all = warnings(scene, &outcome.input, &outcome.columns, &outcome.run);
+        all.extend(bounces::cycles_of_bounces(scene, outcome));
+        all.extend(of_second_order(scene, outcome, true));
+        all.extend(outcome.choices.iter().filter_map(|choice| {
+            let structure = &scene.structures[choice.structure];
+            foundations::selection_doubt(&structure.name, choice, structure.tolerance)
+        }));
+        all
+    };
+    outcome.warnings.get_or_init(find).clone()
 }
 
 /// Notes of a case: numbers of its specs that follow from names of rolled sections and crane rails, and what its `accuracy` holds for.

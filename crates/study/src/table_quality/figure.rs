@@ -31,11 +31,7 @@ impl TableFigure {
     /// # Errors
     /// Data that a chart cannot draw.
     pub fn svg(&self) -> Result<Svg, chart::Error> {
-        match &self.picture {
-            Picture::Chart(chart) => chart.svg(),
-            Picture::Svg(svg) => Ok(svg.clone()),
-            Picture::Animation(animation) => Ok(animation.svg.clone()),
-        }
+        self.picture.svg()
     }
 }
 
