@@ -23,8 +23,9 @@ const WORTHWHILE: f64 = 0.7;
 
 /// Error of extremes by their difference from those at every second time, where errors fall with the square of the interval.
 const OF_EVERY_SECOND: f64 = 1.0 / 3.0;
-/// Every how many rows of long steps and of the times inside of them tell enough.
-const INSIDE: usize = 3;
+/// Every how many rows of long steps are evaluated first where not half of them can be left out, and the error of the extremes,
+/// relative to the accuracy, from which all are.
+const FEWER: (usize, f64) = (3, 0.3);
 
 /// The girders of a scene, prepared for any number of runs on the same foundations.
 pub(super) struct Prepared<'a> {
@@ -78,8 +79,9 @@ pub(super) type Repetition<'a> = dyn FnMut(usize) -> Option<History> + 'a;
 /// Where the ends of steps were recorded, the extremes are those at the ends of steps and between them: those
 /// between which loads and motions are straight lines to 1e-5 of the largest. By how much they change from those of a tolerance
 /// of 1e-4 shows what they may still change; the steps themselves are as accurate as the run. Where long steps were sampled
-/// inside, the extremes are compared with those at every second one of these times: D is then the difference of two errors of
-/// which one has twice the interval, and where errors fall with its square at least, that of all times is D/3 or less.
+/// inside, all of these times count, or every third of them where most would have to be evaluated and the error is small enough,
+/// and the extremes are compared with those at every second one: D is then the difference of two errors of which one has twice
+/// the interval, and where errors fall with its square at least, that of all times is D/3 or less.
 ///
 /// Otherwise the extremes at all rows are compared with those at every second row. As cubic polynomials interpolate between the
 /// rows, their difference falls with the fourth power of the interval where the motion is smooth. If it exceeds
@@ -109,11 +111,7 @@ pub(super) fn of_run(
     let (found, finer) = match recorded {
         Recorded::Rows(rows) => all.by_repetition(rows, repeat),
         Recorded::Steps(steps) => (all.attempt(steps, RowChoice::Needed), None),
-        Recorded::Inside(steps) => {
-            let mut found = all.attempt(steps, RowChoice::Sampled);
-            found.change.fraction *= OF_EVERY_SECOND;
-            (found, None)
-        }
+        Recorded::Inside(steps) => (all.inside(steps), None),
     };
     let history = finer.as_ref().unwrap_or(history);
     let loads = WheelLoadReader::new(scene, input, history);
@@ -124,7 +122,7 @@ pub(super) fn of_run(
         out.reactions.extend(reactions);
         out.envelope.extend(envelope);
         out.stresses.extend(stresses);
-        let usual = if matches!(recorded, Recorded::Inside(_)) { INSIDE } else { 1 };
+        let usual = if matches!(recorded, Recorded::Inside(_)) { FEWER.0 } else { 1 };
         if spans.chosen.stride > usual {
             out.notes.push(format!(
                 "{}: extremes of girders are evaluated at one of {} times, because they are many",
@@ -218,6 +216,21 @@ impl Evaluation<'_> {
             }
         }
         (found, finer)
+    }
+
+    /// The extremes at the ends of long steps and at times inside of them: at every third of them if most would have to be
+    /// evaluated, unless the error of those is too large.
+    fn inside(&self, steps: &History) -> Attempt {
+        let attempt = |choice: RowChoice| {
+            let mut found = self.attempt(steps, choice);
+            found.change.fraction *= OF_EVERY_SECOND;
+            found
+        };
+        let found = attempt(RowChoice::Smooth(FEWER.0));
+        // where the values are many, the first choice has as many of them as the second
+        let has_more = found.spans.iter().any(|spans| spans.chosen.stride == FEWER.0);
+        let is_rough = found.change.fraction > FEWER.1 * self.scene.accuracy;
+        if has_more && is_rough { attempt(RowChoice::Sampled(1)) } else { found }
     }
 
     /// Largest change of the extremes from one evaluation to the next, relative to the largest value of its kind.

@@ -70,10 +70,12 @@ pub(super) enum RowChoice {
     /// Those between which loads differ from straight lines by more than the tolerances [`NEEDED`], finer and coarser,
     /// relative to the largest load. They are raised until there are no more than [`MAX_VALUES`] of all rows.
     Needed,
-    /// Every row and every second one, at most [`MAX_SAMPLED`] values, and in both the rows beside those at which a load is at
-    /// an end of a member or a motion has a corner: rows at the ends of long steps, which end at such times, and inside of
-    /// them.
-    Sampled,
+    /// One of so many rows and every second one of these, at most [`MAX_SAMPLED`] values, and in both the rows beside those
+    /// at which a load is at an end of a member or a motion has a corner: rows at the ends of long steps, which end at such
+    /// times, and inside of them.
+    Sampled(usize),
+    /// `Sampled` with every row where at least half of them need not be scanned, otherwise with one of so many.
+    Smooth(usize),
 }
 
 /// Rows of a history that are evaluated.
@@ -158,9 +160,9 @@ impl<'a> PreparedGirders<'a> {
         let Rows { history, loads, foundations, .. } = rows;
         let width = self.width(history, loads).max(1);
         let all: Vec<usize> = (0..history.len()).collect();
-        if choice == RowChoice::Sampled {
+        if let RowChoice::Sampled(least) = choice {
             let beside = self.rows_beside_corners(rows);
-            let stride = (history.len() * width).div_ceil(MAX_SAMPLED).max(1);
+            let stride = (history.len() * width).div_ceil(MAX_SAMPLED).max(least);
             let rows = with(every(&all, stride), &beside);
             let is_kept = |index: &usize| beside.binary_search(&rows[*index]).is_ok();
             let kept: Vec<usize> = (0..rows.len()).filter(is_kept).collect();
@@ -234,12 +236,22 @@ impl<'a> PreparedGirders<'a> {
 
     /// Extremes of all spans, at some of the rows.
     pub fn spans(&self, rows: Rows<'_>, choice: RowChoice, accuracy: f64) -> SpanExtremes {
-        let chosen = self.chosen(rows, choice);
+        let scanned = |choice: RowChoice| {
+            let chosen = self.chosen(rows, choice);
+            let states = self.states(rows, &chosen.rows);
+            let scanned = self.scanned(&states, &chosen.kept);
+            (chosen, states, scanned)
+        };
+        let (chosen, states, scanned) = match choice {
+            RowChoice::Smooth(stride) => {
+                let all = scanned(RowChoice::Sampled(1));
+                if 2 * all.2.len() <= all.1.len() { all } else { scanned(RowChoice::Sampled(stride)) }
+            }
+            _ => scanned(choice),
+        };
         let few: Vec<usize> = chosen.coarse.iter().map(|index| chosen.rows[*index]).collect();
-        let states = self.states(rows, &chosen.rows);
         let points = PointDeflections::new(&rows.foundations[self.s], &self.sections, &states);
         let places = (&self.sections, &points);
-        let scanned = self.scanned(&states, &chosen.kept);
         let fine = self.loaded(rows, places, (&states, &scanned), chosen.most_deflections);
         let few = self.states(rows, &few);
         let common: Vec<[usize; 2]> = scanned
