@@ -13,7 +13,7 @@ use super::points::PointDeflections;
 use super::reactions::{GirderReaction, Reactions};
 use super::refine::{GirderValue, Refinement};
 use super::scan::Scan;
-use super::scanned_rows::scanned_rows;
+use super::scanned_rows::{fewest, is_worthwhile, scanned_rows};
 use super::sections::{RailSpans, Sections};
 use super::solved::SolvedMembers;
 use super::spans::SpanValue;
@@ -74,7 +74,7 @@ pub(super) enum RowChoice {
     /// at which a load is at an end of a member or a motion has a corner: rows at the ends of long steps, which end at such
     /// times, and inside of them.
     Sampled(usize),
-    /// `Sampled` with every row where at least half of them need not be scanned, otherwise with one of so many.
+    /// `Sampled` with every row where fewer of them need be scanned than one of so many, otherwise with one of so many.
     Smooth(usize),
 }
 
@@ -90,6 +90,13 @@ pub(super) struct ChosenRows {
     kept: Vec<usize>,
     /// Number of rows above which deflections are evaluated at fewer of them.
     most_deflections: usize,
+}
+
+/// Chosen rows, the states at them, and those of them at which peaks are looked for.
+struct ScannedStates {
+    chosen: ChosenRows,
+    states: LoadStates,
+    scanned: Vec<usize>,
 }
 
 /// Extremes of the spans of a structure and the largest magnitudes of its quantities, for one history.
@@ -236,19 +243,24 @@ impl<'a> PreparedGirders<'a> {
 
     /// Extremes of all spans, at some of the rows.
     pub fn spans(&self, rows: Rows<'_>, choice: RowChoice, accuracy: f64) -> SpanExtremes {
-        let scanned = |choice: RowChoice| {
-            let chosen = self.chosen(rows, choice);
-            let states = self.states(rows, &chosen.rows);
-            let scanned = self.scanned(&states, &chosen.kept);
-            (chosen, states, scanned)
-        };
-        let (chosen, states, scanned) = match choice {
+        let scanned = |choice: RowChoice| self.scanned(rows, self.chosen(rows, choice));
+        let found = match choice {
             RowChoice::Smooth(stride) => {
-                let all = scanned(RowChoice::Sampled(1));
-                if 2 * all.2.len() <= all.1.len() { all } else { scanned(RowChoice::Sampled(stride)) }
+                let (all, fewer) = (rows.history.len(), rows.history.len().div_ceil(stride));
+                // of long histories alone, because the choice itself takes time
+                is_worthwhile(fewest(all), fewer)
+                    .then(|| scanned(RowChoice::Sampled(1)))
+                    .filter(|found| is_worthwhile(found.scanned.len(), fewer))
+                    .unwrap_or_else(|| scanned(RowChoice::Sampled(stride)))
             }
             _ => scanned(choice),
         };
+        self.spans_at(rows, found, accuracy)
+    }
+
+    /// Extremes of all spans, with peaks that are looked for at the scanned rows.
+    fn spans_at(&self, rows: Rows<'_>, found: ScannedStates, accuracy: f64) -> SpanExtremes {
+        let ScannedStates { chosen, states, scanned } = found;
         let few: Vec<usize> = chosen.coarse.iter().map(|index| chosen.rows[*index]).collect();
         let points = PointDeflections::new(&rows.foundations[self.s], &self.sections, &states);
         let places = (&self.sections, &points);
@@ -269,13 +281,22 @@ impl<'a> PreparedGirders<'a> {
         SpanExtremes { values, coarse, sizes: scan.sizes, states, scanned, scan, chosen }
     }
 
-    /// The rows at which peaks are looked for: all of them where stresses are wanted, of which only the largest row is known.
-    fn scanned(&self, states: &LoadStates, kept: &[usize]) -> Vec<usize> {
-        if !self.sections.stressed.all.is_empty() {
-            return (0..states.len()).collect();
-        }
+    /// The states at chosen rows, and those of them at which peaks are looked for: all where stresses are wanted, of which only
+    /// the largest row is known, and where too few can be left out.
+    fn scanned(&self, rows: Rows<'_>, chosen: ChosenRows) -> ScannedStates {
+        let states = self.states(rows, &chosen.rows);
+        let (count, has_stresses) = (states.len(), !self.sections.stressed.all.is_empty());
+        let scanned = (!has_stresses && is_worthwhile(fewest(count), count))
+            .then(|| self.smooth(&states, &chosen.kept))
+            .filter(|scanned| is_worthwhile(scanned.len(), count));
+        ScannedStates { chosen, scanned: scanned.unwrap_or_else(|| (0..count).collect()), states }
+    }
+
+    /// The rows that are left where those between which loads and motions are smooth are left out.
+    fn smooth(&self, states: &LoadStates, kept: &[usize]) -> Vec<usize> {
         let lengths = self.sections.rails.iter().flat_map(RailSpans::lengths);
-        scanned_rows(states, kept, lengths.fold(f64::INFINITY, f64::min))
+        let samples: Vec<&[f64]> = (0..states.len()).map(|row| states.row(row)).collect();
+        scanned_rows(&samples, &states.kinds(), kept, lengths.fold(f64::INFINITY, f64::min))
     }
 
     /// The extremes of spans and reactions as results, and the envelopes at all places and at those of the extremes.
@@ -418,4 +439,109 @@ fn coincident(
         [GirderResponse::VerticalMoment, GirderResponse::VerticalShear]
     };
     [forces[moment as usize], forces[shear as usize], deflection]
+}
+
+#[cfg(test)]
+mod tests {
+    use std::ops::ControlFlow;
+
+    use formats::scene::SceneSource;
+    use formats::scene::motion::simulation_input;
+    use formats::text::source::Source;
+    use foundations::{distinct_specs, select_and_run, solution_of, solve_specs};
+
+    use super::*;
+    use crate::observe::ColumnObserver;
+
+    /// How a run is evaluated with rows left out and with all of them.
+    struct Compared {
+        /// Numbers of the rows: all, and those scanned.
+        rows: [usize; 2],
+        /// Largest difference of an extreme, an envelope or a reaction, relative to the largest value of its kind.
+        difference: f64,
+    }
+
+    /// Runs the first case of an example with changes and evaluates all rows, and those between which it is not smooth.
+    fn compared(example: &str, changes: &str) -> Compared {
+        let path = format!("{}/../../examples/{example}/scene.json", env!("CARGO_MANIFEST_DIR"));
+        let source = SceneSource::open(path.as_ref()).expect("an example");
+        let changes = Source { name: "changes".to_owned(), text: changes.to_owned() };
+        let document = source.document(Some(&changes), true).expect("a scene without faults");
+        let known = solve_specs(&document, &distinct_specs(&document)).expect("structures that stand");
+        let mut scene = document.cases[0].scene.clone();
+        let mut input = simulation_input(&scene).expect("equal fractions");
+        input.scene.records_steps = true;
+        let mut observer = ColumnObserver::new(&document.cases[0].scene, &input, &known, &|_| ());
+        let mut watch = |_: f64| ControlFlow::Continue(());
+        let run = select_and_run(&mut scene, &input.scene, &known, &|_, _| true, &mut observer, &mut watch);
+        let run = run.expect("a scene that starts");
+        let history = if run.run.steps.is_empty() { &run.run.history } else { &run.run.steps };
+        let loads = WheelLoadReader::new(&scene, &input, history);
+        let (all, is_stopped) = (SolvedMembers::new(&known), || false);
+        let solved = solution_of(all.known(), &scene.structures[0].origin).expect("a spec");
+        let girders = PreparedGirders::new(&scene, 0, &run.built[0], solved, (&all, &is_stopped));
+        let girders =
+            girders.expect("members that are solved").expect("a structure with members under rails");
+        let foundations: Vec<Foundation> = run.built.into_iter().map(|built| built.foundation).collect();
+        let breaks = input.scene.breaks();
+        let rows = Rows { history, loads: &loads, foundations: &foundations, breaks: &breaks };
+        let mut counts = [0; 2];
+        let found = [false, true].map(|leaves_out| {
+            let chosen = girders.chosen(rows, RowChoice::Sampled(1));
+            let states = girders.states(rows, &chosen.rows);
+            let scanned = match leaves_out {
+                true => girders.smooth(&states, &chosen.kept),
+                false => (0..states.len()).collect(),
+            };
+            counts[usize::from(leaves_out)] = scanned.len();
+            assert!(chosen.kept.iter().all(|row| scanned.binary_search(row).is_ok()));
+            let spans = girders.spans_at(rows, ScannedStates { chosen, states, scanned }, scene.accuracy);
+            let (extremes, envelopes, _, reactions) = girders.results(rows, &spans, scene.accuracy);
+            (spans.sizes, extremes, envelopes, reactions)
+        });
+        let [(sizes, extremes, envelopes, reactions), few] = found;
+        let of_kind = |quantity: usize| match quantity {
+            0 | 2 | 3 => sizes[0].max(sizes[2]).max(sizes[3]),
+            1 | 4 | 5 => sizes[1].max(sizes[4]).max(sizes[5]),
+            _ => sizes[6].max(sizes[7]),
+        };
+        let size = |quantity: GirderResponse| {
+            of_kind(GirderResponse::ALL.iter().position(|own| *own == quantity).expect("one of all"))
+        };
+        let mut difference = 0.0_f64;
+        assert!(!extremes.is_empty() && extremes.len() == few.1.len());
+        for (a, b) in extremes.iter().zip(&few.1) {
+            assert_eq!((a.rail, a.span, a.quantity, a.is_max), (b.rail, b.span, b.quantity, b.is_max));
+            difference = difference.max((a.value - b.value).abs() / size(a.quantity));
+        }
+        // places of extremes may differ by rounding
+        let key = |a: &GirderEnvelope| (a.rail, a.x.to_bits(), a.quantity, a.is_max);
+        let mut same = 0;
+        for a in &envelopes {
+            if let Some(b) = few.2.iter().find(|b| key(b) == key(a)) {
+                difference = difference.max((a.value - b.value).abs() / size(a.quantity));
+                same += 1;
+            }
+        }
+        assert!(10 * same > 8 * envelopes.len(), "{same} of {}", envelopes.len());
+        assert!(!reactions.is_empty() && reactions.len() == few.3.len());
+        for (a, b) in reactions.iter().zip(&few.3) {
+            assert_eq!((&a.support, a.direction, a.is_max), (&b.support, b.direction, b.is_max));
+            let size = of_kind(usize::from(a.direction >= fea::Dof::Rx));
+            difference = difference.max((a.value - b.value).abs() / size);
+        }
+        Compared { rows: counts, difference }
+    }
+
+    /// Identity: rows between which loads and motions are smooth change no extreme, envelope or reaction that is followed among
+    /// them, of wheels that roll over supports on a girder that vibrates.
+    #[test]
+    fn extremes_with_rows_left_out_are_those_of_all_rows() {
+        let short = r#"{"end": {"time": 4}}"#;
+        for (example, changes) in [("bogie", "{}"), ("runway", short), ("monorail", "{}")] {
+            let Compared { rows: [all, scanned], difference } = compared(example, changes);
+            assert!(3 * scanned < all, "{example}: {scanned} of {all} rows");
+            assert!(difference < 1e-7, "{example}: {difference:e}");
+        }
+    }
 }
