@@ -54,8 +54,8 @@ fn a_dropped_bogie_reaches_the_end_at_every_accuracy_by_one_method() {
 #[test]
 fn a_run_that_another_method_has_completed_is_warned_of() {
     let folder = folder();
-    let (document, mut cases) = run(folder.path(), 1e-3);
     for abandoned in [None, Some((Method::Radau, 0.1))] {
+        let (document, mut cases) = run(folder.path(), 1e-3);
         cases[0].run.abandoned = abandoned;
         let warnings = results::warning::case_warnings(document.scene(), &cases[0]);
         let is_named = warnings.iter().any(|warning| warning.contains("could not continue"));
