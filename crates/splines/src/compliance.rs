@@ -72,10 +72,18 @@ pub struct GroupMember {
 }
 
 impl ProbeGroups {
-    /// Sums the coefficients between `probes` over the groups.
-    pub(crate) fn sum(&self, of: &Influence, out: &mut Influence) {
+    /// Evaluates the coefficients between all probes, and sums them over the groups.
+    pub(crate) fn sum(
+        &self,
+        compliance: &(impl Compliance + ?Sized),
+        kept: &mut KeptProducts,
+        out: &mut Influence,
+    ) -> Result<(), Error> {
+        out.expect(self.count)?;
         let (count, size) = (self.count, self.probes.len());
-        let (values, slopes) = (of.value.as_slice(), of.slope.as_slice());
+        let all = kept.influence.get_or_insert_with(|| Influence::zeros(size));
+        compliance.fill(&self.probes, all)?;
+        let (values, slopes) = (all.value.as_slice(), all.slope.as_slice());
         let (value, slope) = (out.value.as_mut_slice(), out.slope.as_mut_slice());
         value.fill(0.0);
         slope.fill(0.0);
@@ -89,6 +97,7 @@ impl ProbeGroups {
                 slope[place] += weight * slopes[row.probe];
             }
         }
+        Ok(())
     }
 }
 
@@ -214,11 +223,7 @@ pub trait Compliance: Send + Sync {
         kept: &mut KeptProducts,
         out: &mut Influence,
     ) -> Result<(), Error> {
-        out.expect(groups.count)?;
-        let all = kept.influence.get_or_insert_with(|| Influence::zeros(groups.probes.len()));
-        self.fill(&groups.probes, all)?;
-        groups.sum(all, out);
-        Ok(())
+        groups.sum(self, kept, out)
     }
 
     /// Prepares the displacements at the probes `at` for loads that change from call to call, with the values of

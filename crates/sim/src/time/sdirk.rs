@@ -14,12 +14,6 @@ use crate::mechanics::state::{Known, State};
 use crate::record::energy::power;
 use crate::{Error, Exchanged, Method};
 
-/// Length of a step of SDIRK4, relative to one of ESDIRK5 with the same error.
-const RESTART: f64 = 0.5;
-
-/// Number of step lengths covered by the path along which the compliance is interpolated, of SDIRK4 and of ESDIRK5.
-const PATHS: [f64; 2] = [8.0, 4.0];
-
 /// The stages of one step.
 pub(crate) struct Sdirk {
     /// The method of steps that go on smoothly.
@@ -75,12 +69,12 @@ impl Sdirk {
     /// error, and the power of the length with which its estimated error decreases.
     pub fn lengths(&self, begins_smoothly: bool) -> [f64; 2] {
         let own = self.tableau(begins_smoothly);
-        [if own.c.len() < self.smooth.c.len() { RESTART } else { 1.0 }, own.error_power]
+        [own.length / self.smooth.length, own.error_power]
     }
 
     /// Number of step lengths covered by the path along which the compliance is interpolated.
     pub fn path(&self) -> f64 {
-        PATHS[usize::from(self.smooth.c.len() > SDIRK4.c.len())]
+        self.smooth.path
     }
 
     /// Notes the powers at the start of the next step, `from`, to which the geometry of the solver must belong.
@@ -91,7 +85,8 @@ impl Sdirk {
     }
 
     /// Takes a step of length `h` from `from` with the active elements; returns false if a stage does not converge.
-    /// `begins_smoothly` is false after a break or an event, `stages` counts the stages. Afterwards the geometry of the solver is that of the last stage.
+    /// `begins_smoothly` is false after a break or an event, `stages` counts the stages. Afterwards the geometry of the solver is
+    /// that of the last stage.
     ///
     /// # Errors
     /// Any error from evaluating the rails.

@@ -307,13 +307,7 @@ impl Compliance for ExactSurface {
         out: &mut Influence,
     ) -> Result<(), Error> {
         out.expect(of.count)?;
-        if groups::fill(&self.rails, &self.nodal, of, kept, out)? {
-            return Ok(());
-        }
-        let all = kept.influence.get_or_insert_with(|| Influence::zeros(of.probes.len()));
-        self.fill(&of.probes, all)?;
-        of.sum(all, out);
-        Ok(())
+        if groups::fill(&self.rails, &self.nodal, of, kept, out)? { Ok(()) } else { of.sum(self, kept, out) }
     }
 
     /// The nodal displacements under all loads are computed once.

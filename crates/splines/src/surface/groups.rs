@@ -9,6 +9,7 @@
 
 use nalgebra::DMatrix;
 
+use super::planar::Output;
 use crate::compliance::{ElementHalf, GroupMember, GroupPart, Influence, KeptProducts, ProbeGroups};
 use crate::error::Error;
 use crate::probe::Probe;
@@ -57,7 +58,7 @@ pub(super) fn fill(
         part.value = std::array::from_fn(|k| part.value[k] + weight * value[k]);
         part.slope = std::array::from_fn(|k| part.slope[k] + weight * rate * slope[k]);
     }
-    let mut to = Output { n: groups.count, value: out.value.as_mut_slice(), slope: out.slope.as_mut_slice() };
+    let mut to = Output::of(out, groups.count);
     to.value.fill(0.0);
     to.slope.fill(0.0);
     add_nodal(kept, &mut to);
@@ -208,27 +209,6 @@ fn add_elements(
                 let [value, by_part, by_load] = part.with(load);
                 to.add([*other, *group], value, [by_part, by_load], number == 0);
             }
-        }
-    }
-}
-
-/// The matrices of an [`Influence`], by columns.
-struct Output<'a> {
-    n: usize,
-    value: &'a mut [f64],
-    slope: &'a mut [f64],
-}
-
-impl Output<'_> {
-    /// Adds the value of a pair of the groups i and j and its slopes by both; once for the pair of a part with itself.
-    #[inline]
-    fn add(&mut self, [i, j]: [usize; 2], value: f64, [by_i, by_j]: [f64; 2], is_itself: bool) {
-        let (there, back) = (i + self.n * j, j + self.n * i);
-        self.value[there] += value;
-        self.slope[there] += by_i;
-        if !is_itself {
-            self.value[back] += value;
-            self.slope[back] += by_j;
         }
     }
 }

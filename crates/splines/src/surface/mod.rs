@@ -2,7 +2,8 @@
 //! influence coefficients, and what is derived from them.
 //!
 //! Order: `planar` (the fast path of the exact surface), `places` (displacements of fixed places under loads that change),
-//! `groups` (the exact surface between groups of probes that move), `exact`, `displacement_lines` (displacements of fixed places under unit loads anywhere), `effects` (reactions and internal forces),
+//! `groups` (the exact surface between groups of probes that move), `exact`,
+//! `displacement_lines` (displacements of fixed places under unit loads anywhere), `effects` (reactions and internal forces),
 //! `shapes` (given motions of the rails), `residual` (a surface less what such motions account for),
 //! `element_residual` (the same for deflections of single members),
 //! `uncoupled` (a compliance without some of its couplings).

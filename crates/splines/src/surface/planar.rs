@@ -67,7 +67,7 @@ pub(super) fn fill(
             .sort_unstable_by(|a, b| a.block.cmp(&b.block).then(a.x.total_cmp(&b.x)).then(a.who.cmp(&b.who)));
     }
     let n = at.len();
-    let mut to = Output { n, value: out.value.as_mut_slice(), slope: out.slope.as_mut_slice() };
+    let mut to = Output::of(out, n);
     let mut rest = &*probes;
     while let Some(first) = rest.first() {
         let (own, others) = rest.split_at(same_block(rest));
@@ -159,13 +159,30 @@ fn same_block(probes: &[PlanarProbe]) -> usize {
 }
 
 /// The matrices of an [`Influence`], by columns.
-struct Output<'a> {
+pub(super) struct Output<'a> {
     n: usize,
-    value: &'a mut [f64],
-    slope: &'a mut [f64],
+    pub value: &'a mut [f64],
+    pub slope: &'a mut [f64],
 }
 
 impl Output<'_> {
+    /// Those of `out`, which are n x n.
+    pub fn of(out: &mut Influence, n: usize) -> Output<'_> {
+        Output { n, value: out.value.as_mut_slice(), slope: out.slope.as_mut_slice() }
+    }
+
+    /// Adds the value of a pair of the groups i and j and its slopes by both; once for the pair of a part with itself.
+    #[inline]
+    pub fn add(&mut self, [i, j]: [usize; 2], value: f64, [by_i, by_j]: [f64; 2], is_itself: bool) {
+        let (there, back) = (i + self.n * j, j + self.n * i);
+        self.value[there] += value;
+        self.slope[there] += by_i;
+        if !is_itself {
+            self.value[back] += value;
+            self.slope[back] += by_j;
+        }
+    }
+
     /// Stores the value of a pair and its slopes by p and by q.
     #[inline]
     fn put(&mut self, p: &PlanarProbe, q: &PlanarProbe, [value, by_p, by_q]: [f64; 3]) {
