@@ -199,12 +199,11 @@ impl RailCompliance {
         }
     }
 
-    /// Removes all paths.
-    pub fn clear_paths(&mut self) {
-        self.providers
-            .iter_mut()
-            .filter_map(|provider| provider.path.as_mut())
-            .for_each(CompliancePath::clear);
+    /// Removes the path of structure `s`.
+    pub fn clear_path(&mut self, s: usize) {
+        if let Some(path) = &mut self.providers[s].path {
+            path.clear();
+        }
     }
 }
 

@@ -516,9 +516,9 @@ impl Geometry {
         self.rails.set_paths(mechanics, &system.probes, places.each_ref().map(Vec::as_slice));
     }
 
-    /// Removes the paths of the compliance.
-    pub fn clear_paths(&mut self) {
-        self.rails.clear_paths();
+    /// Removes the path of the compliance of structure `s`.
+    pub fn clear_path(&mut self, s: usize) {
+        self.rails.clear_path(s);
     }
 
     /// Sets the rail coordinates of wheels that cross at constant `speed` from their coordinates `start`, at time

@@ -72,6 +72,11 @@ impl Sdirk {
         [own.length / self.smooth.length, own.error_power]
     }
 
+    /// Largest tolerance of steps for the errors of forces.
+    pub fn loosest(&self) -> f64 {
+        self.smooth.loosest
+    }
+
     /// Number of step lengths covered by the path along which the compliance is interpolated.
     pub fn path(&self) -> f64 {
         self.smooth.path

@@ -14,6 +14,10 @@ use crate::{Error, Exchanged, Method};
 /// Number of step lengths covered by the path along which the compliance is interpolated, of collocation.
 const PATH: f64 = 8.0;
 
+/// Largest tolerance of a step of collocation for the errors of forces: at larger ones these errors are not yet proportional
+/// to powers of the step.
+const LOOSEST: f64 = 8e-3;
+
 /// Power of the step length with which the errors of collocation are taken to decrease.
 const ERROR_POWER: f64 = 4.0;
 
@@ -31,6 +35,15 @@ const SETTLED: f64 = 12.0;
 enum Integrator {
     Sdirk(Box<Sdirk>),
     Collocation(Box<Collocation>),
+}
+
+/// Where paths of wheels begin.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Start {
+    /// At the start of the step.
+    Of,
+    /// At its end, where the next step begins.
+    After,
 }
 
 /// A step from `from` to `to`.
@@ -170,9 +183,22 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Length of the step, relative to one that begins smoothly with the same error, and the power of the length with which its
     /// estimated error decreases.
     pub fn lengths(&self) -> [f64; 2] {
+        self.lengths_of(self.begins_smoothly)
+    }
+
+    /// The same of a step that `begins_smoothly`, or after a break or an event.
+    pub fn lengths_of(&self, begins_smoothly: bool) -> [f64; 2] {
         match &self.integrator {
-            Integrator::Sdirk(sdirk) => sdirk.lengths(self.begins_smoothly),
+            Integrator::Sdirk(sdirk) => sdirk.lengths(begins_smoothly),
             Integrator::Collocation(_) => [1.0, ERROR_POWER],
+        }
+    }
+
+    /// Largest tolerance of a step for the errors of forces.
+    pub fn loosest(&self) -> f64 {
+        match &self.integrator {
+            Integrator::Sdirk(sdirk) => sdirk.loosest(),
+            Integrator::Collocation(_) => LOOSEST,
         }
     }
 
@@ -341,9 +367,9 @@ impl<'a, 'b> Step<'a, 'b> {
         if has_grounded && !is_there { self.solver.update(&self.to) } else { Ok(()) }
     }
 
-    /// Sets the paths of the wheels in a step of length `h` and the following ones, extrapolated with the
-    /// accelerations at the start of the step.
-    pub fn set_paths(&mut self, h: f64) {
+    /// Sets the paths of the wheels in a step of length `h` and in those that follow it, of the length `usual`, from `start`,
+    /// which is the start of the step, or the end of the step before it. They are extrapolated with the accelerations there.
+    pub fn set_paths(&mut self, start: Start, [h, usual]: [f64; 2]) {
         if !self.solver.wants_paths() {
             return;
         }
@@ -351,8 +377,12 @@ impl<'a, 'b> Step<'a, 'b> {
             Integrator::Sdirk(sdirk) => sdirk.path(),
             Integrator::Collocation(_) => PATH,
         };
-        let (from, to, beyond) = (&self.from, &mut self.probe, &mut self.beyond);
-        for (h, at) in [(h, &mut *to), (path * h, &mut *beyond)] {
+        let from = match start {
+            Start::Of => &self.from,
+            Start::After => &self.to,
+        };
+        let (to, beyond) = (&mut self.probe, &mut self.beyond);
+        for (h, at) in [(h, &mut *to), (path * usual.max(h), &mut *beyond)] {
             extrapolate(from, h, at);
         }
         let ends = [from, &*to, &*beyond].map(|at| (at.t, &at.q));

@@ -14,7 +14,7 @@ use super::events::{
 };
 use super::modal_loads::ModalLoads;
 use super::outcome::{Counts, Strike, StruckBy};
-use super::step::Step;
+use super::step::{Start, Step};
 use super::step_size::StepSize;
 use super::triggers::Triggers;
 use super::wheel_forces::WheelForces;
@@ -63,10 +63,6 @@ const ASKED: f64 = 1.0 / 3.0;
 /// Error of a wheel force, relative to its size, per unit of the error of a displacement, relative to its scale. It is
 /// fitted to the crossings S1 to S4 of `tests/accuracy.rs`, and judged there by scenes at random.
 const FORCE_SHARE: f64 = 0.6;
-
-/// Largest tolerance of a step for the errors of forces: at larger ones these errors are not yet proportional to powers of
-/// the step.
-const LOOSEST: f64 = 8e-3;
 
 /// Energy that a step in which a flange touches or separates may leave unaccounted for, relative to the peak energy, per
 /// unit of the tolerance.
@@ -322,7 +318,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 trial.h *= fraction;
             }
         }
-        self.step.set_paths(trial.h);
+        self.step.set_paths(Start::Of, [trial.h, self.size.planned(1.0, widest)]);
         trial
     }
 
@@ -351,7 +347,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             return Ok(error / self.size.tolerance);
         }
         let forces = self.wheel_forces.relative(self.step.force_errors());
-        let allowed = self.size.tolerance.min(LOOSEST);
+        let allowed = self.size.tolerance.min(self.step.loosest());
         let forces = FORCE_SHARE * forces * self.size.tolerance / allowed;
         Ok(error.max(forces) / self.size.tolerance)
     }
@@ -572,7 +568,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// Returns the energy supplied.
     fn pass_joint(&mut self) -> Result<f64, Error> {
         let slack = self.break_slack();
-        let Step { solver, to, probe, .. } = &mut self.step;
+        let usual = self.size.planned(1.0, f64::INFINITY);
+        let h = usual * self.step.lengths_of(false)[0];
+        let Step { solver, to, .. } = &mut self.step;
         let system = solver.system();
         let Some(w) = self.meets.take().filter(|_| system.mechanics.has_sliding_rails()) else {
             return Ok(0.0);
@@ -584,9 +582,13 @@ impl<'a, 'b> Stepper<'a, 'b> {
         for &i in &felt {
             to.p[i] += solver.geometry().deflection(i, &to.force);
         }
+        // The path of the next step serves for the place beyond the joint. Other structures keep theirs.
+        let contact = system.mechanics.wheels[w].contact;
+        solver.clear_path(system.scene.contacts[contact].structure);
+        self.step.set_paths(Start::After, [h, usual]);
+        let Step { solver, to, probe, .. } = &mut self.step;
         probe.q.copy_from(&to.q);
         probe.q.axpy(near / speed.abs(), &to.v, 1.0);
-        solver.clear_paths();
         solver.update_to(to, &probe.q)?;
         for i in felt {
             to.p[i] -= solver.geometry().deflection(i, &to.force);

@@ -18,6 +18,8 @@ pub(crate) struct Tableau {
     pub error: &'static [f64],
     /// Power of the step length with which the error decreases that is estimated by the embedded method.
     pub error_power: f64,
+    /// Largest tolerance of a step for the errors of forces: at larger ones too many runs miss the accuracy of their forces.
+    pub loosest: f64,
     /// Length of a step, relative to one of ESDIRK5 with the same error.
     pub length: f64,
     /// Number of step lengths covered by the path along which the compliance is interpolated.
@@ -55,6 +57,7 @@ pub(crate) const SDIRK4: Tableau = Tableau {
     guess: &[&[], &[0], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3], &[0, 2, 3]],
     error: &[0.0, -3.0 / 16.0, -27.0 / 32.0, 25.0 / 32.0, 0.0, 0.25],
     error_power: 4.0,
+    loosest: 8e-3,
     length: 0.5,
     path: 8.0,
 };
@@ -117,6 +120,7 @@ pub(crate) const ESDIRK5: Tableau = Tableau {
         CAUTION * 0.044_807_498_581_691_03,
     ],
     error_power: 5.0,
+    loosest: 1.65e-2,
     length: 1.0,
     path: 4.0,
 };

@@ -145,9 +145,9 @@ impl<'a> Solver<'a> {
         self.geometry.set_paths(self.system, ends);
     }
 
-    /// Removes the paths of the compliance.
-    pub fn clear_paths(&mut self) {
-        self.geometry.clear_paths();
+    /// Removes the path of the compliance of structure `s`.
+    pub fn clear_path(&mut self, s: usize) {
+        self.geometry.clear_path(s);
     }
 
     /// Exchanges the geometry of the solver with `geometry`, which belongs to the current state.
