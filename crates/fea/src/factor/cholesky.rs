@@ -40,6 +40,8 @@ pub(crate) enum FactorError {
 pub(crate) struct Factor<T: Real = f64> {
     symbolic: SymbolicCholesky<usize>,
     values: Vec<T>,
+    /// 1/L_kk of a factor in single columns: a quotient of double-doubles takes several times as long as a product.
+    reciprocals: Vec<T>,
     /// Panel of each column.
     pub(super) panel_of: Vec<usize>,
     pub(super) panels: usize,
@@ -77,15 +79,18 @@ impl<T: Real> Factor<T> {
                 Default::default(),
             )
             .map_err(|_| FactorError::Indefinite)?;
-        let (panel_of, panels) = match symbolic.raw() {
-            SymbolicCholeskyRaw::Simplicial(_) => ((0..n).collect(), n),
+        let (panel_of, panels, reciprocals) = match symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(columns) => {
+                let of = |&start: &usize| T::one() / values[start];
+                ((0..n).collect(), n, columns.col_ptr()[..n].iter().map(of).collect())
+            }
             SymbolicCholeskyRaw::Supernodal(s) => {
                 let spans = s.supernode_begin().iter().zip(s.supernode_end());
                 let all = spans.enumerate().flat_map(|(k, (a, b))| std::iter::repeat_n(k, b - a)).collect();
-                (all, s.n_supernodes())
+                (all, s.n_supernodes(), Vec::new())
             }
         };
-        Ok(Factor { symbolic, values, panel_of, panels })
+        Ok(Factor { symbolic, values, reciprocals, panel_of, panels })
     }
 
     /// Number of rows and columns.
@@ -204,7 +209,8 @@ impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         if let SymbolicCholeskyRaw::Simplicial(columns) = self.factor.symbolic.raw() {
-            solve_columns(columns.col_ptr(), columns.row_idx(), &self.factor.values, self.x);
+            let Factor { values, reciprocals, .. } = self.factor;
+            solve_columns(columns.col_ptr(), columns.row_idx(), (values, reciprocals), self.x);
             return;
         }
         if W == 1 || W >= DENSE_LANES {
@@ -219,12 +225,18 @@ impl<T: Real, const W: usize> WithSimd for Solve<'_, T, W> {
     }
 }
 
-/// Solves K x = x in place by a factor in single columns, by the starts of the columns, their rows and their values.
+/// Solves K x = x in place by a factor in single columns, by the starts of the columns, their rows, their values and the
+/// reciprocals of their pivots.
 #[inline(always)]
-fn solve_columns<T: Real, const W: usize>(starts: &[usize], rows: &[usize], values: &[T], x: &mut [[T; W]]) {
+fn solve_columns<T: Real, const W: usize>(
+    starts: &[usize],
+    rows: &[usize],
+    (values, reciprocals): (&[T], &[T]),
+    x: &mut [[T; W]],
+) {
     for (k, ends) in starts.windows(2).enumerate() {
         let (rows, values) = (&rows[ends[0] + 1..ends[1]], &values[ends[0]..ends[1]]);
-        let value = x[k].map(|value| value / values[0]);
+        let value = x[k].map(|value| value * reciprocals[k]);
         x[k] = value;
         for (&row, l) in rows.iter().zip(&values[1..]) {
             subtract_scaled(&mut x[row], *l, &value);
@@ -236,7 +248,7 @@ fn solve_columns<T: Real, const W: usize>(starts: &[usize], rows: &[usize], valu
         for (&row, l) in rows.iter().zip(&values[1..]) {
             subtract_scaled(&mut value, *l, &x[row]);
         }
-        x[k] = value.map(|value| value / values[0]);
+        x[k] = value.map(|value| value * reciprocals[k]);
     }
 }
 

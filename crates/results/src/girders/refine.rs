@@ -99,7 +99,7 @@ impl Refinement<'_> {
             let (signed, position) = self.over_time((peak, 1), quantity, &mut |position| value(position));
             offer(&mut found, Some(make(signed, position, None, None, section.side)));
         }
-        for passage in self.scan.passages.iter().filter(|passage| passage.section == at) {
+        for passage in &self.scan.passages[at] {
             let signed = SIGNS[kind] * passage.values[quantity];
             let side = match section.side {
                 SectionSide::At if is_moment(quantity) => SectionSide::At,

@@ -16,7 +16,6 @@ pub(super) type ForcePeaks = [Peaks; FORCES];
 /// A wheel that passes a section: the time counted in rows.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Passage {
-    pub section: usize,
     pub load: usize,
     pub position: f64,
     /// Whether it is the state just after the passage.
@@ -38,7 +37,8 @@ pub(super) struct Scan {
     pub under: Vec<[Peaks; 2]>,
     /// First number of the spans of each rail, and the number of all.
     pub first_span: Vec<usize>,
-    pub passages: Vec<Passage>,
+    /// By section, each by increasing time.
+    pub passages: Vec<Vec<Passage>>,
     pub stresses: StressRows,
     /// Largest magnitude of each quantity, and of both deflections.
     pub sizes: [f64; FORCES + 2],
@@ -128,7 +128,7 @@ impl Scan {
             wheels: vec![ForcePeaks::default(); 2 * loads * spans],
             under: vec![Default::default(); loads * spans],
             first_span,
-            passages: Vec::new(),
+            passages: vec![Vec::new(); sections.sections.len()],
             stresses: StressRows::new(&sections.stressed, sections.sections.len(), loads),
             sizes: [0.0; FORCES + 2],
             acting,
@@ -206,8 +206,7 @@ impl Scan {
                     let values = girders.forces_in(section.member, section.place, &state, own);
                     let sizes = self.sizes.iter_mut().zip(values);
                     sizes.for_each(|(size, value)| *size = size.max(value.abs()));
-                    let passage = Passage { section: index, load, position, is_after, is_behind, values };
-                    self.passages.push(passage);
+                    self.passages[index].push(Passage { load, position, is_after, is_behind, values });
                 }
             }
         }

@@ -164,9 +164,8 @@ impl Refinement<'_> {
                 offer(&mut found, Some(GirderValue { signed, ..value.found }));
             }
         }
-        for passage in &scan.passages {
-            let own = all.sections[passage.section];
-            if is_own(own.member) {
+        for (own, passages) in all.sections.iter().zip(&scan.passages).filter(|(own, _)| is_own(own.member)) {
+            for passage in passages {
                 offer(
                     &mut found,
                     Some(GirderValue {
