@@ -53,7 +53,7 @@ pub use select::{
 };
 pub use solved::{
     SolvedModel, SolvedStructure, StructureCache, SystemSize, distinct_specs, solution_of, solve,
-    solve_specs, solve_to,
+    solve_for_file, solve_specs,
 };
 pub use tables::influence_blocks;
 pub use wheels_at_rest::with_wheels_at_rest;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use fea::FactoredFrame;
 use formats::grid::StationGrid;
+use formats::grid::file::surface_omission;
 use formats::kept::KeptValues;
 use formats::scene::{Document, Origin};
 use formats::spec::{SolveError, Spec};
@@ -18,7 +19,8 @@ pub struct SolvedModel {
     pub model: fea::Model,
     /// Its rails.
     pub rails: Vec<fea::Rail>,
-    /// Exact influence surface; `None` where it would be larger than the limit passed to [`solve_to`].
+    /// Exact influence surface; `None` where it is too large for the grid file for which the spec was solved
+    /// ([`solve_for_file`]).
     pub surface: Option<ExactSurface>,
     /// Grids at the stations.
     pub grid: StationGrid,
@@ -51,41 +53,33 @@ impl std::fmt::Display for SystemSize {
 /// An entry that cannot be used, a mechanism, or a solution whose error bound exceeds [`fea::DEFAULT_ACCURACY`].
 pub fn solve(spec: &Spec) -> Result<SolvedModel, fea::Error> {
     let (model, rails, frame) = spec.factored()?;
-    solved(spec, model, rails, &frame, usize::MAX)
+    solved(spec, model, rails, &frame, true)
 }
 
-/// Solves a spec like [`solve`], with a relative error bound of the compliances of at most `accuracy`. The surface is
-/// omitted where the rail elements have more than `most` degrees of freedom at their ends (6 per end), because its
-/// size grows with the square of their number.
+/// Solves a spec for its grid file, with a relative error bound of the compliances of at most `accuracy`. A surface that
+/// is too large for the file is not computed, because its size grows with the square of the number of rail elements.
 ///
 /// # Errors
 /// As [`solve`].
-pub fn solve_to(spec: &Spec, accuracy: f64, most: usize) -> Result<SolvedModel, fea::Error> {
+pub fn solve_for_file(spec: &Spec, accuracy: f64) -> Result<SolvedModel, fea::Error> {
     let (model, rails) = spec.model()?;
     let frame = FactoredFrame::with_accuracy(&model, &rails, accuracy)?;
-    solved(spec, model, rails, &frame, most)
+    solved(spec, model, rails, &frame, false)
 }
 
-/// What is kept of a factored frame of the model of a spec.
+/// What is kept of a factored frame of the model of a spec. `always`: also a surface that is too large for a file.
 fn solved(
     spec: &Spec,
     model: fea::Model,
     rails: Vec<fea::Rail>,
     frame: &FactoredFrame,
-    most: usize,
+    always: bool,
 ) -> Result<SolvedModel, fea::Error> {
     let grid = StationGrid::of(spec, frame)?.with_effects(spec, &model, frame)?;
     let mut grid = grid.with_critical_factor(spec)?;
-    let dofs = 6 * frame.line()?.state_count();
-    let surface = if dofs <= most {
-        Some(frame.surface()?.surface)
-    } else {
-        grid.notes.push(format!(
-            "no influence surface: the compliance matrix of the {dofs} degrees of freedom at the ends of the rail \
-             elements is too large for a file"
-        ));
-        None
-    };
+    let omission = surface_omission(6 * frame.line()?.state_count());
+    let surface = if always || omission.is_none() { Some(frame.surface()?.surface) } else { None };
+    grid.notes.extend(omission);
     let size = Some(SystemSize { unknowns: frame.unknowns(), bytes: frame.factor_bytes() });
     Ok(SolvedModel {
         model,

@@ -5,7 +5,7 @@ use crate::exit::{Exit, Failure};
 use crate::output;
 use crate::progress::Progress;
 use formats::grid::coupling::Coupling;
-use formats::grid::file::{self, MAX_DOFS};
+use formats::grid::file;
 use formats::grid::modes_file::{self, MESH_TOLERANCE};
 use formats::spec::Spec;
 use formats::text::fault::{Fault, Faults};
@@ -29,7 +29,7 @@ pub fn run(args: &FeaArgs, global: Global) -> Result<Exit, Failure> {
         spec = spec.with_theory(theory.into());
     }
     let stage = progress.stage("solving");
-    let solved = foundations::solve_to(&spec, args.accuracy, MAX_DOFS);
+    let solved = foundations::solve_for_file(&spec, args.accuracy);
     drop(stage);
     let solved = solved.map_err(|error| spec.locate_error(&source, &error))?;
     // natural modes need no rail that resists loads

@@ -74,7 +74,8 @@ fn unchanged(document: &Document, path: &Path, file: &str) -> Result<Vec<OutputE
     }
 }
 
-/// Reads grid and exact surface from a grid file, which must have the hash that the manifest lists.
+/// Reads grid and exact surface from a grid file, which must have the hash that the manifest lists. A spec whose surface
+/// is too large for the file is solved again.
 fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel, Failure> {
     let (inputs, source) = Inputs::open(path)?;
     if listed != Some(inputs.all()[0].sha256.as_str()) {
@@ -86,7 +87,9 @@ fn solved(spec: &Spec, path: &Path, listed: Option<&str>) -> Result<SolvedModel,
     if grid.units != spec.units {
         return Err(wrong("is in other units than the scene"));
     }
-    let surface = surface.ok_or_else(|| wrong("has no member `surface`"))?;
+    let Some(surface) = surface else {
+        return foundations::solve(spec).map_err(Failure::untrusted);
+    };
     let (model, rails) = spec.model().map_err(Failure::untrusted)?;
     let girder = spec.girder().cloned();
     let modes = ComputedModes::default();

@@ -112,16 +112,17 @@ pub fn write(effects: &Effects, units: Units) -> String {
     let (force, length) = (units.force.word(), units.length.word());
     let own = json!({ "force": format!("{force}/{force}"), "moment": format!("{force} {length}/{force}") });
     let mut text = format!("{{\n    \"units\": {own}");
-    let mut list = |key: &str, items: Vec<Value>| {
+    let mut list = |key: &str, items: &mut dyn ExactSizeIterator<Item = Value>| {
+        let end = if items.len() == 0 { "" } else { "\n    " };
         // writing to a string cannot fail
         let _ = write!(text, ",\n    \"{key}\": [");
-        for (index, item) in items.iter().enumerate() {
+        for (index, item) in items.enumerate() {
             let _ = write!(text, "{}\n      {item}", if index > 0 { "," } else { "" });
         }
-        let _ = write!(text, "{}]", if items.is_empty() { "" } else { "\n    " });
+        let _ = write!(text, "{end}]");
     };
-    list("reactions", effects.reactions.iter().map(reaction).collect());
-    list("sections", effects.sections.iter().map(section).collect());
+    list("reactions", &mut effects.reactions.iter().map(reaction));
+    list("sections", &mut effects.sections.iter().map(section));
     text.push_str("\n  }");
     text
 }

@@ -1,11 +1,12 @@
 //! Grid files, `girderway-grid/1`. Numbers are written in the shortest decimal form that is read back bit for bit.
 
-use std::fmt::Write;
+use std::fmt::Arguments;
+use std::io::Write;
 
 use fea::Certificate;
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 use serde_json::json;
 use splines::ExactSurface;
 
@@ -14,7 +15,8 @@ use super::coupling::{Coupling, RawCoupling};
 use super::effects_file::{self, RawEffects};
 use super::influence::{GridCritical, GridRail, StationGrid};
 use super::modes_file::RawModes;
-use super::surface_file::{self, RawSurface};
+use super::rows::MatrixRow;
+use super::surface_file::{RawSurface, WrittenSurface};
 use crate::spec::THEORIES;
 use crate::text::diagnostic::Diagnostic;
 use crate::text::fault::{Fault, Faults, number};
@@ -26,13 +28,25 @@ crate::text::object::objects!(RawGrid, RawRail, RawCertificate, RawInfluence);
 
 /// Value of the member `format`: name and version of the format.
 pub const FORMAT: &str = "girderway-grid/1";
-/// Largest number of degrees of freedom of an exact compliance that the command `fea` writes. It corresponds to a
-/// file of about 170 MB.
-pub const MAX_DOFS: usize = 3000;
+/// Largest number of degrees of freedom of an exact compliance that a file contains. It corresponds to a file of about
+/// 170 MB.
+const MAX_DOFS: usize = 3000;
+
+/// Why a file does not contain the exact compliance of `dofs` degrees of freedom (6 for each end state of the rail
+/// elements); `None` where it does.
+#[must_use]
+pub fn surface_omission(dofs: usize) -> Option<String> {
+    (dofs > MAX_DOFS).then(|| {
+        format!(
+            "no influence surface: the compliance matrix of the {dofs} degrees of freedom at the ends of the rail \
+             elements is too large for a file"
+        )
+    })
+}
 
 /// The text of a grid file, with one matrix row per line and every number in its shortest exact decimal form. If
 /// `surface` is given, the compliance between arbitrary positions is included, which is exact between the stations
-/// too.
+/// too, unless it is too large for a file ([`surface_omission`]).
 #[must_use]
 pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
     let mut head = serde_json::Map::new();
@@ -69,31 +83,42 @@ pub fn write(grid: &StationGrid, surface: Option<&ExactSurface>) -> String {
     if !grid.notes.is_empty() {
         head.insert("notes".into(), json!(grid.notes));
     }
-    let mut text = String::from("{\n");
+    let mut text = Vec::new();
+    put(&mut text, format_args!("{{\n"));
     for (key, value) in &head {
-        // writing to a string cannot fail
-        let _ = writeln!(text, "  \"{key}\": {value},");
+        put(&mut text, format_args!("  \"{key}\": {value},\n"));
     }
-    text.push_str("  \"influence\": {");
+    put(&mut text, format_args!("  \"influence\": {{"));
     for (index, (quantity, block)) in grid.blocks.iter().enumerate() {
         let comma = if index > 0 { "," } else { "" };
-        let _ = write!(text, "{comma}\n    \"{quantity}\": [");
-        for (row, numbers) in block.row_iter().enumerate() {
-            let comma = if row > 0 { "," } else { "" };
-            let numbers: Vec<f64> = numbers.iter().copied().collect();
-            let _ = write!(text, "{comma}\n      {}", json!(numbers));
+        put(&mut text, format_args!("{comma}\n    \"{quantity}\": ["));
+        for row in 0..block.nrows() {
+            put(&mut text, format_args!("{}\n      ", if row > 0 { "," } else { "" }));
+            put_json(&mut text, &MatrixRow(block, row));
         }
-        text.push_str("\n    ]");
+        put(&mut text, format_args!("\n    ]"));
     }
-    text.push_str("\n  }");
+    put(&mut text, format_args!("\n  }}"));
     if let Some(effects) = &grid.effects {
-        let _ = write!(text, ",\n  \"effects\": {}", effects_file::write(effects, grid.units));
+        let member = effects_file::write(effects, grid.units);
+        put(&mut text, format_args!(",\n  \"effects\": {member}"));
     }
-    if let Some(surface) = surface {
-        let _ = write!(text, ",\n  \"surface\": {}", surface_file::to_json(surface));
+    if let Some(surface) = surface.filter(|given| surface_omission(given.nodal().nrows()).is_none()) {
+        put(&mut text, format_args!(",\n  \"surface\": "));
+        put_json(&mut text, &WrittenSurface::of(surface));
     }
-    text.push_str("\n}\n");
-    text
+    put(&mut text, format_args!("\n}}\n"));
+    String::from_utf8(text).expect("JSON is UTF-8")
+}
+
+/// Appends a text.
+fn put(out: &mut Vec<u8>, text: Arguments<'_>) {
+    out.write_fmt(text).expect("memory takes all bytes");
+}
+
+/// Appends a value as JSON on one line.
+fn put_json(out: &mut Vec<u8>, value: &impl Serialize) {
+    serde_json::to_writer(out, value).expect("memory takes all bytes, and the keys are text");
 }
 
 /// An influence grid: influence coefficients of the rails of a structure at stations.

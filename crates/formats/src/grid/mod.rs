@@ -12,6 +12,7 @@ mod effects_file;
 pub mod file;
 pub mod influence;
 pub mod modes_file;
+mod rows;
 pub mod surface_file;
 
 pub use block::{GridBlock, axes};

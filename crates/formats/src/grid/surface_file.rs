@@ -9,10 +9,10 @@ use std::sync::Arc;
 
 use nalgebra::DMatrix;
 use schemars::JsonSchema;
-use serde::Deserialize;
-use serde_json::{Value, json};
+use serde::{Deserialize, Serialize};
 use splines::{ElementMember, ExactSurface, Flexibility, RailElement, Rails};
 
+use super::rows::MatrixRows;
 use crate::text::fault::{Fault, Faults};
 use crate::text::place::Place;
 
@@ -57,43 +57,56 @@ struct RawCell {
     reversed: bool,
 }
 
-/// The member of a compliance.
-pub(crate) fn to_json(surface: &ExactSurface) -> Value {
-    // JSON has no infinity: serde_json writes null
-    let cells: Vec<Value> = surface
-        .rails()
-        .elements()
-        .iter()
-        .zip(surface.rails().rests())
-        .map(|(cell, rest)| {
+/// The member of a surface as it is written, straight from its numbers: a tree of JSON values would take nine times
+/// their memory. JSON has no infinity: `serde_json` writes `null`.
+#[derive(Serialize)]
+pub(crate) struct WrittenSurface<'a> {
+    cells: Vec<WrittenCell<'a>>,
+    compliance: MatrixRows<'a>,
+}
+
+/// A rail element as it is written.
+#[derive(Serialize)]
+struct WrittenCell<'a> {
+    rail: usize,
+    x: &'a [f64; 2],
+    ends: &'a [usize; 2],
+    length: f64,
+    frame: &'a [[f64; 3]; 3],
+    offset: &'a [f64; 3],
+    flexibility: [f64; 6],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    tension: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    x_rest: Option<&'a [f64; 2]>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    member: Option<usize>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    reversed: Option<bool>,
+}
+
+impl<'a> WrittenSurface<'a> {
+    /// The member of `surface`.
+    pub(crate) fn of(surface: &'a ExactSurface) -> WrittenSurface<'a> {
+        let rails = surface.rails();
+        let cells = rails.elements().iter().zip(rails.rests()).map(|(cell, rest)| {
             let f = &cell.flexibility;
-            let mut object = json!({
-                "rail": cell.rail,
-                "x": cell.x,
-                "ends": cell.ends,
-                "length": cell.length,
-                "frame": cell.frame,
-                "offset": cell.offset,
-                "flexibility": [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
-            });
-            if f.tension != 0.0 {
-                object["tension"] = json!(f.tension);
+            WrittenCell {
+                rail: cell.rail,
+                x: &cell.x,
+                ends: &cell.ends,
+                length: cell.length,
+                frame: &cell.frame,
+                offset: &cell.offset,
+                flexibility: [f.axial, f.torsion, f.bending_y, f.bending_z, f.shear_y, f.shear_z],
+                tension: (f.tension != 0.0).then_some(f.tension),
+                x_rest: (*rest != [0.0; 2]).then_some(rest),
+                member: cell.member.map(|carrier| carrier.id),
+                reversed: cell.member.and_then(|carrier| carrier.reversed.then_some(true)),
             }
-            if *rest != [0.0; 2] {
-                object["x_rest"] = json!(rest);
-            }
-            if let Some(carrier) = cell.member {
-                object["member"] = json!(carrier.id);
-                if carrier.reversed {
-                    object["reversed"] = json!(true);
-                }
-            }
-            object
-        })
-        .collect();
-    let rows = surface.nodal().row_iter().map(|row| row.iter().copied().collect());
-    let compliance: Vec<Vec<f64>> = rows.collect();
-    json!({ "cells": cells, "compliance": compliance })
+        });
+        WrittenSurface { cells: cells.collect(), compliance: MatrixRows(surface.nodal()) }
+    }
 }
 
 impl RawSurface {
