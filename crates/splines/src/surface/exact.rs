@@ -15,7 +15,7 @@ use crate::probe::Probe;
 use crate::rail::{Rails, ShapeRow};
 use crate::vector::dot4;
 
-/// Exact influence coefficients at any place of any rail.
+/// Exact influence coefficients at any place of any rail. Copies share their numbers.
 ///
 /// The loaded element with its ends held is superposed with the structure under the holding forces reversed:
 ///
@@ -69,7 +69,8 @@ use crate::vector::dot4;
 #[derive(Clone, Debug)]
 pub struct ExactSurface {
     rails: Arc<Rails>,
-    nodal: DMatrix<f64>,
+    /// Shared by all copies: its size grows with the square of the number of states.
+    nodal: Arc<DMatrix<f64>>,
 }
 
 impl ExactSurface {
@@ -98,7 +99,7 @@ impl ExactSurface {
                 nodal[(column, row)] = mean;
             }
         }
-        Ok(ExactSurface { rails: line, nodal })
+        Ok(ExactSurface { rails: line, nodal: Arc::new(nodal) })
     }
 
     /// The rails and their elements.
