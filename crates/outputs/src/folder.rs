@@ -14,9 +14,11 @@ use crate::journal::Journal;
 use crate::manifest::{MANIFEST, Manifest, OutputEntry, listed_files};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::sha256;
+use results::threads::parallel_map;
 
-/// Number of files that are written before the first of them is flushed to the disk.
-const OPEN: usize = 64;
+/// Number of files that are written to the disk at the same time. Their threads wait for the disk, which takes most files
+/// in one go with the others, so that their number does not follow from that of the processors.
+const AT_ONCE: u16 = 8;
 
 /// Folder of the pictures in an output folder.
 const PLOTS: &str = "plots";
@@ -66,17 +68,17 @@ impl FileContents {
         }
     }
 
-    /// Writes them under a path of the same file system; returns the file, which is not on the disk yet.
-    fn put_at(&self, path: &Path) -> io::Result<fs::File> {
+    /// Writes them to the disk, under a path of the same file system.
+    fn put_at(&self, path: &Path) -> io::Result<()> {
         match self {
             FileContents::Fixed(bytes) | FileContents::Varying(bytes) => {
                 let mut file = fs::File::create(path)?;
                 file.write_all(bytes)?;
-                Ok(file)
+                file.sync_all()
             }
             FileContents::Written(file, ..) => {
                 fs::rename(file.path(), path)?;
-                file.as_file().try_clone()
+                file.as_file().sync_all()
             }
         }
     }
@@ -286,23 +288,17 @@ impl OutputFolder {
         let manifest = [(MANIFEST.to_owned(), FileContents::Fixed(manifest.text().into_bytes()))];
         let files: Vec<&(String, FileContents)> = self.files.iter().chain(&manifest).collect();
         let mut folders: Vec<PathBuf> = Vec::new();
-        for some in files.chunks(OPEN) {
-            // the system writes files to the disk together while one of them is waited for
-            let mut open = Vec::with_capacity(some.len());
-            for (name, contents) in some {
-                let target = self.path.join(name);
-                let staged = new.join(name);
-                let folder = folder_of(&staged);
-                if !folders.contains(&folder) {
-                    fs::create_dir_all(&folder).map_err(at(&target))?;
-                    folders.push(folder);
-                }
-                open.push((contents.put_at(&staged).map_err(at(&target))?, target));
-            }
-            for (file, target) in open {
-                file.sync_all().map_err(at(&target))?;
+        for (name, _) in &files {
+            let folder = folder_of(&new.join(name));
+            if !folders.contains(&folder) {
+                fs::create_dir_all(&folder).map_err(at(&self.path.join(name)))?;
+                folders.push(folder);
             }
         }
+        let put = |_, (name, contents): &&(String, FileContents)| {
+            contents.put_at(&new.join(name)).map_err(at(&self.path.join(name)))
+        };
+        parallel_map(&files, Some(AT_ONCE), put).into_iter().collect::<Result<(), _>>()?;
         Ok(staging)
     }
 
