@@ -68,8 +68,13 @@ fn the_figure_of_moments_has_the_exact_envelope() {
     given["analysis"] = json!("quasi-static");
     given["bodies"]["car"]["x0"] = json!(0.3);
     let ran = run(&given, &girder(&[8.0]));
-    let figures =
-        report::figures::run::figures(&ran.document, &ran.outcomes, &ran.known, &RunComparison::default());
+    let figures = report::figures::run::figures(
+        &ran.document,
+        &ran.outcomes,
+        &ran.known,
+        &RunComparison::default(),
+        None,
+    );
     let figure = figures.figures.iter().find(|figure| figure.name.starts_with("moments-")).expect("a figure");
     let report::Picture::Chart(chart) = &figure.picture else { panic!("it is a chart") };
     let largest = chart.series.iter().find(|series| series.label == "largest").expect("a curve");

@@ -18,6 +18,7 @@ use report::text::run_report;
 use results::fatigue;
 use results::scene_run::SceneRun;
 use results::threads::parallel_map;
+use results::warning::case_warnings;
 
 /// What was written for a run.
 #[derive(Clone, Debug)]
@@ -67,18 +68,9 @@ pub fn write_run(
             folder.add(&format!("{name}.adm"), text);
         }
     }
-    let sheets = parallel_map(cases, threads, |_, case| case.columns.csv());
-    for (index, ((case, result), sheet)) in document.cases.iter().zip(cases).zip(sheets).enumerate() {
-        let name = case
-            .label
-            .as_ref()
-            .map_or_else(|| "history.csv".to_owned(), |label| format!("history-{label}.csv"));
-        folder.add(&name, sheet.map_err(Error::not_shown)?);
-        if let Some(cycles) = fatigue::csv(&result.fatigue, &result.columns).map_err(Error::not_shown)? {
-            folder.add(&name.replacen("history", "cycles", 1), cycles);
-        }
-        if let Some(envelope) = result.girders().csv(&case.scene, index + 1).map_err(Error::not_shown)? {
-            folder.add(&name.replacen("history", "envelope", 1), envelope);
+    for sheets in parallel_map(cases, threads, |index, _| sheets(run, index)) {
+        for (name, sheet) in sheets? {
+            folder.add(&name, sheet);
         }
     }
     let comparison = run.comparison(threads);
@@ -86,7 +78,7 @@ pub fn write_run(
     folder.add("summary.json", json_text(&summary));
     clock.lap("tables");
 
-    let mut figures = figures(document, cases, structures, &comparison);
+    let mut figures = figures(document, cases, structures, &comparison, threads);
     for (name, svg) in figures.draw(threads) {
         folder.add(&format!("plots/{name}.svg"), svg.file());
     }
@@ -101,4 +93,21 @@ pub fn write_run(
         format!("the figure {name} is omitted because it cannot be drawn: {why}")
     });
     Ok(WrittenRun { folder, summary, warnings: warnings.collect() })
+}
+
+/// The tables of a case with their names: history, cycles and envelope. Its warnings, for which summary and page ask, are
+/// found on the same thread.
+fn sheets(run: &SceneRun, index: usize) -> Result<Vec<(String, Vec<u8>)>, Error> {
+    let (case, result) = (&run.document.cases[index], &run.cases[index]);
+    let _ = case_warnings(&case.scene, result);
+    let name = |kind: &str| match &case.label {
+        Some(label) => format!("{kind}-{label}.csv"),
+        None => format!("{kind}.csv"),
+    };
+    let mut all = vec![(name("history"), result.columns.csv().map_err(Error::not_shown)?)];
+    let cycles = fatigue::csv(&result.fatigue, &result.columns).map_err(Error::not_shown)?;
+    all.extend(cycles.map(|cycles| (name("cycles"), cycles)));
+    let envelope = result.girders().csv(&case.scene, index + 1).map_err(Error::not_shown)?;
+    all.extend(envelope.map(|envelope| (name("envelope"), envelope)));
+    Ok(all)
 }

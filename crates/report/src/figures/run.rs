@@ -71,14 +71,15 @@ impl RunFigures {
 }
 
 /// The figures of a scene and its comparisons: first those of the runs with their `outcomes`, with the comparisons in
-/// the same charts, then those of the structures, whose solutions are in `known`. Figures that cannot be evaluated are
-/// omitted.
+/// the same charts, then those of the structures, whose solutions are in `known`, which are drawn on at most `threads`
+/// threads. Figures that cannot be evaluated are omitted.
 #[must_use]
 pub fn figures(
     document: &Document,
     outcomes: &[CaseResult],
     known: &[SolvedStructure],
     comparison: &RunComparison,
+    threads: Option<u16>,
 ) -> RunFigures {
     let scene = document.scene();
     let labelled: Vec<LabelledRun> = document
@@ -115,7 +116,7 @@ pub fn figures(
         let Some(solved) = solution_of(known, &structure.origin) else { continue };
         let name = &structure.name;
         all.add(format!("girder-{name}"), structures::girder(name, index, run, input, solved));
-        all.add(format!("influence-{name}"), structures::influence(name, scene.units, solved));
+        all.add(format!("influence-{name}"), structures::influence(name, scene.units, solved, threads));
     }
     all
 }

@@ -10,6 +10,7 @@ use formats::scene::motion::SimulationInput;
 use formats::units::{Dimension, Units};
 use foundations::SolvedModel;
 use results::columns::peak;
+use results::threads::parallel_map;
 
 /// Number of points along a rail at which smooth curves are sampled.
 const SAMPLES: usize = 61;
@@ -19,8 +20,13 @@ const SAMPLES: usize = 61;
 ///
 /// # Errors
 /// A figure cannot be drawn, or its influence surface cannot be evaluated.
-pub fn influence(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<RunFigure>, FigureError> {
-    let mut figures = Vec::new();
+pub fn influence(
+    name: &str,
+    units: Units,
+    solved: &SolvedModel,
+    threads: Option<u16>,
+) -> Result<Vec<RunFigure>, FigureError> {
+    let mut plots = Vec::new();
     let length = units.label(Dimension::LENGTH);
     let supports: Vec<f64> =
         solved.model.supports.iter().map(|support| solved.model.points[support.point][0]).collect();
@@ -45,7 +51,7 @@ pub fn influence(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<R
             "The {word} grid at the stations: deflection at the station of the row per unit load at the station of \
              the column."
         );
-        figures.push(RunFigure::drawing(format!("grid-{name}-{word}"), caption, table.svg()?));
+        plots.push((format!("grid-{name}-{word}"), caption, table.clone()));
         let Some(surface) = &solved.surface else { continue };
         let Some([from, to]) = surface.range(0) else { continue };
         let even = (0..SAMPLES).map(|i| from + (to - from) * i as f64 / (SAMPLES - 1) as f64);
@@ -62,14 +68,14 @@ pub fn influence(name: &str, units: Units, solved: &SolvedModel) -> Result<Vec<R
             values: dense,
             ..table
         };
-        figures.push(RunFigure::drawing(
-            format!("influence-{name}-{word}"),
-            format!("The exact {word} influence surface, also between the stations; the simulation evaluates this \
-                     surface."),
-            smooth.svg()?,
-        ));
+        let caption = format!(
+            "The exact {word} influence surface, also between the stations; the simulation evaluates this surface."
+        );
+        plots.push((format!("influence-{name}-{word}"), caption, smooth));
     }
-    Ok(figures)
+    let drawn = parallel_map(&plots, threads, |_, (.., plot)| plot.svg());
+    let figures = plots.into_iter().zip(drawn);
+    figures.map(|((name, caption, _), svg)| Ok(RunFigure::drawing(name, caption, svg?))).collect()
 }
 
 /// Direct influence coefficients between all pairs of `places` on rail 0.
