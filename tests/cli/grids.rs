@@ -302,3 +302,41 @@ fn near(a: &Value, b: &Value) {
         (a, b) => assert_eq!(a, b),
     }
 }
+
+/// A girder of 500 spans: 501 end states of rail elements with 6 degrees of freedom each.
+#[test]
+fn a_surface_too_large_for_a_file_is_left_out_by_every_command_and_solved_again_for_sim() {
+    let folder = folder();
+    let spec = json!({
+        "format": "girderway-beam/1", "name": "girder", "theory": "timoshenko",
+        "units": {"length": "m", "force": "kN", "time": "s"},
+        "girder": {
+            "spans": vec![6; 500], "E": 2.1e8, "G": 8.1e7, "A": 0.02, "I_vertical": 5.8e-4, "I_lateral": 1.1e-4,
+            "J": 3.6e-6, "kA_vertical": 0.005, "kA_lateral": 0.012, "rail_height": 0.2,
+        },
+        "stations": [0, 3, 6, 9, 12],
+    });
+    let scene = json!({
+        "format": "girderway-scene/1", "name": "long", "units": {"length": "m", "force": "kN", "time": "s"},
+        "structures": {"girder": {"spec": "given.json", "foundation": "influence"}}, "gravity": 9.81,
+        "bodies": {"crane": {"weight": 360, "dof": ["x", "y"], "track": ["girder.rail"], "x0": 1.8}},
+        "wheels": {"crane": {"radius": 0.2, "vertical": {"k": 4e5, "c": 400}}},
+        "trucks": [{"name": "wheel", "body": "crane", "rail": "girder.rail", "tree": [0], "wheel": "crane"}],
+        "motions": [{"body": "crane", "dof": "x", "kind": "prescribed", "speed": [[0, 1.5]]}],
+        "end": {"time": 0.02}, "output": {"dt": 0.01},
+    });
+    fs::write(folder.path().join("scene.json"), scene.to_string()).expect("writable");
+    let grid = solve(&folder, &spec);
+    assert!(grid.get("surface").is_none());
+    assert!(grid["notes"][0].as_str().is_some_and(|note| note.contains("3006 degrees of freedom")), "{grid}");
+
+    let read = |name: &str| fs::read(folder.path().join("out").join(name)).expect("written");
+    let run = |command: &str| {
+        let run = girderway(&folder, &[command, "scene.json", "-o", "out", "--quiet"]);
+        assert_eq!((run.status.code(), text(&run.stderr)), (Some(0), ""), "{command}");
+        [read("grid-girder.json"), read("history.csv")]
+    };
+    let first = run("run");
+    assert_eq!(parsed(&first[0]), grid);
+    assert!(first == run("sim"));
+}

@@ -1,14 +1,18 @@
 //! Threads: parallel maps over the items of a list, and work that its caller watches. No other module of the libraries
 //! of the workspace starts threads.
 
+use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError, SyncSender};
 use std::time::Duration;
 
+/// Number of threads that the machine has, for which the system is asked once: it reads several files for the answer.
+static AVAILABLE: LazyLock<usize> =
+    LazyLock::new(|| std::thread::available_parallelism().map_or(1, usize::from));
+
 /// Number of threads for the items of a list: at most `threads` (`None`: as many as the machine has), and at least one.
 fn thread_count<T>(threads: Option<u16>, items: &[T]) -> usize {
-    let available = std::thread::available_parallelism().map_or(1, usize::from);
-    threads.map_or(available, usize::from).clamp(1, items.len().max(1))
+    threads.map_or_else(|| *AVAILABLE, usize::from).clamp(1, items.len().max(1))
 }
 
 /// The next item with its index, for any thread that asks; `None` at the end of the list.
