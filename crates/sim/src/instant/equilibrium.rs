@@ -385,13 +385,17 @@ impl<'a> Balance<'a> {
         numbers.iter().position(|own| own.contains(&Some(self.moving[worst])))
     }
 
-    /// Newton's method with the active contacts. Returns `None` if they cannot carry the weight, otherwise whether
-    /// the iteration converged.
+    /// Newton's method with the active contacts; under linear laws the first iterate is the solution. Returns `None` if they
+    /// cannot carry the weight, otherwise whether the iteration converged.
     fn iterate(&mut self) -> Option<bool> {
+        let is_linear = self.active.iter().all(|&i| self.system.law(i).is_linear());
         let mut before = f64::INFINITY;
         for _ in 0..ITERATIONS {
             let solved = self.linearised()?;
             let change = self.advance(&solved);
+            if is_linear {
+                return Some(true);
+            }
             let depth = self.p.iter().fold(0.0_f64, |max, p| max.max(p.abs()));
             if change <= CONVERGED * depth || (change <= STAGNANT * depth && change >= 0.5 * before) {
                 return Some(true);

@@ -39,11 +39,11 @@ enum Integrator {
 
 /// Where paths of wheels begin.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Start {
+pub(crate) enum PathStart {
     /// At the start of the step.
-    Of,
+    StepStart,
     /// At its end, where the next step begins.
-    After,
+    StepEnd,
 }
 
 /// A step from `from` to `to`.
@@ -369,7 +369,7 @@ impl<'a, 'b> Step<'a, 'b> {
 
     /// Sets the paths of the wheels in a step of length `h` and in those that follow it, of the length `usual`, from `start`,
     /// which is the start of the step, or the end of the step before it. They are extrapolated with the accelerations there.
-    pub fn set_paths(&mut self, start: Start, [h, usual]: [f64; 2]) {
+    pub fn set_paths(&mut self, start: PathStart, [h, usual]: [f64; 2]) {
         if !self.solver.wants_paths() {
             return;
         }
@@ -378,8 +378,8 @@ impl<'a, 'b> Step<'a, 'b> {
             Integrator::Collocation(_) => PATH,
         };
         let from = match start {
-            Start::Of => &self.from,
-            Start::After => &self.to,
+            PathStart::StepStart => &self.from,
+            PathStart::StepEnd => &self.to,
         };
         let (to, beyond) = (&mut self.probe, &mut self.beyond);
         for (h, at) in [(h, &mut *to), (path * usual.max(h), &mut *beyond)] {

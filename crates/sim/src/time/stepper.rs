@@ -14,7 +14,7 @@ use super::events::{
 };
 use super::modal_loads::ModalLoads;
 use super::outcome::{Counts, Strike, StruckBy};
-use super::step::{Start, Step};
+use super::step::{PathStart, Step};
 use super::step_size::StepSize;
 use super::triggers::Triggers;
 use super::wheel_forces::WheelForces;
@@ -318,7 +318,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
                 trial.h *= fraction;
             }
         }
-        self.step.set_paths(Start::Of, [trial.h, self.size.planned(1.0, widest)]);
+        self.step.set_paths(PathStart::StepStart, [trial.h, self.size.planned(1.0, widest)]);
         trial
     }
 
@@ -585,7 +585,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
         // The path of the next step serves for the place beyond the joint. Other structures keep theirs.
         let contact = system.mechanics.wheels[w].contact;
         solver.clear_path(system.scene.contacts[contact].structure);
-        self.step.set_paths(Start::After, [h, usual]);
+        self.step.set_paths(PathStart::StepEnd, [h, usual]);
         let Step { solver, to, probe, .. } = &mut self.step;
         probe.q.copy_from(&to.q);
         probe.q.axpy(near / speed.abs(), &to.v, 1.0);
