@@ -52,22 +52,10 @@ pub(crate) struct NodeForces {
     matrix: Vec<f64>,
     /// Right sides and solutions.
     right: Vec<f64>,
-    /// Scratch: the active contacts, and the products of their accelerations and the rows of all contacts.
-    active: Vec<usize>,
-    products: Products,
     /// The laws of the unknown forces near the last iterate.
     tangents: Vec<Tangent>,
     /// Positions of the unknown forces among all (node, element) pairs.
     index: Vec<usize>,
-}
-
-/// Products of the rows of contacts and the accelerations by unit forces of the active contacts.
-#[derive(Default)]
-struct Products {
-    /// R S^T and R' S^T, contacts x active contacts, where these are constant and all degrees of freedom respond alike.
-    constant: [Vec<f64>; 2],
-    /// Scratch: one row of R Q and of R' V.
-    rows: [Vec<f64>; 2],
 }
 
 /// A law F = by_penetration p + by_rate r + rest for one wheel.
@@ -123,8 +111,6 @@ impl NodeForces {
             rate_effect: Vec::new(),
             matrix: Vec::new(),
             right: Vec::new(),
-            active: Vec::new(),
-            products: Products::default(),
             tangents: Vec::new(),
             index: Vec::with_capacity(size),
         }
@@ -132,15 +118,7 @@ impl NodeForces {
 
     /// Solves for the forces of the active contacts in `motion`. Returns false if none are found.
     pub fn solve(&mut self, solver: &Solver, motion: &NodeMotion) -> bool {
-        let mut active = std::mem::take(&mut self.active);
-        active.clear();
-        active.extend(solver.active_contacts());
-        let is_solved = self.solve_for(&active, solver, motion);
-        self.active = active;
-        is_solved
-    }
-
-    fn solve_for(&mut self, active: &[usize], solver: &Solver, motion: &NodeMotion) -> bool {
+        let active = solver.active_contacts().collect::<Vec<_>>();
         let (s, m, n) = (motion.nodes.count(), active.len(), motion.dofs());
         let [contacts, freedoms] = [m, n].map(|count| (s * count) as f64);
         let in_forces = 2.0 / 3.0 * contacts.powi(3) + contacts * contacts * n as f64;
@@ -154,10 +132,10 @@ impl NodeForces {
             || !solver.system().traits.has_linear_laws
             || CHEAPER * in_motion >= in_forces;
         if self.has_effects {
-            self.fill_effects(solver.system(), motion, active);
-            self.solve_for_forces(solver, motion, active)
+            self.fill_effects(solver.system(), motion, &active);
+            self.solve_for_forces(solver, motion, &active)
         } else {
-            self.eliminate_forces(solver, motion, active)
+            self.eliminate_forces(solver, motion, &active)
         }
     }
 
@@ -237,50 +215,50 @@ impl NodeForces {
         self.effect.resize(size * size, 0.0);
         self.rate_effect.resize(size * size, 0.0);
         let n = motion.dofs();
-        let Products { constant, rows: [by_load, by_load_rate] } = &mut self.products;
-        by_load.resize(n, 0.0);
-        by_load_rate.resize(n, 0.0);
-        constant.iter_mut().for_each(Vec::clear);
         let is_constant = system.traits.has_constant_rows && n > 0;
+        let mut constant = Vec::new();
         if is_constant {
             let rows = motion.geometries[0].rows();
             for i in 0..m {
-                let along = |row: &[f64], j: usize| dot(row, motion.spread(0, j));
-                constant[0].extend(active.iter().map(|&j| along(rows.approach_row(i), j)));
-                constant[1].extend(active.iter().map(|&j| along(rows.rate_row(i), j)));
+                let along = |&j: &usize| {
+                    [rows.approach_row(i), rows.rate_row(i)].map(|row| dot(row, motion.spread(0, j)))
+                };
+                constant.extend(active.iter().map(along));
             }
         }
-        let count = active.len();
+        let (mut by_load, mut by_load_rate) = (vec![0.0; n], vec![0.0; n]);
+        // Approach and rate of one contact by unit forces of the active ones, without the compliance.
+        let mut by_force: Vec<[f64; 2]> = Vec::with_capacity(active.len());
         for a in 0..s {
             let geometry = &motion.geometries[a];
             for i in 0..m {
                 let (row, rate_row) = (geometry.rows().approach_row(i), geometry.rows().rate_row(i));
                 let feels_rates = system.fixed[i].feels_rates;
                 for b in 0..s {
-                    let place = (a * m + i) * size + b * m;
+                    by_force.clear();
                     if is_constant {
                         let [by_q, by_v] = motion.responses(a, b)[0];
-                        let own = constant.each_ref().map(|products| &products[i * count..(i + 1) * count]);
-                        for (k, &j) in active.iter().enumerate() {
-                            let compliance_here =
-                                if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
-                            self.effect[place + j] = compliance_here + by_q * own[0][k];
-                            self.rate_effect[place + j] = by_v * own[1][k];
+                        let own = constant[i * active.len()..].iter().take(active.len());
+                        by_force.extend(own.map(|[approach, rate]| [by_q * approach, by_v * rate]));
+                    } else {
+                        let responses = row.iter().zip(rate_row).zip(motion.responses(a, b));
+                        let own = by_load.iter_mut().zip(by_load_rate.iter_mut()).zip(responses);
+                        for ((by_load, by_load_rate), ((row, rate_row), [by_q, by_v])) in own {
+                            (*by_load, *by_load_rate) = (row * by_q, rate_row * by_v);
                         }
-                        continue;
+                        by_force.extend(active.iter().map(|&j| {
+                            let spread = motion.spread(b, j);
+                            [
+                                dot(&by_load, spread),
+                                if feels_rates { dot(&by_load_rate, spread) } else { 0.0 },
+                            ]
+                        }));
                     }
-                    let responses = row.iter().zip(rate_row).zip(motion.responses(a, b));
-                    let own = by_load.iter_mut().zip(by_load_rate.iter_mut()).zip(responses);
-                    for ((by_load, by_load_rate), ((row, rate_row), [by_q, by_v])) in own {
-                        (*by_load, *by_load_rate) = (row * by_q, rate_row * by_v);
-                    }
-                    for &j in active {
-                        let spread = motion.spread(b, j);
+                    let place = (a * m + i) * size + b * m;
+                    for (&j, [approach, rate]) in active.iter().zip(&by_force) {
                         let compliance_here = if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
-                        self.effect[place + j] = compliance_here + dot(by_load, spread);
-                        if feels_rates {
-                            self.rate_effect[place + j] = dot(by_load_rate, spread);
-                        }
+                        self.effect[place + j] = compliance_here + approach;
+                        self.rate_effect[place + j] = *rate;
                     }
                 }
             }

@@ -568,8 +568,6 @@ impl<'a, 'b> Stepper<'a, 'b> {
     /// Returns the energy supplied.
     fn pass_joint(&mut self) -> Result<f64, Error> {
         let slack = self.break_slack();
-        let usual = self.size.planned(1.0, f64::INFINITY);
-        let h = usual * self.step.lengths_of(false)[0];
         let Step { solver, to, .. } = &mut self.step;
         let system = solver.system();
         let Some(w) = self.meets.take().filter(|_| system.mechanics.has_sliding_rails()) else {
@@ -585,7 +583,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
         // The path of the next step serves for the place beyond the joint. Other structures keep theirs.
         let contact = system.mechanics.wheels[w].contact;
         solver.clear_path(system.scene.contacts[contact].structure);
-        self.step.set_paths(PathStart::StepEnd, [h, usual]);
+        let usual = self.size.planned(1.0, f64::INFINITY);
+        self.step.set_paths(PathStart::StepEnd, [usual * self.step.lengths_of(false)[0], usual]);
         let Step { solver, to, probe, .. } = &mut self.step;
         probe.q.copy_from(&to.q);
         probe.q.axpy(near / speed.abs(), &to.v, 1.0);
