@@ -78,6 +78,11 @@ impl Convergence {
         self.ratio = f64::INFINITY;
     }
 
+    /// Whether a contraction ratio is known, without which the first pass of a stage is not the last.
+    pub fn knows_ratio(&self) -> bool {
+        self.ratio.is_finite()
+    }
+
     /// The smaller of the two allowed errors; `None` if the passes end at rounding.
     pub fn allowed(&self) -> Option<f64> {
         self.scales.as_ref().map(|_| self.allowed[1])

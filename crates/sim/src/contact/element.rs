@@ -161,7 +161,8 @@ pub(crate) trait Element {
     /// Adds the energy stored in the element.
     fn stored(&self, _at: &At, _energy: &mut Stored) {}
 
-    /// Adds the power that it dissipates and supplies, without the rate of [`Element::boundary`].
+    /// Adds the power that it dissipates and supplies, without the rate of [`Element::boundary`]. It is called where the element
+    /// has a force; without one it exchanges nothing.
     fn power(&self, _at: &At, _power: &mut Exchanged) {}
 
     /// Boundary term of the energy dissipated by its damper; [`Element::power`] omits its rate.

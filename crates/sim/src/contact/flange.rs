@@ -12,9 +12,9 @@ use crate::scene::irregularity::LATERAL;
 use crate::{BodyDof, Channel, Flange};
 
 /// Part of the clearance within which a flange is near its rail.
-const NEAR: f64 = 0.02;
+const NEAR: f64 = 0.01;
 /// Factor on the motion that speed and acceleration at the start of a step predict for it.
-const CLOSING: f64 = 3.0;
+const CLOSING: f64 = 1.5;
 
 /// Index of the roll among the displacements of a body.
 const ROLL: usize = BodyDof::Roll as usize;
@@ -105,13 +105,15 @@ impl Element for FlangeContact<'_> {
         true
     }
 
-    /// A flange may touch if what is left of its clearance is a fiftieth of it, or less than three times what its present speed
-    /// and acceleration close within `h`.
+    /// A flange may touch if what is left of its clearance is a hundredth of it, or less than one and a half times what its
+    /// speed, in its direction, and its acceleration, in any, at the start close within `h`.
     fn may_act(&self, at: &At, h: f64) -> bool {
-        let shape = at.rows.rise[at.index] * at.mechanics.speed_along(self.wheel, at.state);
-        let by = |motion: &DVector<f64>| at.rows.approach_along(at.index, motion).abs();
-        let moved = CLOSING * h * (by(&at.state.v) + shape.abs() + h * by(&at.state.a));
-        (at.approach() - at.deflection()).abs() + moved > (1.0 - NEAR) * self.flange.clearance
+        let along = |motion: &DVector<f64>| at.rows.approach_along(at.index, motion);
+        let passing = at.rows.rise[at.index] * at.mechanics.speed_along(self.wheel, at.state);
+        let here = at.approach() - at.deflection();
+        let ahead = here + CLOSING * h * (along(&at.state.v) + passing);
+        let turned = CLOSING * 0.5 * h * h * along(&at.state.a).abs();
+        here.abs().max(ahead.abs()) + turned > (1.0 - NEAR) * self.flange.clearance
     }
 
     fn touches(&self, p: f64) -> bool {
@@ -161,7 +163,7 @@ impl Element for FlangeContact<'_> {
     fn power(&self, at: &At, power: &mut Exchanged) {
         let flange = self.flange;
         let (share, slope) = flange.fraction(at.places.height[self.wheel]);
-        if !(share > 0.0 && slope != 0.0 && at.force() != 0.0) {
+        if !(share > 0.0 && slope != 0.0) {
             return;
         }
         let overlap = at.force() / (flange.stiffness * share);

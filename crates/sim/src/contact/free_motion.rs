@@ -1,6 +1,6 @@
 //! Motion of the degrees of freedom without the forces of elements, and the mobility for these forces.
 
-use nalgebra::{DMatrix, DVector, SVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::system::System;
 use crate::Error;
@@ -25,7 +25,7 @@ pub(crate) struct FreeMotion<'a> {
     inverse: Mobility<'a>,
     /// Mass matrix of the bodies, including carried bodies, and scratch for it.
     mass: DMatrix<f64>,
-    columns: Vec<SVector<f64, 6>>,
+    columns: Vec<Vector3<f64>>,
 }
 
 impl<'a> FreeMotion<'a> {
@@ -72,7 +72,7 @@ impl<'a> FreeMotion<'a> {
     pub fn move_in_stage(&mut self, system: &System, g: f64, known: &Known, at: &State) -> Result<(), Error> {
         self.fill_given(system, at);
         self.set_mass(system, true)?;
-        self.load.copy_from(&self.given);
+        self.load.as_mut_slice().copy_from_slice(self.given.as_slice());
         if system.mechanics.has_structures() {
             self.q.copy_from(&known.q);
             self.q.axpy(g, &known.v, 1.0);
@@ -108,7 +108,7 @@ impl<'a> FreeMotion<'a> {
         acting: &[usize],
         force_row: impl Fn(usize) -> &'r [f64],
     ) {
-        self.load.copy_from(&self.given);
+        self.load.as_mut_slice().copy_from_slice(self.given.as_slice());
         if let Some(constant) = system.mechanics.blocks[0].body_mass() {
             let mass = if system.mechanics.carried.is_empty() { constant } else { &self.mass };
             let columns = at.a.iter().map(|a| -a).zip(columns_of(mass));
@@ -140,7 +140,7 @@ impl<'a> FreeMotion<'a> {
     pub fn accelerate(&mut self, system: &System, at: &mut State, rows: &[f64]) -> Result<(), Error> {
         self.fill_given(system, at);
         self.set_mass(system, false)?;
-        self.load.copy_from(&self.given);
+        self.load.as_mut_slice().copy_from_slice(self.given.as_slice());
         for block in &system.mechanics.blocks {
             block.resist(at.v.as_slice(), at.q.as_slice(), self.load.as_mut_slice());
         }
@@ -159,7 +159,7 @@ impl<'a> FreeMotion<'a> {
 
     /// Weights, loads, and the inertia forces of a prescribed x on the other degrees of freedom.
     fn fill_loads(&mut self, system: &System, t: f64) {
-        self.given.copy_from(&system.mechanics.gravity);
+        self.given.as_mut_slice().copy_from_slice(system.mechanics.gravity.as_slice());
         for load in &system.scene.actuators.loads {
             if let Some(number) = system.mechanics.loaded(load) {
                 self.given[number] += load.value.at(t);
@@ -183,7 +183,7 @@ impl<'a> FreeMotion<'a> {
         self.fill_loads(system, at.t);
         let mechanics = &system.mechanics;
         let Some(constant) = changed_mass(mechanics) else { return };
-        self.mass.copy_from(constant);
+        self.mass.as_mut_slice().copy_from_slice(constant.as_slice());
         let sums = (&mut self.mass, &mut self.given);
         mechanics.carried.add(&mechanics.kinematics, (at.t, &at.q, &at.v), sums, &mut self.columns);
     }

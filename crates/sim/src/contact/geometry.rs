@@ -50,7 +50,7 @@ pub(crate) struct Geometry {
 /// Effect of the motion of the wheels since the last update, to first order.
 #[derive(Clone)]
 struct Drift {
-    /// Motion of every wheel along its rail.
+    /// Motion of every wheel along its rail, at which the changes were found.
     wheels: Vec<f64>,
     /// Change of the approach of every element less the deflection of its rail; zero where this is no state.
     change: Vec<f64>,
@@ -64,6 +64,9 @@ const NEAR: f64 = 1e-5;
 
 /// Multiple of it for which they serve where the slopes of the rails, which turn the forces, follow the present forces.
 const CLOSE: f64 = 12.0;
+
+/// Part of the first of these changes by which a wheel may move along its rail before its effect is found anew.
+const STILL: f64 = 0.1;
 
 /// How well the data of one state serve at another.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -230,6 +233,7 @@ impl Geometry {
     ) -> Result<(), Error> {
         let mechanics = &system.mechanics;
         self.drift.change.fill(0.0);
+        self.drift.wheels.fill(0.0);
         self.places.move_to(mechanics, t, q);
         if system.traits.has_parts {
             for (element, local) in system.elements.iter().zip(&mut self.local) {
@@ -416,19 +420,23 @@ impl Geometry {
     /// (h_i' - w_i') dx_i - sum_j (dG_ij/dx_i dx_i + dG_ji/dx_j dx_j) F_j
     ///
     /// to first order, with the slopes h' of the unloaded rail and w' of the shapes of structures. It is zero where the
-    /// compliance of a structure is not symmetric.
+    /// compliance of a structure is not symmetric, and remains as it is where no wheel has moved by more than a tenth of what
+    /// the data serve for.
     pub fn drift_to(&mut self, system: &System, q: &DVector<f64>, force: &[f64]) {
         if !(system.traits.follows_motion && system.traits.has_symmetric_rails) {
             return;
         }
         let mechanics = &system.mechanics;
-        let Geometry { drift: Drift { wheels, change, by_others }, places, rails, rows, shapes, .. } = self;
+        let Geometry {
+            drift: Drift { wheels, change, by_others }, places, rails, rows, shapes, near, ..
+        } = self;
+        let moved = |w: usize| places.of_wheel(mechanics, w, q) - places.x[w];
+        let leads = (0..wheels.len()).filter(|&w| !mechanics.follows_in_contact(w));
+        if leads.clone().all(|w| (moved(w) - wheels[w]).abs() <= STILL * *near) {
+            return;
+        }
         for w in 0..wheels.len() {
-            wheels[w] = if mechanics.follows_in_contact(w) {
-                wheels[w - 1]
-            } else {
-                places.of_wheel(mechanics, w, q) - places.x[w]
-            };
+            wheels[w] = if mechanics.follows_in_contact(w) { wheels[w - 1] } else { moved(w) };
         }
         let rails = rails.matrices();
         let moved = |i: usize| system.first_wheel[i].map_or(0.0, |wheel| wheels[wheel]);

@@ -102,7 +102,7 @@ impl Projection {
 
     /// Sets `a` = `free` + `sign` Z B^T F, where F are the entries of `force` for the columns.
     pub fn add_forces(&self, free: &DVector<f64>, sign: f64, force: &[f64], a: &mut DVector<f64>) {
-        a.copy_from(free);
+        a.as_mut_slice().copy_from_slice(free.as_slice());
         let shares = self.columns.iter().map(|&j| sign * force[j]);
         add_lines(shares.zip(self.answers.chunks_exact(self.dofs.max(1))), a.as_mut_slice());
     }

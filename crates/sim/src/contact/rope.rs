@@ -98,9 +98,6 @@ impl Element for RopeForce<'_> {
     }
 
     fn power(&self, at: &At, power: &mut Exchanged) {
-        if at.force() == 0.0 {
-            return;
-        }
         let spring = &at.local().spring;
         let p = at.approach();
         spring::dissipate(at, power);

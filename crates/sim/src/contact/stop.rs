@@ -93,9 +93,7 @@ impl Element for StopForce<'_> {
     }
 
     fn power(&self, at: &At, power: &mut Exchanged) {
-        if at.force() != 0.0 {
-            spring::dissipate(at, power);
-        }
+        spring::dissipate(at, power);
     }
 
     fn resistance(&self, at: &At, b: usize) -> f64 {

@@ -206,9 +206,6 @@ impl Element for Vertical<'_> {
     }
 
     fn power(&self, at: &At, power: &mut Exchanged) {
-        if at.force() == 0.0 {
-            return;
-        }
         let (law, i) = (self.law, at.index);
         let [fraction, slope] = at.local().fraction;
         let rate =

@@ -18,6 +18,14 @@ use crate::numerics::complementarity::complementarity;
 /// # Errors
 /// Any error from evaluating the rails.
 pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
+    settle_within(solver, at, 0.0)
+}
+
+/// As [`settle`], where the forces may err by the `slack` relative to the largest, and the heights by as much.
+///
+/// # Errors
+/// Any error from evaluating the rails.
+pub(crate) fn settle_within(solver: &mut Solver, at: &mut State, slack: f64) -> Result<bool, Error> {
     let count = solver.system().verticals();
     solver.update(at)?;
     solver.settle_springs(at);
@@ -27,7 +35,7 @@ pub(crate) fn settle(solver: &mut Solver, at: &mut State) -> Result<bool, Error>
             // the forces, and with them the slopes of the rails, are others
             solver.update(at)?;
         }
-        if !solver.instant_here(at, 0.0)? {
+        if !solver.instant_here(at, [slack; 2])? {
             return Ok(false);
         }
         let weakest = (0..count)

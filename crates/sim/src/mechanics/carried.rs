@@ -23,8 +23,9 @@ const SLACK: f64 = 1e-9;
 pub(crate) struct CarriedBodies {
     /// Track of the tree of pinned bodies that each body belongs to; `None` where the body is not carried.
     tracks: Vec<Option<Track>>,
-    /// Centres of mass of the carried bodies.
-    centres: Vec<CarriedPoint>,
+    /// Centres of mass of the carried bodies, with the part of J^T M J by the rotations, which is constant: its lower triangle,
+    /// row by row.
+    centres: Vec<(CarriedPoint, Vec<f64>)>,
 }
 
 impl CarriedBodies {
@@ -70,7 +71,9 @@ impl CarriedBodies {
             if grounded[root(b)] || root(track.carrier) == root(b) || loaded {
                 return Err(Error::Carried { body: b });
             }
-            centres.push(CarriedPoint::new(kinematics, track, b, body.cg));
+            let point = CarriedPoint::new(kinematics, track, b, body.cg);
+            let turns = turning_inertia(&point, body);
+            centres.push((point, turns));
         }
         tracks = (0..count).map(|b| tracks[root(b)].clone()).collect();
         Ok(CarriedBodies { tracks, centres })
@@ -91,32 +94,35 @@ impl CarriedBodies {
         self.tracks[b].as_ref().map(|track| CarriedPoint::new(kinematics, track, b, at))
     }
 
-    /// Adds the contribution of the carried bodies at (t, q, v): J^T M J to `mass` and -J^T M (bias + g) to `load`.
-    /// `columns` is scratch memory.
+    /// Adds the contribution of the carried bodies at (t, q, v): J^T M J to `mass` and -J^T M (bias + g) to `load`. The part
+    /// of J for the translations changes with the motion; that for the rotations is constant. `columns` is scratch memory.
     pub fn add(
         &self,
         kinematics: &Kinematics,
         (t, q, v): (f64, &DVector<f64>, &DVector<f64>),
         (mass, load): (&mut DMatrix<f64>, &mut DVector<f64>),
-        columns: &mut Vec<SVector<f64, 6>>,
+        columns: &mut Vec<Vector3<f64>>,
     ) {
-        for point in &self.centres {
+        let size = mass.nrows();
+        let mass = mass.as_mut_slice();
+        for (point, turns) in &self.centres {
             let pose = point.pose(kinematics, t, q, v);
             let body = &kinematics.scene.bodies[point.body];
-            let weights = inertias(body);
             let force =
                 (point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity) * body.mass;
             columns.clear();
-            columns.extend((0..point.count()).map(|i| point.column(i, &pose)));
+            columns.extend((0..point.count()).map(|i| point.shift_by(i, &pose)));
             for (i, column) in columns.iter().enumerate() {
                 let row = point.number(i);
-                load[row] -= column.fixed_rows::<3>(0).dot(&force);
-                let weighted = column.component_mul(&weights);
-                for (j, other) in columns[..=i].iter().enumerate() {
-                    let (sum, number) = (weighted.dot(other), point.number(j));
-                    mass[(row, number)] += sum;
+                load[row] -= column.dot(&force);
+                let weighted = column * body.mass;
+                let turns = &turns[i * (i + 1) / 2..];
+                for ((j, other), turn) in columns[..=i].iter().enumerate().zip(turns) {
+                    let sum = other[0] * weighted[0] + other[1] * weighted[1] + other[2] * weighted[2] + turn;
+                    let number = point.number(j);
+                    mass[number * size + row] += sum;
                     if i != j {
-                        mass[(number, row)] += sum;
+                        mass[row * size + number] += sum;
                     }
                 }
             }
@@ -125,11 +131,11 @@ impl CarriedBodies {
 
     /// Adds to `load` the weights of the carried bodies at (t, q): -J^T M g.
     pub fn weigh(&self, kinematics: &Kinematics, (t, q): (f64, &DVector<f64>), load: &mut DVector<f64>) {
-        for point in &self.centres {
+        for (point, _) in &self.centres {
             let pose = point.pose(kinematics, t, q, q);
             let weight = kinematics.scene.bodies[point.body].mass * kinematics.scene.gravity;
             for i in 0..point.count() {
-                load[point.number(i)] -= weight * point.column(i, &pose)[1];
+                load[point.number(i)] -= weight * point.shift_by(i, &pose)[1];
             }
         }
     }
@@ -137,7 +143,7 @@ impl CarriedBodies {
     /// Kinetic energy and gravitational potential energy of the carried bodies at (t, q, v).
     pub fn energy(&self, kinematics: &Kinematics, t: f64, q: &DVector<f64>, v: &DVector<f64>) -> [f64; 2] {
         let mut sum = [0.0; 2];
-        for point in &self.centres {
+        for (point, _) in &self.centres {
             let pose = point.pose(kinematics, t, q, v);
             let body = &kinematics.scene.bodies[point.body];
             let speed = point.speed(&pose);
@@ -151,7 +157,7 @@ impl CarriedBodies {
     /// accelerations `a`.
     pub fn drive(&self, kinematics: &Kinematics, [q, v, a]: [&DVector<f64>; 3], t: f64, b: usize) -> f64 {
         let mut sum = 0.0;
-        for point in &self.centres {
+        for (point, _) in &self.centres {
             let roots = [point.body, point.carrier].map(|body| kinematics.root(body));
             if !roots.contains(&b) {
                 continue;
@@ -159,13 +165,22 @@ impl CarriedBodies {
             let pose = point.pose(kinematics, t, q, v);
             let mut acceleration = point.bias(kinematics, t, &pose) + Vector3::y() * kinematics.scene.gravity;
             for i in 0..point.count() {
-                acceleration += point.column(i, &pose).fixed_rows::<3>(0) * a[point.number(i)];
+                acceleration += point.shift_by(i, &pose) * a[point.number(i)];
             }
             let along = if roots[0] == b { acceleration.dot(&point.along(&pose)) } else { acceleration[0] };
             sum += kinematics.scene.bodies[point.body].mass * along;
         }
         sum
     }
+}
+
+/// Lower triangle, row by row, of the part of J^T M J of `point`, the centre of mass of `body`, by the rotations.
+fn turning_inertia(point: &CarriedPoint, body: &crate::Body) -> Vec<f64> {
+    let inertia = Vector3::from(body.inertia);
+    let turn = |i: usize| point.turn_by(i);
+    (0..point.count())
+        .flat_map(|i| (0..=i).map(move |j| turn(i).component_mul(&inertia).dot(&turn(j))))
+        .collect()
 }
 
 fn inertias(body: &crate::Body) -> SVector<f64, 6> {

@@ -116,11 +116,16 @@ impl CarriedPoint {
         self.columns[i].number
     }
 
-    /// Velocity in the axes of the carrier, then rotation in the rail frame, per unit of degree of freedom `i`.
-    pub fn column(&self, i: usize, pose: &Pose) -> Rows {
+    /// Velocity in the axes of the carrier per unit of degree of freedom `i`.
+    #[inline]
+    pub fn shift_by(&self, i: usize, pose: &Pose) -> Vector3<f64> {
         let Column { still, by_x, x, .. } = &self.columns[i];
-        let more = by_x * pose.own[0] + pose.tilt * *x;
-        still + Rows::new(more[0], more[1], more[2], 0.0, 0.0, 0.0)
+        still.fixed_rows::<3>(0) + by_x * pose.own[0] + pose.tilt * *x
+    }
+
+    /// Rotation in the rail frame per unit of degree of freedom `i`.
+    pub fn turn_by(&self, i: usize) -> Vector3<f64> {
+        self.columns[i].still.fixed_rows::<3>(3).into()
     }
 
     /// Velocity and rotation at the velocities of `pose`.

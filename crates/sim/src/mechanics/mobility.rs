@@ -64,7 +64,7 @@ impl<'a> Mobility<'a> {
     /// # Errors
     /// A mass matrix that is not positive definite.
     pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
-        self.mass.copy_from(mass);
+        self.mass.as_mut_slice().copy_from_slice(mass.as_slice());
         self.answer()
     }
 
@@ -164,7 +164,7 @@ impl BlockMobility {
     /// A mass matrix that is not positive definite.
     pub fn set_mass(&mut self, mass: &DMatrix<f64>) -> Result<(), Error> {
         if let Some((_, Inverse::Matrix(bodies))) = self.blocks.first_mut() {
-            bodies.copy_from(mass);
+            bodies.as_mut_slice().copy_from_slice(mass.as_slice());
             if !invert_spd(bodies.as_mut_slice(), mass.nrows()) {
                 return Err(not_definite(mass.diagonal().min()));
             }

@@ -122,8 +122,7 @@ impl Point {
     ) {
         if let Some((point, pose)) = self.pose(mechanics, t, q) {
             for i in 0..point.count() {
-                let column = point.column(i, &pose);
-                row[point.number(i)] += dot(&direction, &column.as_slice()[..3]);
+                row[point.number(i)] += scalar(direction, point.shift_by(i, &pose).into());
             }
             return;
         }

@@ -39,9 +39,9 @@ impl State {
 
     pub fn copy_from(&mut self, other: &State) {
         self.t = other.t;
-        self.q.copy_from(&other.q);
-        self.v.copy_from(&other.v);
-        self.a.copy_from(&other.a);
+        for (to, from) in [(&mut self.q, &other.q), (&mut self.v, &other.v), (&mut self.a, &other.a)] {
+            to.as_mut_slice().copy_from_slice(from.as_slice());
+        }
         self.p.copy_from_slice(&other.p);
         self.p_rate.copy_from_slice(&other.p_rate);
         self.force.copy_from_slice(&other.force);

@@ -1,4 +1,14 @@
-//! Bounds of a polynomial of degree five by its Bernstein coefficients.
+//! A polynomial of degree five by its Bernstein coefficients: its values, and bounds of them.
+
+/// Value of f at `s` from the Bernstein coefficients of f on [0, 1], by de Casteljau's algorithm.
+pub(crate) fn value(mut coefficients: [f64; 6], s: f64) -> f64 {
+    for level in (1..6).rev() {
+        for i in 0..level {
+            coefficients[i] += s * (coefficients[i + 1] - coefficients[i]);
+        }
+    }
+    coefficients[0]
+}
 
 /// Bound on |f(s) - f(0)| for s from 0 to `end`, from the Bernstein coefficients of f on [0, 1].
 ///
@@ -21,13 +31,21 @@ pub(crate) fn largest_change(mut coefficients: [f64; 6], end: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::largest_change;
+    use super::{largest_change, value};
 
     /// Values of the polynomial, from the definition of the Bernstein polynomials.
-    fn value(coefficients: [f64; 6], s: f64) -> f64 {
+    fn defined(coefficients: [f64; 6], s: f64) -> f64 {
         let binomial = [1.0, 5.0, 10.0, 10.0, 5.0, 1.0];
         let term = |k: i32| binomial[k as usize] * s.powi(k) * (1.0 - s).powi(5 - k);
         (0..6).map(|k| coefficients[k as usize] * term(k)).sum()
+    }
+
+    #[test]
+    fn values_are_those_of_the_definition() {
+        for s in [0.0, 0.2, 0.5, 0.9, 1.0] {
+            let shape = [0.0, 3.0, -5.0, 4.0, -1.0, 0.5];
+            assert!((value(shape, s) - defined(shape, s)).abs() < 1e-14, "{s}");
+        }
     }
 
     #[test]
@@ -41,7 +59,7 @@ mod tests {
             for end in [0.01, 0.3, 0.77, 1.0] {
                 let bound = largest_change(shape, end);
                 let places = (0..=1000).map(|i| end * f64::from(i) / 1000.0);
-                let change = places.map(|s| (value(shape, s) - shape[0]).abs()).fold(0.0, f64::max);
+                let change = places.map(|s| (defined(shape, s) - shape[0]).abs()).fold(0.0, f64::max);
                 assert!(bound >= change - 1e-14, "{bound} {change}");
                 if is_monotone {
                     assert!((bound - change).abs() < 1e-14 * (1.0 + change), "{bound} {change}");

@@ -239,9 +239,15 @@ fn four_dots(lines: [&[f64]; 4], vector: &[f64]) -> [f64; 4] {
 /// Exchanges row `j` with the row that has the largest entry of column `j` on or below the diagonal, and returns the
 /// index of that row; `None` where all these entries are zero or the largest is not finite.
 fn exchange(a: &mut [f64], j: usize, n: usize) -> Option<usize> {
-    let size = |row: usize| a[row * n + j].abs();
-    let pivot = (j..n).max_by(|&p, &q| size(p).total_cmp(&size(q))).unwrap_or(j);
-    if !(size(pivot) > 0.0 && size(pivot).is_finite()) {
+    let (mut pivot, mut largest) = (j, 0.0);
+    for (row, line) in a.chunks_exact(n).enumerate().skip(j) {
+        let size = line[j].abs();
+        // Of equal entries the last, and one that is no number before all others.
+        if size >= largest || size.is_nan() {
+            (pivot, largest) = (row, size);
+        }
+    }
+    if !(largest > 0.0 && largest.is_finite()) {
         return None;
     }
     if pivot != j {

@@ -142,7 +142,7 @@ pub(crate) fn power(system: &System, geometry: &Geometry, state: &State) -> Exch
         }
     }
     power.drives += power_of_turns(system, geometry, state);
-    for (i, element) in system.elements.iter().enumerate() {
+    for (i, element) in system.elements.iter().enumerate().filter(|(i, _)| state.force[*i] != 0.0) {
         element.power(&frame.at(i), &mut power);
     }
     for load in &system.scene.actuators.loads {

@@ -6,7 +6,7 @@ use crate::contact::element::{Guard, GuardKind};
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::bernstein::largest_change;
+use crate::numerics::bernstein::{largest_change, value};
 use crate::numerics::root::{behind, narrow};
 
 /// Force by which a step may overshoot an event, relative to the largest contact force.
@@ -24,9 +24,10 @@ const PASSED: f64 = 8.0;
 /// Tolerance of the position of a touch, as a fraction of the step.
 const TOUCH_WIDTH: f64 = 1e-4;
 
-/// Error of the forces, relative to the largest, in the states at which a touch is sought. It moves a flange beside its rail
-/// by as much of the deflection, which is far less than what the flange moves in the tolerance of the position.
-const TOUCH_SLACK: f64 = 1e-8;
+/// Errors of the forces, relative to the largest, and of the heights of the wheels, relative to themselves, in the states at which
+/// a touch is sought. They move a flange beside its rail by as much of the deflection, and of the radius times the roll, which
+/// is far less than what the flange moves in the tolerance of the position.
+const TOUCH_SLACK: [f64; 2] = [1e-8, 1e-5];
 
 /// Slack of breaks for steps of the relative error `tolerance` or, if `is_fixed`, of a fixed length.
 pub(crate) fn break_slack(tolerance: f64, is_fixed: bool) -> f64 {
@@ -101,7 +102,7 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
         let contact = &system.scene.contacts[wheel.contact];
         let (from, to, probe) = (&step.from, &step.to, &mut step.probe);
         let [x0, x1] = [from, to].map(|at| places.of_wheel(mechanics, w, &at.q));
-        let mut reach = f64::INFINITY;
+        let (mut reach, mut of_step) = (f64::INFINITY, None);
         for place in mechanics.breaks.between(contact.structure, contact.rail, x0, x1) {
             let slack = slack * (1.0 + place.abs());
             if (x0 - place).abs() > reach + slack {
@@ -113,18 +114,17 @@ pub(crate) fn rolling_break(step: &mut Step, slack: f64) -> Option<(f64, usize)>
                 continue;
             }
             let aim = place - 0.5 * slack * (x1 - x0).signum();
-            let fraction = root(|fraction| {
-                probe.interpolate(from, to, fraction);
-                places.of_wheel(mechanics, w, &probe.q) - aim
+            // The position is linear in q, so its Bernstein coefficients are the positions at those of q.
+            let coefficients = *of_step.get_or_insert_with(|| {
+                std::array::from_fn(|k| {
+                    probe.set_coefficient(from, to, k);
+                    places.of_wheel(mechanics, w, &probe.q)
+                })
             });
+            let fraction = root(|fraction| value(coefficients, fraction) - aim);
             if first.is_none_or(|(known, _)| fraction < known) {
                 first = Some((fraction, w));
             }
-            // The position is linear in q, so its Bernstein coefficients are the positions at those of q.
-            let coefficients = std::array::from_fn(|k| {
-                probe.set_coefficient(from, to, k);
-                places.of_wheel(mechanics, w, &probe.q)
-            });
             reach = largest_change(coefficients, first.map_or(1.0, |(known, _)| known));
         }
     }

@@ -5,7 +5,7 @@ use super::step::Step;
 use super::stepper::Stepper;
 use crate::contact::active::ActiveSet;
 use crate::contact::solver::Solver;
-use crate::instant::settle::settle;
+use crate::instant::settle::{settle, settle_within};
 use crate::mechanics::state::State;
 use crate::record::recorder::Recorder;
 use crate::{Error, History};
@@ -137,7 +137,8 @@ impl Samples {
         self.begun.restore(step.solver);
         step.sample(fraction, &mut self.sample)?;
         self.sample.t = t;
-        settle(step.solver, &mut self.sample)?;
+        let slack = step.solver.allowed_error();
+        settle_within(step.solver, &mut self.sample, slack)?;
         Ok(())
     }
 

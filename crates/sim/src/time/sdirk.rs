@@ -104,10 +104,32 @@ impl Sdirk {
         (to, stages): (&mut State, &mut usize),
     ) -> Result<bool, Error> {
         self.tableau = self.tableau(begins_smoothly);
+        // Where an element that was left out touches, the step is repeated with all of them.
+        for takes_all in [false, true] {
+            solver.begin_step(from, h, takes_all);
+            if !self.take_stages(solver, from, [h, limit], stages)? {
+                return Ok(false);
+            }
+            if solver.is_complete(&self.stage) {
+                break;
+            }
+        }
+        to.copy_from(&self.stage);
+        Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
+    }
+
+    /// Takes all stages of a step of length `h` from `from`, which ends at `limit` at the latest; returns false if one does not
+    /// converge.
+    fn take_stages(
+        &mut self,
+        solver: &mut Solver,
+        from: &State,
+        [h, limit]: [f64; 2],
+        stages: &mut usize,
+    ) -> Result<bool, Error> {
         let tableau = self.tableau;
         let gamma_h = tableau.gamma * h;
         self.stage.copy_from(from);
-        solver.begin_step(from, h);
         self.start(solver, from);
         for i in 1..tableau.stages() {
             self.fill_known(solver, from, h, i);
@@ -115,40 +137,44 @@ impl Sdirk {
             self.stage.t = (from.t + tableau.c[i] * h).min(limit.next_down());
             self.guess(solver, i);
             *stages += 1;
-            if !solver.stage(gamma_h, &mut self.known, &mut self.stage)? {
+            let ends_step = i + 1 == tableau.stages();
+            if !solver.stage(gamma_h, &mut self.known, &mut self.stage, ends_step)? {
                 return Ok(false);
             }
-            let done = &mut self.done[i];
-            done.forces.copy_from_slice(&self.stage.force);
-            done.accelerations.copy_from(&self.stage.a);
-            done.rates.copy_from(&self.stage.v);
-            solver.end_stage(&self.stage, [&mut done.rates, &mut done.accelerations]);
-            done.p_rates.copy_from_slice(&self.stage.p_rate);
-            if solver.system().traits.has_motions {
-                solver.update_rail_slope(&self.stage);
-            }
-            done.power = power(solver.system(), solver.geometry(), &self.stage);
-            if tableau.c[i] < 1.0 {
-                let frame = solver.frame(&self.stage);
-                // A penetration that is a state has only the first order inside a step.
-                let exact = (0..solver.system().verticals()).filter(|&i| !solver.remembers(i));
-                done.excess = exact.map(|i| solver.excess(i, &frame)).fold(f64::NEG_INFINITY, f64::max);
-            }
+            self.note_stage(solver, i);
         }
-        solver.end_step(&self.stage)?;
-        to.copy_from(&self.stage);
-        Ok(to.q.iter().chain(to.v.iter()).all(|x| x.is_finite()))
+        Ok(true)
+    }
+
+    /// Stores the results of stage `i`, to which the geometry of the solver belongs.
+    fn note_stage(&mut self, solver: &mut Solver, i: usize) {
+        let done = &mut self.done[i];
+        done.forces.copy_from_slice(&self.stage.force);
+        done.accelerations.as_mut_slice().copy_from_slice(self.stage.a.as_slice());
+        done.rates.as_mut_slice().copy_from_slice(self.stage.v.as_slice());
+        solver.end_stage(&self.stage, [&mut done.rates, &mut done.accelerations]);
+        done.p_rates.copy_from_slice(&self.stage.p_rate);
+        if solver.system().traits.has_motions {
+            solver.update_rail_slope(&self.stage);
+        }
+        done.power = power(solver.system(), solver.geometry(), &self.stage);
+        if self.tableau.c[i] < 1.0 {
+            let frame = solver.frame(&self.stage);
+            // A penetration that is a state has only the first order inside a step.
+            let exact = (0..solver.system().verticals()).filter(|&i| !solver.remembers(i));
+            done.excess = exact.map(|i| solver.excess(i, &frame)).fold(f64::NEG_INFINITY, f64::max);
+        }
     }
 
     /// Sets the first stage to the start of the step.
     fn start(&mut self, solver: &mut Solver, from: &State) {
         let done = &mut self.done[0];
         done.forces.copy_from_slice(&from.force);
-        done.accelerations.copy_from(&from.a);
+        done.accelerations.as_mut_slice().copy_from_slice(from.a.as_slice());
         if self.tableau.weight(0) == 0.0 {
             return;
         }
-        done.rates.copy_from(&from.v);
+        done.rates.as_mut_slice().copy_from_slice(from.v.as_slice());
         solver.end_stage(from, [&mut done.rates, &mut done.accelerations]);
         done.p_rates.copy_from_slice(&from.p_rate);
         done.power = self.power;
@@ -157,17 +183,16 @@ impl Sdirk {
     /// Computes the known parts of stage `i` from the start of the step and the previous stages.
     fn fill_known(&mut self, solver: &Solver, from: &State, h: f64, i: usize) {
         let known = &mut self.known;
-        known.q.copy_from(&from.q);
-        known.v.copy_from(&from.v);
+        known.q.as_mut_slice().copy_from_slice(from.q.as_slice());
+        known.v.as_mut_slice().copy_from_slice(from.v.as_slice());
         solver.begin_stage(known);
         known.p.copy_from_slice(&from.p);
         let weights = self.tableau.a[i].iter().zip(&self.done);
         for (weight, done) in weights.filter(|(weight, _)| **weight != 0.0) {
-            known.q.axpy(h * weight, &done.rates, 1.0);
-            known.v.axpy(h * weight, &done.accelerations, 1.0);
-            for (p, rate) in known.p.iter_mut().zip(&done.p_rates) {
-                *p += h * weight * rate;
-            }
+            let share = h * weight;
+            add(share, done.rates.as_slice(), known.q.as_mut_slice());
+            add(share, done.accelerations.as_slice(), known.v.as_mut_slice());
+            add(share, &done.p_rates, &mut known.p);
         }
     }
 
@@ -235,4 +260,9 @@ impl Sdirk {
     pub fn time(&self) -> f64 {
         self.stage.t
     }
+}
+
+/// Adds `share` times `from` to `to`.
+fn add(share: f64, from: &[f64], to: &mut [f64]) {
+    to.iter_mut().zip(from).for_each(|(to, from)| *to += share * from);
 }

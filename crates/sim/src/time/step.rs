@@ -329,14 +329,15 @@ impl<'a, 'b> Step<'a, 'b> {
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn look_at(&mut self, fraction: f64) -> Result<bool, Error> {
-        self.look_within(fraction, 0.0)
+        self.look_within(fraction, [0.0; 2])
     }
 
-    /// As [`Step::look_at`], where the forces may err by the `slack` relative to the largest.
+    /// As [`Step::look_at`], where the forces and the heights of the wheels may err by the `slack`
+    /// ([`Solver::instant_within`]).
     ///
     /// # Errors
     /// Any error from evaluating the rails.
-    pub fn look_within(&mut self, fraction: f64, slack: f64) -> Result<bool, Error> {
+    pub fn look_within(&mut self, fraction: f64, slack: [f64; 2]) -> Result<bool, Error> {
         self.probe.copy_from(&self.to);
         self.solver.interpolate([&self.from, &self.to], fraction, &mut self.probe)?;
         if let Integrator::Collocation(collocation) = &self.integrator {

@@ -394,7 +394,7 @@ impl ClampedElement {
                 (far[end].value[4 + k], far[end].slope[4 + k]) = (weight * by * at.q, -along * by);
             }
         }
-        SeparatedLoad { place, near, far }
+        SeparatedLoad { place, uses: load.uses(), near, far }
     }
 
     /// Second derivatives of [`ClampedElement::pair`] by s and t: `pp`, `pq` and `qq` alone.
@@ -452,6 +452,8 @@ impl ClampedElement {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SeparatedLoad {
     place: MemberPlace,
+    /// Whether the load bends in each plane, stretches and twists.
+    uses: [bool; 4],
     /// By end.
     near: [Factors; 2],
     far: [Factors; 2],
@@ -478,6 +480,12 @@ impl SeparatedLoad {
         }
         let seen = self.before(other);
         [0.5 * (value + seen[0]), 0.5 * (by_own + seen[1]), 0.5 * (by_other + seen[2])]
+    }
+
+    /// Whether Green's function between the two can differ from zero: both bend in a common plane, stretch or twist.
+    #[inline]
+    pub fn meets(&self, other: &SeparatedLoad) -> bool {
+        self.uses.iter().zip(other.uses).any(|(own, other)| *own && other)
     }
 
     /// The value alone: [`ClampedElement::value`] of the two.

@@ -168,18 +168,17 @@ fn bicubic(rails: &Rails, nodal: &DMatrix<f64>, row: &ElementHalf, column: &Elem
 fn add_nodal(kept: &KeptProducts, to: &mut Output) {
     let KeptProducts { parts, blocks, bicubics, .. } = kept;
     for (k, load) in parts.iter().enumerate() {
-        let mut rest = &parts[k..];
-        while let Some(first) = rest.first() {
-            let count = rest.iter().position(|part| part.block != first.block).unwrap_or(rest.len());
-            let (own, others) = rest.split_at(count);
-            let columns = &bicubics[first.block * blocks.len() + load.block];
-            let moved = [times(columns, &load.value), times(columns, &load.slope)];
-            for part in own {
-                let value = dot4(&part.value, &moved[0]);
-                let slopes = [dot4(&part.slope, &moved[0]), dot4(&part.value, &moved[1])];
-                to.add([part.group, load.group], value, slopes, std::ptr::eq(part, load));
+        // Parts on one block follow each other.
+        let (mut block, mut moved) = (None, [[0.0; 4]; 2]);
+        for (number, part) in parts[k..].iter().enumerate() {
+            if block != Some(part.block) {
+                let columns = &bicubics[part.block * blocks.len() + load.block];
+                moved = [times(columns, &load.value), times(columns, &load.slope)];
+                block = Some(part.block);
             }
-            rest = others;
+            let value = dot4(&part.value, &moved[0]);
+            let slopes = [dot4(&part.slope, &moved[0]), dot4(&part.value, &moved[1])];
+            to.add([part.group, load.group], value, slopes, number == 0);
         }
     }
 }
@@ -206,6 +205,9 @@ fn add_elements(
         }));
         for (k, (group, load)) in loads.iter().enumerate() {
             for (number, (other, part)) in loads[k..].iter().enumerate() {
+                if !part.meets(load) {
+                    continue;
+                }
                 let [value, by_part, by_load] = part.with(load);
                 to.add([*other, *group], value, [by_part, by_load], number == 0);
             }

@@ -42,11 +42,7 @@ impl Solver<'_> {
         holds: bool,
     ) -> Result<Option<([f64; 2], ActingLaws)>, Error> {
         let system = self.system;
-        let nearness = match self.evaluated.is_valid {
-            true => self.geometry.nearness(system, &self.evaluated.q, &at.q),
-            false => Nearness::Far,
-        };
-        match nearness {
+        match self.nearness(at) {
             Nearness::Near => {}
             Nearness::Close => {
                 self.geometry.turn_forces(system, &at.q, &at.force, &self.problem.candidates);

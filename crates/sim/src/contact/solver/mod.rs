@@ -41,6 +41,8 @@ struct Evaluated {
     q: DVector<f64>,
     /// Whether there was one in the present stage.
     is_valid: bool,
+    /// Whether the present stage is the last one of its step.
+    ends_step: bool,
 }
 
 /// A numbered scene with the current geometry of its elements, the active set, and the problem of the forces.
@@ -59,6 +61,8 @@ pub(crate) struct Solver<'a> {
     evaluated: Evaluated,
     convergence: Convergence,
     rail_memory: RailMemory,
+    /// Scratch for errors of forces: sums of errors of penetrations and rates.
+    error_sums: [Vec<[f64; 2]>; 3],
 }
 
 impl<'a> Solver<'a> {
@@ -75,9 +79,14 @@ impl<'a> Solver<'a> {
             projection: Projection::new(system),
             problem: Problem::new(system.elements.len()),
             factored_for: None,
-            evaluated: Evaluated { q: DVector::zeros(system.mechanics.dofs), is_valid: false },
+            evaluated: Evaluated {
+                q: DVector::zeros(system.mechanics.dofs),
+                is_valid: false,
+                ends_step: false,
+            },
             convergence: Convergence::default(),
             rail_memory,
+            error_sums: Default::default(),
         })
     }
 
@@ -153,6 +162,11 @@ impl<'a> Solver<'a> {
     /// Exchanges the geometry of the solver with `geometry`, which belongs to the current state.
     pub fn exchange_geometry(&mut self, geometry: &mut Geometry) {
         std::mem::swap(&mut self.geometry, geometry);
+    }
+
+    /// Error, relative to the largest force, that the iterations of a stage may leave; zero if they end at rounding.
+    pub fn allowed_error(&self) -> f64 {
+        self.convergence.allowed().unwrap_or(0.0)
     }
 
     /// Activates or deactivates element `i`.
@@ -298,14 +312,15 @@ impl<'a> Solver<'a> {
     /// # Errors
     /// Errors of the rail models.
     pub fn instant(&mut self, at: &mut State) -> Result<bool, Error> {
-        self.instant_within(at, 0.0)
+        self.instant_within(at, [0.0; 2])
     }
 
-    /// As [`Solver::instant`], where the forces may err by the `slack` relative to the largest, and the heights by as much.
+    /// As [`Solver::instant`], where the forces may err by the first `slack` relative to the largest, and the heights of the
+    /// wheels by the second relative to themselves.
     ///
     /// # Errors
     /// Errors of the rail models.
-    pub fn instant_within(&mut self, at: &mut State, slack: f64) -> Result<bool, Error> {
+    pub fn instant_within(&mut self, at: &mut State, slack: [f64; 2]) -> Result<bool, Error> {
         self.update(at)?;
         self.instant_here(at, slack)
     }
@@ -314,7 +329,7 @@ impl<'a> Solver<'a> {
     ///
     /// # Errors
     /// Errors of the rail models.
-    pub fn instant_here(&mut self, at: &mut State, slack: f64) -> Result<bool, Error> {
+    pub fn instant_here(&mut self, at: &mut State, [slack, height_slack]: [f64; 2]) -> Result<bool, Error> {
         let system = self.system;
         self.problem.seek_all();
         self.factored_for = None;
@@ -333,7 +348,7 @@ impl<'a> Solver<'a> {
             }
             let change = self.geometry.update_heights(system, at);
             self.geometry.update_in_place(system, (at.t, &at.q), &at.force)?;
-            if change < slack.max(1e-13) {
+            if change < height_slack.max(1e-13) {
                 break;
             }
         }
@@ -404,6 +419,7 @@ impl<'a> Solver<'a> {
         at: &mut State,
     ) -> Result<(), Error> {
         at.interpolate(from, to, fraction);
+        self.geometry.update_heights(self.system, at);
         self.charts.interpolate(self.system, self.geometry.switches(), [from, to], fraction, at);
         self.stretch_ropes(to.t - from.t, at)
     }

@@ -19,13 +19,15 @@
 
 use nalgebra::DVector;
 
-use super::{PASSES, Problem, RowKind, Solver};
+use super::{Evaluated, PASSES, Problem, RowKind, Solver};
 use crate::Error;
 use crate::contact::forces::ActingLaws;
+use crate::contact::geometry::Nearness;
 use crate::mechanics::state::{Known, State};
 
-/// Allowed relative residual of the forces, per unit of the allowed error of the passes.
-const SLACK: f64 = 0.1;
+/// Allowed relative residual of the forces, per unit of the allowed error of the passes: of a pass that another one follows, and
+/// of one that may be the last.
+const SLACK: [f64; 2] = [10.0, 0.1];
 
 /// Number of changes of the set of acting laws in a stage up to which it is corrected with W and Y of an earlier pass.
 const CHANGES: usize = 2;
@@ -46,12 +48,13 @@ impl Solver<'_> {
         self.geometry.set_accuracy(tolerance, radius);
     }
 
-    /// Begins a step of length `h` at `from`: selects the elements that may act in it and the local coordinates of hanging
-    /// bodies, and discards the results of earlier stages.
-    pub fn begin_step(&mut self, from: &State, h: f64) {
+    /// Begins a step of length `h` at `from`: selects the elements that may act in it, or all of them, and the local coordinates
+    /// of hanging bodies, and discards the results of earlier stages.
+    pub fn begin_step(&mut self, from: &State, h: f64, takes_all: bool) {
         let (system, geometry) = (self.system, &self.geometry);
         let frame = geometry.frame(system, from);
-        let may_act = |i: usize| from.force[i] != 0.0 || system.elements[i].may_act(&frame.at(i), h);
+        let may_act =
+            |i: usize| takes_all || from.force[i] != 0.0 || system.elements[i].may_act(&frame.at(i), h);
         self.problem.candidates.choose(may_act);
         if !self.system.springs().is_empty() {
             let (system, active) = (self.system, &self.active);
@@ -62,22 +65,35 @@ impl Solver<'_> {
         self.factored_for = None;
     }
 
-    /// Ends a step at `to`: updates the geometry of the elements that could not act in it.
-    ///
-    /// # Errors
-    /// Errors of the rail models.
-    pub fn end_step(&mut self, to: &State) -> Result<(), Error> {
-        if self.problem.candidates.are_all() { Ok(()) } else { self.update(to) }
+    /// Whether none of the elements that were not selected for the step touches at its end `to`; else it must be repeated with
+    /// all of them.
+    pub fn is_complete(&self, to: &State) -> bool {
+        let touches = |i: usize| {
+            let is_left_out = self.system.fixed[i].is_followed && !self.problem.candidates.has(i);
+            is_left_out && self.system.elements[i].touches(self.penetration_at(i, to))
+        };
+        self.problem.candidates.are_all() || !(0..self.system.elements.len()).any(touches)
     }
 
-    /// Updates the geometry of the elements that may act in the step to `at`, in a stage.
+    /// How well the geometry that was evaluated last in the present stage serves at `at`.
+    pub(super) fn nearness(&self, at: &State) -> Nearness {
+        let Evaluated { q, is_valid, .. } = &self.evaluated;
+        if *is_valid { self.geometry.nearness(self.system, q, &at.q) } else { Nearness::Far }
+    }
+
+    /// Penetration of element `i` at `at`, to which the geometry must belong.
+    fn penetration_at(&self, i: usize, at: &State) -> f64 {
+        self.geometry.approach(i, &at.q) - self.geometry.deflection(i, &at.force)
+    }
+
+    /// Updates the geometry of the elements that may act in the step to `at`, in a stage; in its last stage that of all.
     ///
     /// # Errors
     /// Errors of the rail models.
     pub(super) fn evaluate_at(&mut self, at: &State) -> Result<(), Error> {
-        self.evaluated.q.copy_from(&at.q);
+        self.evaluated.q.as_mut_slice().copy_from_slice(at.q.as_slice());
         self.evaluated.is_valid = true;
-        let elements = &self.problem.candidates;
+        let elements = if self.evaluated.ends_step { &self.system.all } else { &self.problem.candidates };
         self.geometry.update_some(self.system, (at.t, &at.q), &at.force, elements)
     }
 
@@ -99,11 +115,17 @@ impl Solver<'_> {
 
     /// Solves the stage with coefficient `g` at `at.t` with the present active set; `at` contains the previous
     /// solution as the initial guess. Each iteration is a correction where `may_correct` allows it, else a
-    /// full pass. Returns whether the iteration converged.
+    /// full pass. `ends_step` marks the last stage of a step. Returns whether the iteration converged.
     ///
     /// # Errors
     /// Errors of the rail models, and masses that are not positive definite.
-    pub fn stage(&mut self, g: f64, known: &mut Known, at: &mut State) -> Result<bool, Error> {
+    pub fn stage(
+        &mut self,
+        g: f64,
+        known: &mut Known,
+        at: &mut State,
+        ends_step: bool,
+    ) -> Result<bool, Error> {
         let system = self.system;
         let traits = &system.traits;
         self.free.set_step(system, g)?;
@@ -118,9 +140,10 @@ impl Solver<'_> {
         if hangs {
             self.charts.guess(system, self.geometry.switches(), g, known, at);
         }
-        self.problem.slack = self.convergence.allowed().map_or(0.0, |allowed| SLACK * allowed);
+        let slack = SLACK[usize::from(!iterates || self.convergence.knows_ratio())];
+        self.problem.slack = slack * self.allowed_error();
         let (mut last, mut changes_of_set) = (f64::INFINITY, 0);
-        self.evaluated.is_valid = false;
+        (self.evaluated.is_valid, self.evaluated.ends_step) = (false, ends_step);
         for pass in 0..PASSES {
             if hangs {
                 self.charts.linearise(system, self.geometry.switches(), g, known, at);
@@ -140,14 +163,16 @@ impl Solver<'_> {
                     Pass::Failed => return Ok(false),
                 },
             };
-            let verdict = self.convergence.judge(change, last, is_correction);
+            // Changes before and after a change of the set of acting laws say nothing of how the iteration contracts.
+            let is_same = laws == ActingLaws::Same;
+            let compared = if laws == ActingLaws::Changed { f64::INFINITY } else { last };
+            let verdict = self.convergence.judge(change, compared, is_correction);
             // In the first pass of a free motion, a small change of positions does not imply accurate speeds.
             let is_sure = pass > 0 || !system.mechanics.moves_freely;
             // Where nothing depends on the motion within the stage, a full pass is its solution; a correction is not, where
             // laws are not linear.
             let is_solved = !iterates && !is_correction;
             // After a change of the set of acting laws, it may change again.
-            let is_same = laws == ActingLaws::Same;
             let ends = is_solved || (is_same && (moved < 1e-13 && is_sure || verdict.has_ended));
             // An element that touches is part of the problem from the next pass on.
             if (ends || !is_correction) && self.find_touching(at) {
@@ -176,7 +201,9 @@ impl Solver<'_> {
             self.free.move_in_stage(system, g, known, at)?;
         }
         self.factored_for = None;
-        self.evaluate_at(at)?;
+        if begins || self.nearness(at) != Nearness::Near {
+            self.evaluate_at(at)?;
+        }
         if begins {
             self.find_idle(&at.force);
         }
