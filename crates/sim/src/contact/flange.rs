@@ -123,9 +123,9 @@ impl Element for FlangeContact<'_> {
     fn law(&self, query: &Query, _: &mut Vec<Coupling>) -> Option<Law> {
         let flange = self.flange;
         let mut overlap = if query.is_active { flange.overlap(query.penetration()) } else { 0.0 };
-        let force = query.force[query.index];
-        if overlap == 0.0 && query.continues && force != 0.0 {
-            overlap = query.penetration() - flange.clearance.copysign(force);
+        // An extrapolated force may have the sign of the other side.
+        if overlap == 0.0 && query.continues && query.force[query.index] != 0.0 {
+            overlap = query.penetration() - flange.clearance.copysign(query.penetration());
         }
         if overlap == 0.0 {
             return None;

@@ -120,7 +120,7 @@ pub(crate) const ESDIRK5: Tableau = Tableau {
         CAUTION * 0.044_807_498_581_691_03,
     ],
     error_power: 5.0,
-    loosest: 1.65e-2,
+    loosest: 1.8e-2,
     length: 1.0,
     path: 4.0,
 };

@@ -59,8 +59,8 @@ struct Residuals {
     couplings: Vec<Coupling>,
     /// Elements that do not act, but have a force.
     released: Vec<usize>,
-    /// Whether a law was kept acting, or from acting.
-    is_held: bool,
+    /// Elements whose laws were kept acting.
+    held: Vec<usize>,
 }
 
 /// The laws that are to act.
@@ -157,7 +157,7 @@ impl Problem {
                 slopes: Vec::with_capacity(m),
                 couplings: Vec::new(),
                 released: Vec::new(),
-                is_held: false,
+                held: Vec::with_capacity(m),
             },
             factors: Factors {
                 elements: Vec::with_capacity(m),
@@ -252,9 +252,12 @@ impl Problem {
             return None;
         }
         self.take_newton_step();
-        let laws = match (is_earlier, self.residuals.is_held) {
-            (true, false) => ActingLaws::Same,
-            (true, true) => ActingLaws::Held,
+        // A law that was kept acting does act where the forces found push.
+        let Residuals { held, value, reached, .. } = &self.residuals;
+        let pushes = |&i: &usize| (force[i] - value[i]) * reached[i][0] > 0.0;
+        let laws = match (is_earlier, held.iter().all(pushes)) {
+            (true, true) => ActingLaws::Same,
+            (true, false) => ActingLaws::Held,
             (false, _) => ActingLaws::Changed,
         };
         Some((&self.residuals.value, laws))

@@ -28,7 +28,7 @@ impl Residuals {
         self.couplings.clear();
         self.value.fill(0.0);
         self.released.clear();
-        self.is_held = false;
+        self.held.clear();
     }
 
     fn set_idle(&mut self, i: usize, force: f64) {
@@ -172,11 +172,11 @@ impl Problem {
             }
             let known = residuals.couplings.len();
             let mut found = system.elements[i].law(&query, &mut residuals.couplings);
-            if holds && found.is_some() != is_held {
-                residuals.is_held = true;
+            if is_held && found.is_none() {
+                residuals.held.push(i);
                 residuals.couplings.truncate(known);
-                query.continues = is_held;
-                found = if is_held { system.elements[i].law(&query, &mut residuals.couplings) } else { None };
+                query.continues = true;
+                found = system.elements[i].law(&query, &mut residuals.couplings);
             }
             let Some(mut law) = found else {
                 residuals.set_idle(i, force[i]);
