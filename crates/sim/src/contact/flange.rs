@@ -150,6 +150,9 @@ impl Element for FlangeContact<'_> {
     }
 
     fn stored(&self, at: &At, energy: &mut Stored) {
+        if at.force() == 0.0 {
+            return;
+        }
         let flange = self.flange;
         let deflection = at.deflection();
         energy.structure += 0.5 * at.force() * deflection;

@@ -22,7 +22,7 @@ const SLACK_BY_ERROR: f64 = 1e-4;
 const PASSED: f64 = 8.0;
 
 /// Tolerance of the position of a touch, as a fraction of the step.
-const TOUCH_WIDTH: f64 = 1e-3;
+const TOUCH_WIDTH: f64 = 1e-4;
 
 /// Errors of the forces, relative to the largest, and of the heights of the wheels, relative to themselves, in the states at which
 /// a touch is sought. They move a flange beside its rail by as much of the deflection, and of the radius times the roll, which

@@ -408,7 +408,8 @@ impl<'a> Solver<'a> {
         }
     }
 
-    /// Sets `at` to the interpolant between the two ends of the last attempted step, at `fraction` of the step.
+    /// Sets `at` to the interpolant between the two ends of the last attempted step, at `fraction` of the step, and the heights of
+    /// the wheels to those at its penetrations.
     ///
     /// # Errors
     /// Errors of the rail models.
