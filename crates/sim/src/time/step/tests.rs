@@ -14,8 +14,8 @@ use nalgebra::DMatrix;
 use splines::{Compliance, ExactSurface, Flexibility, Influence, Probe, RailElement, Rails};
 
 use crate::{
-    Analysis, BlendedParts, Body, Contact, Damper, Dynamics, Error, Foundation, Method, MotionKind,
-    NormalLaw, PartChain, Profile,
+    Analysis, BlendedParts, Body, BodyDof, Contact, Damper, Dynamics, Error, Flange, Foundation, Load,
+    Method, MotionKind, NormalLaw, PartChain, Profile, Schedule,
 };
 use crate::{Scene, Shapes, Structure, Wheel};
 
@@ -91,6 +91,35 @@ fn error_of_an_oscillation_falls_with_the_fourth_power_of_the_step() -> Result<(
         errors.push((end - (-0.1 + 0.05 * 10.0_f64.cos())).abs());
     }
     assert!((slope(&errors) - 4.0).abs() < 0.1, "{errors:?}");
+    Ok(())
+}
+
+/// Identity: a flange that nothing at the start of a step leads to its rail, with neither speed nor acceleration, is left out of
+/// the step; where it touches at the end, all stages are taken again with it, and its force is that of its law.
+#[test]
+fn a_step_in_which_a_flange_that_was_left_out_touches_is_repeated() -> Result<(), Error> {
+    let (mut scene, foundations) = (scene(), [Foundation::rigid()]);
+    scene.bodies[0].free[2] = true;
+    let (stiffness, clearance) = (100.0, 0.01);
+    scene.wheels[0].flange = Some(Flange { stiffness, clearance, release: None });
+    let value = Schedule::new(&[[0.0, 0.0], [1.0, 30.0]])?;
+    scene.actuators.loads.push(Load { body: 0, dof: BodyDof::Z, value });
+    let system = System::new(&scene, &foundations)?;
+    // Free motion by the load 30 t of a mass of 1: z = 5 t^3, 5e-3 and 0.04 at the ends of these steps.
+    for (h, touches) in [(0.1, false), (0.2, true)] {
+        let mut solver = Solver::new(&system, RailMemory::Known)?;
+        let mut state = system.state();
+        state.q[0] = -0.1;
+        settle(&mut solver, &mut state)?;
+        solver.store_open(&state);
+        let (mut step, mut stages) = (Step::new(&mut solver, state, Method::Sdirk4), 0);
+        step.begin();
+        assert!(step.attempt(h, f64::INFINITY, &mut stages)?);
+        assert_eq!(stages, if touches { 10 } else { 5 }, "step {h}");
+        let wanted = if touches { stiffness * (step.to.q[1] - clearance) } else { 0.0 };
+        assert!((step.to.force[1] - wanted).abs() < 1e-9, "step {h}: {} of {wanted}", step.to.force[1]);
+        assert_eq!(wanted > 0.0, touches);
+    }
     Ok(())
 }
 
