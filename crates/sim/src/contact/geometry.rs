@@ -190,6 +190,12 @@ impl Geometry {
         self.rails().deflection(i, force)
     }
 
+    /// Penetration of element `i` at `at`: its approach less the deflection of the rail.
+    #[inline]
+    pub fn penetration(&self, i: usize, at: &State) -> f64 {
+        self.approach(i, &at.q) - self.deflection(i, &at.force)
+    }
+
     /// Compliance of the rail at element `i` under its own force.
     pub fn own_compliance(&self, i: usize) -> f64 {
         self.rails().value[i * self.local.len() + i]
@@ -431,8 +437,8 @@ impl Geometry {
             drift: Drift { wheels, change, by_others }, places, rails, rows, shapes, near, ..
         } = self;
         let moved = |w: usize| places.of_wheel(mechanics, w, q) - places.x[w];
-        let leads = (0..wheels.len()).filter(|&w| !mechanics.follows_in_contact(w));
-        if leads.clone().all(|w| (moved(w) - wheels[w]).abs() <= STILL * *near) {
+        let mut leads = (0..wheels.len()).filter(|&w| !mechanics.follows_in_contact(w));
+        if leads.all(|w| (moved(w) - wheels[w]).abs() <= STILL * *near) {
             return;
         }
         for w in 0..wheels.len() {

@@ -1,32 +1,31 @@
 //! A polynomial of degree five by its Bernstein coefficients: its values, and bounds of them.
 
-/// Value of f at `s` from the Bernstein coefficients of f on [0, 1], by de Casteljau's algorithm.
-pub(crate) fn value(mut coefficients: [f64; 6], s: f64) -> f64 {
-    for level in (1..6).rev() {
-        for i in 0..level {
+/// Bernstein coefficients on [0, s] of a polynomial from those on [0, 1]; the last one is its value at `s`.
+///
+/// # Source
+/// De Casteljau's algorithm: Farin, Curves and Surfaces for CAGD, 5th ed. (2002), ch. 4 and 5.
+fn subdivided(mut coefficients: [f64; 6], s: f64) -> [f64; 6] {
+    std::array::from_fn(|level| {
+        let first = coefficients[0];
+        for i in 0..5 - level {
             coefficients[i] += s * (coefficients[i + 1] - coefficients[i]);
         }
-    }
-    coefficients[0]
+        first
+    })
+}
+
+/// Value of f at `s` from the Bernstein coefficients of f on [0, 1].
+pub(crate) fn value(coefficients: [f64; 6], s: f64) -> f64 {
+    subdivided(coefficients, s)[5]
 }
 
 /// Bound on |f(s) - f(0)| for s from 0 to `end`, from the Bernstein coefficients of f on [0, 1].
 ///
-/// The coefficients on [0, end] follow by subdivision, and a polynomial lies within the range of its Bernstein
-/// coefficients. The bound is attained where they increase or decrease throughout.
-///
-/// # Source
-/// De Casteljau's algorithm: Farin, Curves and Surfaces for CAGD, 5th ed. (2002), ch. 4 and 5.
-pub(crate) fn largest_change(mut coefficients: [f64; 6], end: f64) -> f64 {
-    let first = coefficients[0];
-    let mut largest = 0.0_f64;
-    for level in (1..6).rev() {
-        for i in 0..level {
-            coefficients[i] += end * (coefficients[i + 1] - coefficients[i]);
-        }
-        largest = largest.max((coefficients[0] - first).abs());
-    }
-    largest
+/// A polynomial lies within the range of its Bernstein coefficients, here of those on [0, end]. The bound is attained where
+/// they increase or decrease throughout.
+pub(crate) fn largest_change(coefficients: [f64; 6], end: f64) -> f64 {
+    let changes = subdivided(coefficients, end).map(|own| (own - coefficients[0]).abs());
+    changes.into_iter().fold(0.0, f64::max)
 }
 
 #[cfg(test)]

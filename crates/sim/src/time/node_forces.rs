@@ -371,11 +371,8 @@ impl NodeForces {
         let m = at.force.len();
         at.force.copy_from_slice(&self.force[a * m..(a + 1) * m]);
         for i in 0..m {
-            at.p[i] = if self.has_effects {
-                self.penetration(a * m + i)
-            } else {
-                geometry.approach(i, &at.q) - geometry.deflection(i, &at.force)
-            };
+            at.p[i] =
+                if self.has_effects { self.penetration(a * m + i) } else { geometry.penetration(i, at) };
         }
     }
 }

@@ -70,7 +70,7 @@ enum Wanted {
     Natural,
     /// These, and those of elements with a force, as far as they can be continued.
     Continued,
-    /// Those of the factored Jacobian, as far as they can be continued.
+    /// The first, and those of the factored Jacobian, as far as they can be continued.
     Factored,
 }
 
@@ -78,7 +78,7 @@ enum Wanted {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum ActingLaws {
     Same,
-    /// They were held to be those, where others would act.
+    /// Laws among them were kept acting that do not act under the forces found.
     Held,
     Changed,
 }
@@ -234,8 +234,8 @@ impl Problem {
     }
 
     /// Newton's change of the forces at penetrations and rates that the caller has set, with the factors of an
-    /// earlier Jacobian. If `holds` is true, the laws that act are those of the factored one, as far as they can be
-    /// continued: under a first guess of the forces others may seem to act. If the set of acting laws differs from the
+    /// earlier Jacobian. If `holds` is true, the laws of the factored one are kept acting, as far as they can be
+    /// continued: under a first guess of the forces they may seem to have ceased. If the set of acting laws differs from the
     /// factored one, the Jacobian is that of these laws and the W and Y of the earlier one. Returns `None` if it is singular.
     pub fn corrections(
         &mut self,

@@ -63,9 +63,7 @@ impl Solver<'_> {
         let largest = change.iter().fold(0.0_f64, |max, change| change.abs().max(max));
         at.force.iter_mut().zip(change).for_each(|(force, change)| *force -= change);
         self.projection.add_forces(&self.free.a, 1.0, change, &mut at.a);
-        let [moved, beside] = self.arrive(g, known, at, |solver, i, at| {
-            solver.geometry.approach(i, &at.q) - solver.geometry.deflection(i, &at.force)
-        });
+        let [moved, beside] = self.arrive(g, known, at, |solver, i, at| solver.geometry.penetration(i, at));
         Ok(Some(([moved, beside.max(largest / size)], laws)))
     }
 

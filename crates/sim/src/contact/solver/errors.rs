@@ -69,11 +69,8 @@ impl Solver<'_> {
             let Ringing { periods, amplitude } = ringing[k];
             (repeated * periods * error).min(RINGING * (amplitude * place).abs()).max(least * error)
         };
-        let [mut now, mut later, mut own] = std::mem::take(&mut self.error_sums);
-        for sums in [&mut now, &mut later, &mut own] {
-            sums.clear();
-            sums.resize(out.len(), [0.0; 2]);
-        }
+        let zeros = || vec![[0.0; 2]; out.len()];
+        let (mut now, mut later, mut own) = (zeros(), zeros(), zeros());
         for &i in &self.problem.sought {
             let tilted = system.mechanics.moves_freely && !system.fixed[i].is_tangential;
             let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
@@ -100,11 +97,10 @@ impl Solver<'_> {
         // The last stage ends with its laws evaluated, and with the factors of its problem, unless this was linear.
         let is_solved = self.factored_for.take().is_some() && self.problem.is_factored();
         let is_current = is_staged && is_solved;
-        let has_factors = is_current || self.problem.linearise(system, local, active, &at.force);
-        let is_found =
-            has_factors && self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out);
-        self.error_sums = [now, later, own];
-        is_found
+        if !(is_current || self.problem.linearise(system, local, active, &at.force)) {
+            return false;
+        }
+        self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out)
     }
 
     /// Sets the `frequency` of each degree of freedom, or 0 where it has none, and returns the largest number of bounces

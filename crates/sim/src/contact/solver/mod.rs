@@ -61,8 +61,6 @@ pub(crate) struct Solver<'a> {
     evaluated: Evaluated,
     convergence: Convergence,
     rail_memory: RailMemory,
-    /// Scratch for errors of forces: sums of errors of penetrations and rates.
-    error_sums: [Vec<[f64; 2]>; 3],
 }
 
 impl<'a> Solver<'a> {
@@ -86,7 +84,6 @@ impl<'a> Solver<'a> {
             },
             convergence: Convergence::default(),
             rail_memory,
-            error_sums: Default::default(),
         })
     }
 

@@ -70,7 +70,7 @@ impl Solver<'_> {
     pub fn is_complete(&self, to: &State) -> bool {
         let touches = |i: usize| {
             let is_left_out = self.system.fixed[i].is_followed && !self.problem.candidates.has(i);
-            is_left_out && self.system.elements[i].touches(self.penetration_at(i, to))
+            is_left_out && self.system.elements[i].touches(self.geometry.penetration(i, to))
         };
         self.problem.candidates.are_all() || !(0..self.system.elements.len()).any(touches)
     }
@@ -79,11 +79,6 @@ impl Solver<'_> {
     pub(super) fn nearness(&self, at: &State) -> Nearness {
         let Evaluated { q, is_valid, .. } = &self.evaluated;
         if *is_valid { self.geometry.nearness(self.system, q, &at.q) } else { Nearness::Far }
-    }
-
-    /// Penetration of element `i` at `at`, to which the geometry must belong.
-    fn penetration_at(&self, i: usize, at: &State) -> f64 {
-        self.geometry.approach(i, &at.q) - self.geometry.deflection(i, &at.force)
     }
 
     /// Updates the geometry of the elements that may act in the step to `at`, in a stage; in its last stage that of all.
@@ -245,8 +240,7 @@ impl Solver<'_> {
         let mut is_found = false;
         let Problem { candidates, idle, .. } = &mut self.problem;
         for &i in candidates.list().iter().filter(|&&i| self.system.fixed[i].is_followed) {
-            let penetration = || self.geometry.approach(i, &at.q) - self.geometry.deflection(i, &at.force);
-            if idle[i] && self.system.elements[i].touches(penetration()) {
+            if idle[i] && self.system.elements[i].touches(self.geometry.penetration(i, at)) {
                 idle[i] = false;
                 is_found = true;
             }
