@@ -11,8 +11,8 @@ use common::near::assert_near;
 use common::{SPAN, bogie, girder, give};
 use nalgebra::DMatrix;
 use sim::{
-    Analysis, BodyDof, Channel, Damper, Error, Flange, Foundation, Friction, FrictionLaw, Run, Scene, Status,
-    Stop,
+    Analysis, BodyDof, Channel, Damper, Error, Flange, Foundation, Friction, FrictionLaw, Method, Run, Scene,
+    Status, Stop,
 };
 use splines::{Axis, Compliance, Influence, InfluenceBlock, Probe, ReadingMethod, SplineTable, TableReading};
 
@@ -336,5 +336,40 @@ fn a_body_that_starts_against_a_stiff_stop_rests_on_its_wheels() {
         let held = run(&scene, Foundation::rigid()).expect("a bogie at rest against the stop");
         let found = held.history.column(Channel::Stop(0))[0];
         assert_near("force of the stop, lb", "analytic", stiffness * pressed / 5.0, found, 1e-9);
+    }
+}
+
+/// Analytic: what each of four wheels deflects its rail by is the influence function of the girder times their forces, at every
+/// output of a crossing in fewer than twenty steps. Between nodes some steps apart the function is interpolated; without a limit
+/// on its error the deflections err by 8e-2.
+#[test]
+fn rails_of_a_fast_crossing_deflect_by_the_influence_function_and_the_forces() {
+    for method in [Method::Sdirk4, Method::Esdirk5] {
+        let mut scene = rolling(0.25);
+        scene.contacts = [-7.5, -2.5, 2.5, 7.5]
+            .map(|offset| sim::Contact { offsets: vec![offset], ..scene.contacts[0].clone() })
+            .to_vec();
+        scene.wheels[0].normal = sim::NormalLaw::linear(4e6, 1e4, Damper::Ground);
+        scene.bodies[0].start_speed[0] = 240.0;
+        scene.bodies[0].start[0] = 5.0;
+        scene.output_dt = 1e-3;
+        scene.accuracy = 6e-3;
+        let run =
+            sim::run_by(method, &scene, &[girder()], &mut |_| ControlFlow::Continue(())).expect("valid");
+        assert_eq!(run.status, Status::Done);
+        let columns =
+            |channel: fn(usize) -> Channel| [0, 1, 2, 3].map(|wheel| run.history.column(channel(wheel)));
+        let (x, force) = (columns(Channel::Position), columns(Channel::Vertical));
+        let (mut largest, mut apart) = (0.0_f64, 0.0_f64);
+        for (wheel, deflection) in columns(Channel::Deflection).iter().enumerate() {
+            for (row, deflection) in deflection.iter().enumerate() {
+                let expected: f64 =
+                    (0..4).map(|other| give(x[wheel][row], x[other][row]).0 * force[other][row]).sum();
+                (largest, apart) = (largest.max(expected), apart.max((expected - deflection).abs()));
+            }
+        }
+        println!("{method:?}, {} steps: {:.1e} of the largest deflection", run.counts.steps, apart / largest);
+        // A tenth of the accuracy.
+        assert!(apart < 0.1 * scene.accuracy * largest, "{apart:e} of {largest:e}");
     }
 }

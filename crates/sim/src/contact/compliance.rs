@@ -12,7 +12,7 @@ use splines::{Influence, Probe};
 
 use super::candidates::Candidates;
 use super::matrices::RailMatrices;
-use super::path::CompliancePath;
+use super::path::{CompliancePath, PathLimits};
 use super::probes::{Entry, Probes};
 use crate::Error;
 use crate::mechanics::assembly::Mechanics;
@@ -23,7 +23,10 @@ const NEAR: f64 = 1e-3;
 
 /// Square of the distance a wheel may be beside the path, in radii per unit of step tolerance. G is extrapolated to it, with an
 /// error in proportion to its square.
-const BESIDE: f64 = 1e-3;
+const BESIDE: f64 = 1e-2;
+
+/// Error of the compliance by interpolation along the path, relative to the largest at each wheel, per unit of step tolerance.
+const ALONG: f64 = 3e-2;
 
 /// The compliance between all elements.
 #[derive(Clone)]
@@ -34,8 +37,8 @@ pub(crate) struct RailCompliance {
     has_shared_rows: bool,
     /// Largest distance from the last evaluation, in wheel radii, for which G is extrapolated.
     near: f64,
-    /// Largest distance of a wheel from the path for which G is extrapolated.
-    reach: f64,
+    /// What is allowed of paths.
+    path: PathLimits,
 }
 
 /// The latest evaluation of the compliance of one structure.
@@ -73,7 +76,7 @@ impl RailCompliance {
             providers: providers.collect(),
             has_shared_rows,
             near: 0.0,
-            reach: 0.0,
+            path: PathLimits::default(),
         }
     }
 
@@ -92,12 +95,13 @@ impl RailCompliance {
     /// radius of the smallest wheel.
     pub fn set_accuracy(&mut self, tolerance: f64, radius: f64) {
         self.near = NEAR * tolerance;
-        self.reach = (BESIDE * tolerance).sqrt() * radius;
+        let beside = (BESIDE * tolerance).sqrt() * radius;
+        self.path = PathLimits { beside, error: ALONG * tolerance };
     }
 
     /// Whether interpolation along paths is useful.
     pub fn wants_paths(&self) -> bool {
-        self.reach != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
+        self.path.beside != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
     }
 
     /// Updates the rows of G of the `elements` to the rail coordinates `x` of all wheels. The columns of other elements
@@ -113,12 +117,12 @@ impl RailCompliance {
         elements: &Candidates,
     ) -> Result<(), Error> {
         let m = probes.slots.len();
-        let RailCompliance { matrices, providers, has_shared_rows, near, reach } = self;
+        let RailCompliance { matrices, providers, has_shared_rows, near, path: limits } = self;
         let mut has_stale_sums = false;
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
             let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
             if let Some(path) = &mut provider.path
-                && path.follow(x, *reach, elements, (m, matrices))
+                && path.follow(x, limits.beside, elements, (m, matrices))
             {
                 provider.is_on_path = true;
                 continue;
@@ -160,7 +164,8 @@ impl RailCompliance {
     /// Sets the paths of all wheels from `from` to `beyond`, or to `to` if a rail element ends before `beyond`. A
     /// path that already contains `from` and `to` is kept.
     pub fn set_paths(&mut self, mechanics: &Mechanics, probes: &Probes, [from, to, beyond]: [&[f64]; 3]) {
-        let reach = self.reach;
+        let limits = self.path;
+        let reach = limits.beside;
         for (s, (provider, entries)) in self.providers.iter_mut().zip(&probes.entries).enumerate() {
             let foundation = &mechanics.foundations[s];
             let Some(path) = &mut provider.path else { continue };
@@ -191,7 +196,7 @@ impl RailCompliance {
             let ends = [&nearer[..], to].map(inner).into_iter().find(leads_on);
             let is_set = ends.zip(foundation.compliance.as_ref()).is_some_and(|(ends, compliance)| {
                 let goes_on = is_free(path.second(), &ends[0]);
-                path.set(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), reach, goes_on).is_ok()
+                path.set(compliance.as_ref(), ends.each_ref().map(Vec::as_slice), limits, goes_on).is_ok()
             });
             if !is_set {
                 path.clear();

@@ -15,7 +15,7 @@ const LOOSE: f64 = 1e-4;
 
 /// Safety factors on the contraction ratio of another stage, used while that of the present stage is unknown: of passes with
 /// new matrices, which contract the more the nearer they are to the solution, and of corrections, which contract alike.
-const MARGIN: [f64; 2] = [100.0, 10.0];
+const MARGIN: [f64; 2] = [100.0, 4.0];
 
 /// Least contraction ratio of another stage for the first correction of a stage: the ratio of a full pass and the correction
 /// that follows it is smaller.

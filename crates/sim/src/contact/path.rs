@@ -4,7 +4,9 @@
 //! of it inside its ends. The wheels of one contact move together; a group consists of the wheels of one contact that act
 //! on one element. With s = 0 and s = 1 at the nodes, G(s) is the cubic defined by the values and the slopes there; its
 //! error, in proportion to s^2 (1 - s)^2, is no larger at the ends than between the nodes. A path that goes on begins at the
-//! second node of the last one. The slopes of single groups are the quadratics of least curvature that satisfy dG/ds =
+//! second node of the last one. There the difference between the new values and the last cubics is q s^2 (s - 1)^2 with the
+//! coefficient q of s^4, from which the error of the new cubics follows: where it is larger than allowed, the new path is
+//! shortened, and so are those after it. The slopes of single groups are the quadratics of least curvature that satisfy dG/ds =
 //! G_x x' + G_y y', so that the work of forces along the rail equals the change of the elastic energy in the rail. At
 //! a distance from the path, G is extrapolated by its slopes.
 
@@ -24,6 +26,21 @@ const MANY: usize = 3;
 
 /// Part of a path before its first and after its second node, relative to the distance of the nodes.
 const BEYOND: f64 = 0.2;
+
+/// Part of the length of a path with the allowed error to which it is limited.
+const CAUTIOUS: f64 = 0.9;
+
+/// Least part of its length to which a path is shortened.
+const LEAST: f64 = 0.1;
+
+/// What is allowed of a path.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PathLimits {
+    /// Largest distance of a wheel from the path.
+    pub beside: f64,
+    /// Largest error of the interpolation, relative to the compliance of an element under its own force.
+    pub error: f64,
+}
 
 /// The wheels of one contact that act on one element.
 #[derive(Clone)]
@@ -75,6 +92,10 @@ pub(crate) struct CompliancePath {
     values: Vec<Polynomials<4>>,
     /// Derivatives of G between groups and elements with respect to the position of the group, row by row.
     slopes: Vec<Polynomials<3>>,
+    /// Largest compliance of each element under its own force so far.
+    largest: Vec<f64>,
+    /// Distance between the nodes up to which the error is taken to be allowed.
+    longest: f64,
     /// Scratch: places of the elements that are wanted among those of the path, one row, and for each element the
     /// derivatives of its groups times their distances from the path.
     wanted: Vec<usize>,
@@ -141,6 +162,8 @@ impl CompliancePath {
             width,
             values: vec![[[0.0; 4]; 4]; elements.len() * width],
             slopes: vec![[[0.0; 4]; 3]; count * width],
+            largest: vec![0.0; elements.len()],
+            longest: f64::INFINITY,
             wanted: Vec::with_capacity(elements.len()),
             line: vec![[0.0; 4]; width],
             beside: vec![[0.0; 4]; elements.len() * width],
@@ -151,9 +174,10 @@ impl CompliancePath {
         })
     }
 
-    /// Sets the path between the positions `from` and `to` of all wheels; no rail element may end between them. If
-    /// `goes_on` is true and `from` is within the distance `reach` of the path from the second node of the last path to
-    /// `to`, that node is the first of the new path; no rail element may then end between that node and `from`.
+    /// Sets the path between the positions `from` and `to` of all wheels, or to a place before `to` where its error would be
+    /// larger than the limit; no rail element may end between them. If `goes_on` is true and `from` is near enough to the path
+    /// from the second node of the last path to `to`, that node is the first of the new path; no rail element may then end
+    /// between that node and `from`.
     ///
     /// # Errors
     /// Errors of the compliance.
@@ -161,33 +185,86 @@ impl CompliancePath {
         &mut self,
         compliance: &dyn Compliance,
         [from, to]: [&[f64]; 2],
-        reach: f64,
+        limits: PathLimits,
         goes_on: bool,
     ) -> Result<(), splines::Error> {
         let was_set = std::mem::replace(&mut self.is_set, false);
-        let inside = BEYOND / (1.0 + 2.0 * BEYOND);
-        let between = |a: &[f64], b: &[f64], share: f64| -> Vec<f64> {
-            a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
-        };
-        let mut second = between(&self.last, to, 1.0 / (1.0 + BEYOND));
+        let mut second =
+            self.limited(&self.last, &between(&self.last, to, 1.0 / (1.0 + BEYOND)), self.longest);
+        let (before, expected) = (norm(&self.length), self.continued(&second));
         self.nodes.swap(0, 1);
         self.set_length(&second);
-        let is_near = goes_on && was_set && self.project(from).1 <= reach;
-        if !is_near {
-            self.evaluate(0, compliance, &between(from, to, inside))?;
-            second = between(from, to, 1.0 - inside);
+        if goes_on && was_set && self.project(from).1 <= limits.beside {
+            self.evaluate(1, compliance, &second)?;
+            let length = norm(&self.length);
+            if before > 0.0 && length > 0.0 {
+                let fits = CAUTIOUS * (limits.error / self.error(before, &expected)).sqrt().sqrt();
+                self.longest = length * fits.max(LEAST);
+                if fits < CAUTIOUS {
+                    second = between(&self.last, &second, fits.max(LEAST));
+                    self.set_length(&second);
+                    self.evaluate(1, compliance, &second)?;
+                }
+            }
+        } else {
+            let inside = BEYOND / (1.0 + 2.0 * BEYOND);
+            let [first, last] = [inside, 1.0 - inside].map(|share| between(from, to, share));
+            self.evaluate(0, compliance, &first)?;
+            second = self.limited(&first, &last, self.longest);
             self.set_length(&second);
+            self.evaluate(1, compliance, &second)?;
         }
-        self.evaluate(1, compliance, &second)?;
         self.last.copy_from_slice(&second);
         self.fit();
         self.is_set = true;
         Ok(())
     }
 
-    /// Whether `places` is within the distance `reach` of the path.
-    pub fn leads_to(&mut self, places: &[f64], reach: f64) -> bool {
-        self.is_set && self.project(places).1 <= reach
+    /// The place on the way from `first` to `second` at which a path between these nodes has the length `longest` at most.
+    fn limited(&self, first: &[f64], second: &[f64], longest: f64) -> Vec<f64> {
+        let way: Vec<f64> =
+            self.groups.iter().map(|group| second[group.wheel] - first[group.wheel]).collect();
+        let length = norm(&way);
+        between(first, second, if length > longest { longest / length } else { 1.0 })
+    }
+
+    /// s at `places`, which may be far beyond the nodes, and the compliance of every element under its own force there by the
+    /// present polynomials.
+    fn continued(&mut self, places: &[f64]) -> (f64, Vec<f64>) {
+        let (s, _) = self.project_within(places, [f64::NEG_INFINITY, f64::INFINITY]);
+        let own = |(place, element): (usize, &usize)| {
+            let column = element - self.columns.start;
+            let (four, lane) = (column / 4, column % 4);
+            let [a, b, c, d] = self.values[place * self.width + four].map(|four| four[lane]);
+            let beside = self.groups_of[place].clone().map(|group| {
+                let [p, q, r] = self.slopes[group * self.width + four].map(|four| four[lane]);
+                self.offset[group] * (p + s * (q + s * r))
+            });
+            a + s * (b + s * (c + s * d)) + 2.0 * beside.sum::<f64>()
+        };
+        (s, self.elements.iter().enumerate().map(own).collect())
+    }
+
+    /// Largest error of the cubics between the nodes, relative to the largest compliance of each element under its own force, if
+    /// those of the last path, between nodes at the distance `before`, gave what is `expected` at the second node.
+    fn error(&mut self, before: f64, (s, expected): &(f64, Vec<f64>)) -> f64 {
+        let (count, values) = (self.groups.len(), self.nodes[1].influence.value.as_slice());
+        let of_quartic = (norm(&self.length) / before).powi(4) / (16.0 * (s * (s - 1.0)).powi(2));
+        let mut largest_error = 0.0_f64;
+        for ((groups, largest), expected) in self.groups_of.iter().zip(&mut self.largest).zip(expected) {
+            let row = |i: usize| groups.clone().map(move |j| values[i + j * count]).sum::<f64>();
+            let own = groups.clone().map(row).sum::<f64>();
+            *largest = largest.max(own);
+            if *largest > 0.0 {
+                largest_error = largest_error.max((own - expected).abs() * of_quartic / *largest);
+            }
+        }
+        largest_error
+    }
+
+    /// Whether `places` is within the distance `beside` of the path.
+    pub fn leads_to(&mut self, places: &[f64], beside: f64) -> bool {
+        self.is_set && self.project(places).1 <= beside
     }
 
     /// Rail coordinates of all wheels at the second node of the path.
@@ -272,6 +349,11 @@ impl CompliancePath {
     /// The s of the point of the path nearest to `places`, and the largest distance of a wheel from that point.
     /// The distances of all groups are stored in `offset`.
     fn project(&mut self, places: &[f64]) -> (f64, f64) {
+        self.project_within(places, [-BEYOND, 1.0 + BEYOND])
+    }
+
+    /// The same for s from `least` to `most`.
+    fn project_within(&mut self, places: &[f64], [least, most]: [f64; 2]) -> (f64, f64) {
         let (mut along, mut squares) = (0.0, 0.0);
         for ((group, offset), (start, length)) in
             self.groups.iter().zip(&mut self.offset).zip(self.nodes[0].x.iter().zip(&self.length))
@@ -280,7 +362,7 @@ impl CompliancePath {
             along += *offset * length;
             squares += length * length;
         }
-        let s = if squares > 0.0 { (along / squares).clamp(-BEYOND, 1.0 + BEYOND) } else { 0.0 };
+        let s = if squares > 0.0 { (along / squares).clamp(least, most) } else { 0.0 };
         let mut farthest = 0.0_f64;
         for (offset, length) in self.offset.iter_mut().zip(&self.length) {
             *offset -= s * length;
@@ -365,6 +447,15 @@ impl CompliancePath {
         }
         true
     }
+}
+
+/// The places at a part of the way from `a` to `b`.
+fn between(a: &[f64], b: &[f64], share: f64) -> Vec<f64> {
+    a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
+}
+
+fn norm(values: &[f64]) -> f64 {
+    values.iter().map(|value| value * value).sum::<f64>().sqrt()
 }
 
 /// Puts the values at `s` of a row of polynomials into `row`, four at a time, as `with` combines what is there with them. `each`

@@ -5,6 +5,7 @@
 pub(crate) mod books;
 pub(crate) mod collocation;
 pub(crate) mod events;
+pub(crate) mod guesses;
 pub(crate) mod modal_loads;
 pub(crate) mod node_forces;
 pub(crate) mod nodes;

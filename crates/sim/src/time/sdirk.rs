@@ -7,6 +7,7 @@
 
 use nalgebra::DVector;
 
+use super::guesses::Guesses;
 use super::tableau::{ESDIRK5, SDIRK4, Tableau};
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
@@ -20,6 +21,8 @@ pub(crate) struct Sdirk {
     smooth: &'static Tableau,
     /// The method of the step just taken.
     tableau: &'static Tableau,
+    /// Guesses of the stages of steps after breaks and events, and of other steps.
+    guesses: [Guesses; 2],
     /// Powers at the start of the next step.
     power: Exchanged,
     stage: State,
@@ -53,6 +56,7 @@ impl Sdirk {
         Sdirk {
             smooth,
             tableau: smooth,
+            guesses: [&SDIRK4, smooth].map(Guesses::new),
             power: Exchanged::default(),
             stage: start.clone(),
             known: Known { q: DVector::zeros(n), v: DVector::zeros(n), p: vec![0.0; count] },
@@ -75,11 +79,6 @@ impl Sdirk {
     /// Largest tolerance of steps for the errors of forces.
     pub fn loosest(&self) -> f64 {
         self.smooth.loosest
-    }
-
-    /// Number of step lengths covered by the path along which the compliance is interpolated.
-    pub fn path(&self) -> f64 {
-        self.smooth.path
     }
 
     /// Notes the powers at the start of the next step, `from`, to which the geometry of the solver must belong.
@@ -196,31 +195,27 @@ impl Sdirk {
         }
     }
 
-    /// Extrapolates accelerations and forces of stage `i` by the polynomial through those of the previous stages
-    /// [`Tableau::guess`].
+    /// Sets accelerations and forces of stage `i` to a guess from those of the stages before it.
     fn guess(&mut self, solver: &Solver, i: usize) {
-        if i <= 1 || !solver.system().mechanics.moves_freely {
+        if !solver.system().mechanics.moves_freely {
             return;
         }
-        let (c, stages) = (self.tableau.c, self.tableau.guess[i]);
-        // Lagrange weights of the abscissae of these stages.
-        let node = |j: usize| c[stages[j]];
-        let weight = |j: usize| {
-            let others = (0..stages.len()).filter(|&k| k != j);
-            others.map(|k| (c[i] - node(k)) / (node(j) - node(k))).product::<f64>()
-        };
+        let Sdirk { tableau, stage, done, .. } = self;
+        let acts_alike =
+            |later: &Done| later.forces.iter().zip(&done[0].forces).all(|(a, b)| (*a == 0.0) == (*b == 0.0));
+        let is_smooth = done[1..i].iter().all(acts_alike);
+        let guesses = &self.guesses[usize::from(std::ptr::eq(*tableau, self.smooth))];
+        let weights = guesses.of_stage(i, is_smooth);
+        if weights.is_empty() {
+            return;
+        }
         let is_guessed = |k: &usize| !solver.is_charted(*k);
-        let stage = &mut self.stage;
         for k in (0..stage.a.len()).filter(is_guessed) {
-            stage.a[k] = 0.0;
+            stage.a[k] = weights.iter().map(|&(j, weight)| weight * done[j].accelerations[k]).sum();
         }
         stage.force.fill(0.0);
-        for (j, &before) in stages.iter().enumerate() {
-            let (share, done) = (weight(j), &self.done[before]);
-            for k in (0..stage.a.len()).filter(is_guessed) {
-                stage.a[k] += share * done.accelerations[k];
-            }
-            stage.force.iter_mut().zip(&done.forces).for_each(|(to, from)| *to += share * from);
+        for &(j, weight) in weights {
+            add(weight, &done[j].forces, &mut stage.force);
         }
     }
 

@@ -11,7 +11,7 @@ use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::{Error, Exchanged, Method};
 
-/// Number of step lengths covered by the path along which the compliance is interpolated, of collocation.
+/// Largest number of step lengths covered by the path along which the compliance is interpolated.
 const PATH: f64 = 8.0;
 
 /// Largest tolerance of a step of collocation for the errors of forces: at larger ones these errors are not yet proportional
@@ -374,16 +374,12 @@ impl<'a, 'b> Step<'a, 'b> {
         if !self.solver.wants_paths() {
             return;
         }
-        let path = match &self.integrator {
-            Integrator::Sdirk(sdirk) => sdirk.path(),
-            Integrator::Collocation(_) => PATH,
-        };
         let from = match start {
             PathStart::StepStart => &self.from,
             PathStart::StepEnd => &self.to,
         };
         let (to, beyond) = (&mut self.probe, &mut self.beyond);
-        for (h, at) in [(h, &mut *to), (path * usual.max(h), &mut *beyond)] {
+        for (h, at) in [(h, &mut *to), (PATH * usual.max(h), &mut *beyond)] {
             extrapolate(from, h, at);
         }
         let ends = [from, &*to, &*beyond].map(|at| (at.t, &at.q));

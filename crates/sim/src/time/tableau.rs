@@ -1,5 +1,7 @@
 //! Diagonally implicit Runge-Kutta methods.
 
+use std::cmp::Ordering;
+
 /// A diagonally implicit, stiffly accurate method. Stage 0 is the start of the step and needs no solution; all others have the
 /// same coefficient `gamma` in the diagonal. Methods without an explicit stage give stage 0 no weight.
 pub(crate) struct Tableau {
@@ -9,10 +11,9 @@ pub(crate) struct Tableau {
     /// Rows of the coefficient matrix below the diagonal; row i has i entries. The last row and `gamma` are the
     /// weights.
     pub a: &'static [&'static [f64]],
-    /// Earlier stages from which each stage is extrapolated for its first guess. Stages near to each other multiply their
-    /// errors in an extrapolation: at the end of a step of SDIRK4 the quadratic through the start and two stages is nearer
-    /// than the quartic through the start and four.
-    pub guess: &'static [&'static [usize]],
+    /// Earlier stages from which each stage is guessed ([`Guesses`](super::guesses::Guesses)): in steps in which the set of elements
+    /// with a force changes, and in others. More stages make a guess of higher order, and multiply what is not smooth.
+    pub guess: [&'static [&'static [usize]]; 2],
     /// Weights minus those of the embedded method, times a factor that makes the estimates of all methods as cautious as that of
     /// SDIRK4, which is ten to twenty times the error of an oscillation of half a radian a step.
     pub error: &'static [f64],
@@ -22,8 +23,6 @@ pub(crate) struct Tableau {
     pub loosest: f64,
     /// Length of a step, relative to one of ESDIRK5 with the same error.
     pub length: f64,
-    /// Number of step lengths covered by the path along which the compliance is interpolated.
-    pub path: f64,
 }
 
 impl Tableau {
@@ -32,10 +31,18 @@ impl Tableau {
         self.c.len()
     }
 
+    /// Entry of the coefficient matrix, with its diagonal.
+    pub fn coefficient(&self, i: usize, j: usize) -> f64 {
+        match i.cmp(&j) {
+            Ordering::Greater => self.a[i][j],
+            Ordering::Equal if i > 0 => self.gamma,
+            _ => 0.0,
+        }
+    }
+
     /// Weight of stage `i`.
     pub fn weight(&self, i: usize) -> f64 {
-        let last = self.stages() - 1;
-        if i == last { self.gamma } else { self.a[last][i] }
+        self.coefficient(self.stages() - 1, i)
     }
 }
 
@@ -54,12 +61,11 @@ pub(crate) const SDIRK4: Tableau = Tableau {
         &[0.0, 371.0 / 1360.0, -137.0 / 2720.0, 15.0 / 544.0],
         &[0.0, 25.0 / 24.0, -49.0 / 48.0, 125.0 / 16.0, -85.0 / 12.0],
     ],
-    guess: &[&[], &[0], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3], &[0, 2, 3]],
+    guess: [&[&[], &[], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3], &[0, 2, 3]]; 2],
     error: &[0.0, -3.0 / 16.0, -27.0 / 32.0, 25.0 / 32.0, 0.0, 0.25],
     error_power: 4.0,
     loosest: 8e-3,
     length: 0.5,
-    path: 8.0,
 };
 
 /// Factor on the estimated error of ESDIRK5.
@@ -109,7 +115,10 @@ pub(crate) const ESDIRK5: Tableau = Tableau {
             -0.162_285_610_783_939_52,
         ],
     ],
-    guess: &[&[], &[0], &[0, 1], &[0, 1, 2], &[1, 2, 3], &[1, 2, 4], &[2, 4, 5]],
+    guess: [
+        &[&[], &[], &[0, 1], &[0, 1, 2], &[1, 2, 3], &[0, 1, 2], &[0, 1, 4, 5]],
+        &[&[], &[], &[0, 1], &[0, 1, 2], &[0, 1, 2, 3], &[0, 1, 2, 3, 4], &[0, 1, 2, 4, 5]],
+    ],
     error: &[
         CAUTION * 0.041_223_397_456_907_174,
         CAUTION * 0.041_223_397_456_907_174,
@@ -122,27 +131,17 @@ pub(crate) const ESDIRK5: Tableau = Tableau {
     error_power: 5.0,
     loosest: 1.8e-2,
     length: 1.0,
-    path: 4.0,
 };
 
 #[cfg(test)]
 mod tests {
     use super::{ESDIRK5, SDIRK4, Tableau};
 
-    /// Coefficients with the diagonal.
-    fn full(tableau: &Tableau, i: usize, j: usize) -> f64 {
-        match i.cmp(&j) {
-            std::cmp::Ordering::Greater => tableau.a[i][j],
-            std::cmp::Ordering::Equal if i > 0 => tableau.gamma,
-            _ => 0.0,
-        }
-    }
-
     /// Residuals of the conditions for the orders up to 5 by `weights` (Hairer, Norsett, Wanner I, table II.2.1), by order.
     fn residuals(tableau: &Tableau, weights: &[f64]) -> [Vec<f64>; 5] {
         let s = tableau.stages();
         let times = |vector: &[f64]| -> Vec<f64> {
-            (0..s).map(|i| (0..s).map(|j| full(tableau, i, j) * vector[j]).sum()).collect()
+            (0..s).map(|i| (0..s).map(|j| tableau.coefficient(i, j) * vector[j]).sum()).collect()
         };
         let product = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a * b).collect() };
         let sum = |vector: &[f64]| -> f64 { weights.iter().zip(vector).map(|(w, x)| w * x).sum() };
@@ -183,7 +182,7 @@ mod tests {
         for (tableau, order) in [(&SDIRK4, 4), (&ESDIRK5, 5)] {
             let s = tableau.stages();
             for (i, abscissa) in tableau.c.iter().enumerate() {
-                let sum: f64 = (0..s).map(|j| full(tableau, i, j)).sum();
+                let sum: f64 = (0..s).map(|j| tableau.coefficient(i, j)).sum();
                 assert!((sum - abscissa).abs() < 2e-15, "order {order}, stage {i}: {sum} for {abscissa}");
             }
             let own: Vec<f64> = (0..s).map(|i| tableau.weight(i)).collect();
@@ -207,7 +206,7 @@ mod tests {
     fn esdirk5_has_stages_of_order_two() {
         let s = ESDIRK5.stages();
         for i in 1..s {
-            let found: f64 = (0..s).map(|j| full(&ESDIRK5, i, j) * ESDIRK5.c[j]).sum();
+            let found: f64 = (0..s).map(|j| ESDIRK5.coefficient(i, j) * ESDIRK5.c[j]).sum();
             assert!((found - 0.5 * ESDIRK5.c[i].powi(2)).abs() < 2e-15, "stage {i}: {found}");
         }
     }
