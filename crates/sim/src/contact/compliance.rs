@@ -12,7 +12,7 @@ use splines::{Influence, Probe};
 
 use super::candidates::Candidates;
 use super::matrices::RailMatrices;
-use super::path::{CompliancePath, PathLimits};
+use super::path::{CompliancePath, PathLimits, between};
 use super::probes::{Entry, Probes};
 use crate::Error;
 use crate::mechanics::assembly::Mechanics;
@@ -189,8 +189,7 @@ impl RailCompliance {
             // The path ends before the break of a rail, where this is beyond the end of the step.
             let [start, last] = inner(beyond);
             let share = free(&start, &last);
-            let nearer: Vec<f64> =
-                from.iter().zip(beyond).map(|(from, to)| from + share * (to - from)).collect();
+            let nearer = between(from, beyond, share);
             // An error of the rail is ignored here, because the step itself reports it.
             let leads_on = |[start, end]: &[Vec<f64>; 2]| is_free(start, end);
             let ends = [&nearer[..], to].map(inner).into_iter().find(leads_on);

@@ -191,10 +191,13 @@ impl CompliancePath {
         let was_set = std::mem::replace(&mut self.is_set, false);
         let mut second =
             self.limited(&self.last, &between(&self.last, to, 1.0 / (1.0 + BEYOND)), self.longest);
-        let (before, expected) = (norm(&self.length), self.continued(&second));
+        let before = norm(&self.length);
+        let expected = (goes_on && was_set).then(|| self.continued(&second));
         self.nodes.swap(0, 1);
         self.set_length(&second);
-        if goes_on && was_set && self.project(from).1 <= limits.beside {
+        if let Some(expected) = expected
+            && self.project(from).1 <= limits.beside
+        {
             self.evaluate(1, compliance, &second)?;
             let length = norm(&self.length);
             if before > 0.0 && length > 0.0 {
@@ -449,8 +452,8 @@ impl CompliancePath {
     }
 }
 
-/// The places at a part of the way from `a` to `b`.
-fn between(a: &[f64], b: &[f64], share: f64) -> Vec<f64> {
+/// The places of all wheels at a part of their way from `a` to `b`.
+pub(super) fn between(a: &[f64], b: &[f64], share: f64) -> Vec<f64> {
     a.iter().zip(b).map(|(a, b)| a + share * (b - a)).collect()
 }
 

@@ -1,8 +1,8 @@
 //! First guesses of the stages of diagonally implicit Runge-Kutta methods from the stages before them.
 //!
-//! The stages of a linear motion y' = L y have the derivatives sum_k h^k (A^k 1)_i y^(k+1), where A is the matrix of the method, 1 a
-//! vector of ones and y^(k) the derivatives at the start of the step. A guess sum_j w_j y'_j of stage i from n stages before it has
-//! weights for which sum_j w_j (A^k 1)_j = (A^k 1)_i, k < n. It is exact where the derivatives above the n-th vanish, though the
+//! The stages of a linear motion y' = L y have the derivatives sum_k h^k (A^k 1)_i y^(k+1), where A is the matrix of the method,
+//! 1 a vector of ones and y^(k) the derivatives at the start of the step. A guess sum_j w_j y'_j of stage i from n stages before
+//! it has weights for which sum_j w_j (A^k 1)_j = (A^k 1)_i, k < n. It is exact where the derivatives above the n-th vanish, though the
 //! stages themselves are of order one or two; a polynomial through them is not, and is several times farther from stages whose
 //! order is lower than its degree.
 //!
@@ -71,8 +71,8 @@ mod tests {
         slopes
     }
 
-    /// Analytic: a guess from n stages of y' = z y errs by a multiple of z^(n+1), that of the derivatives that it leaves out, or of a higher
-    /// power.
+    /// Analytic: a guess from n stages of y' = z y errs by a multiple of z^(n+1), that of the derivatives that it leaves out, or of
+    /// a higher power.
     #[test]
     fn a_guess_from_n_stages_errs_by_the_derivatives_above_the_nth() {
         for tableau in [&SDIRK4, &ESDIRK5] {

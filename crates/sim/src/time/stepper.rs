@@ -38,8 +38,8 @@ const CORNERS: usize = 12;
 /// Largest number of times a step is shortened to end where a rule acts.
 const TRIALS: usize = 20;
 
-/// Multiple of its planned length that a step may have where it then ends at the break of a rail. Of the rest another step would
-/// be needed, and a step's error is usually a sixth of what is allowed.
+/// Multiple of its planned length that a step may have where it then ends at the break of a rail. What would be left needs
+/// another step, and the error of a step is usually a sixth of what is allowed.
 const LONGER: f64 = 1.25;
 
 /// Fraction of the planned step below which an event is regarded as occurring at the start of the step. In shorter

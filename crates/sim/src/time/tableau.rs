@@ -11,8 +11,8 @@ pub(crate) struct Tableau {
     /// Rows of the coefficient matrix below the diagonal; row i has i entries. The last row and `gamma` are the
     /// weights.
     pub a: &'static [&'static [f64]],
-    /// Earlier stages from which each stage is guessed ([`Guesses`](super::guesses::Guesses)): in steps in which the set of elements
-    /// with a force changes, and in others. More stages make a guess of higher order, and multiply what is not smooth.
+    /// Earlier stages from which each stage is guessed ([`Guesses`](super::guesses::Guesses)): in steps in which the set of
+    /// elements with a force changes, and in others. More stages make a guess of higher order, and multiply what is not smooth.
     pub guess: [&'static [&'static [usize]]; 2],
     /// Weights minus those of the embedded method, times a factor that makes the estimates of all methods as cautious as that of
     /// SDIRK4, which is ten to twenty times the error of an oscillation of half a radian a step.
