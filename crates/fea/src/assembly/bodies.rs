@@ -20,6 +20,8 @@ pub(crate) struct Body<T: Real = f64> {
     pub reference: usize,
     /// Motion of the reference by the six columns of the body; columns that the supports fix are zero.
     pub basis: Matrix6<T>,
+    /// Whether nothing holds or turns it: its basis is the identity.
+    pub is_free: bool,
     /// Columns that the supports leave free.
     pub free: DofSet,
     /// Columns that are rotations about axes about which nothing stiffens the body, see [`Bodies::turn`].
@@ -50,18 +52,32 @@ impl<T: Real> Bodies<T> {
             }
         }
         let mut of_point = vec![0; n];
-        let mut groups: Vec<Vec<usize>> = Vec::new();
+        let mut lowest_points = Vec::with_capacity(n);
+        let mut others: Vec<(usize, usize)> = Vec::new();
         for point in 0..n {
             if lowest[point] == point {
-                of_point[point] = groups.len();
-                groups.push(vec![point]);
+                of_point[point] = lowest_points.len();
+                lowest_points.push(point);
             } else {
                 of_point[point] = of_point[lowest[point]];
-                groups[of_point[point]].push(point);
+                others.push((of_point[point], point));
             }
         }
+        others.sort_unstable();
+        let mut others = others.into_iter().peekable();
         let mut arms = vec![Vector3::zeros(); n];
-        let list = groups.iter().map(|group| Body::new(m, group, &fixed, &mut arms)).collect();
+        let mut group = Vec::new();
+        let of_lowest = |(body, point): (usize, usize)| {
+            group.clear();
+            group.push(point);
+            group.extend(std::iter::from_fn(|| others.next_if(|other| other.0 == body)).map(|other| other.1));
+            if group.len() == 1 {
+                Body::lone(point, &fixed[point])
+            } else {
+                Body::new(m, &group, &fixed, &mut arms)
+            }
+        };
+        let list = lowest_points.into_iter().enumerate().map(of_lowest).collect();
         Bodies { list, of_point, arms }
     }
 
@@ -70,6 +86,7 @@ impl<T: Real> Bodies<T> {
         for own in turned {
             let body = &mut self.list[own.body];
             let old = body.basis;
+            body.is_free = false;
             for k in 0..3 {
                 let mut column = old.column(3).into_owned() * T::from(own.axes[(0, k)]);
                 for other in 1..3 {
@@ -88,7 +105,12 @@ impl<T: Real> Bodies<T> {
 
     /// Motion of a place rigidly attached to `point` at `offset`, by that of the reference of its body.
     pub fn motion(&self, point: usize, offset: &Vector3<T>) -> Matrix6<T> {
-        arm(&(self.arms[point] + offset.map(T::wide)).map(T::rounded))
+        arm(&self.arm(point, offset))
+    }
+
+    /// From the reference of the body of `point` to a place at `offset` from it.
+    pub fn arm(&self, point: usize, offset: &Vector3<T>) -> Vector3<T> {
+        (self.arms[point] + offset.map(T::wide)).map(T::rounded)
     }
 
     /// The same in double-doubles.
@@ -112,9 +134,7 @@ impl<T: Real> Bodies<T> {
     ) -> [Combination<U>; 6] {
         let columns = 6 * self.of_point[point];
         std::array::from_fn(|i| {
-            let mut row = Combination::default();
-            (0..6).for_each(|k| row.add_sized(columns + k, motion[(i, k)], sizes[(i, k)]));
-            row
+            Combination::of_columns((0..6).map(|k| (columns + k, motion[(i, k)], sizes[(i, k)])))
         })
     }
 
@@ -157,9 +177,23 @@ fn lowest_linked(m: &Model, n: usize) -> Vec<usize> {
 }
 
 impl<T: Real> Body<T> {
-    /// Whether it moves as its basis, the identity, says: nothing holds or turns it.
-    pub fn is_free(&self) -> bool {
-        self.basis == Matrix6::identity()
+    /// A point that is not linked to others.
+    fn lone(point: usize, fixed: &DofSet) -> Body<T> {
+        let mut basis = Matrix6::identity();
+        let mut constraints = Vec::new();
+        for (k, _) in fixed.iter().enumerate().filter(|(_, fixed)| **fixed) {
+            basis[(k, k)] = T::zero();
+            constraints.push((point, k));
+        }
+        let is_free = constraints.is_empty();
+        Body {
+            reference: point,
+            basis,
+            is_free,
+            free: fixed.map(|fixed| !fixed),
+            unstiffened: [false; 6],
+            constraints,
+        }
     }
 
     /// The body of a group of linked points; writes their arms.
@@ -208,7 +242,7 @@ impl<T: Real> Body<T> {
             basis.column_mut(pivot).fill(T::zero());
         }
         let constraints = pivots.iter().map(|&(row, _)| names[row]).collect();
-        Body { reference, basis, free, unstiffened: [false; 6], constraints }
+        Body { reference, basis, is_free: pivots.is_empty(), free, unstiffened: [false; 6], constraints }
     }
 }
 

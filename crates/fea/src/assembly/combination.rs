@@ -31,6 +31,17 @@ impl<T: Real> Combination<T> {
         Combination { terms: Vec::with_capacity(terms), magnitudes: Vec::with_capacity(terms) }
     }
 
+    /// The combination of different columns: column, value, and the sum of the magnitudes that it was added up from.
+    pub fn of_columns(columns: impl Iterator<Item = (usize, T, f64)> + Clone) -> Combination<T> {
+        let terms = columns.filter(|term| term.1 != T::zero());
+        let mut out = Combination::with_capacity(terms.clone().count());
+        for (column, value, size) in terms {
+            out.terms.push((column, value));
+            out.magnitudes.push(size);
+        }
+        out
+    }
+
     /// Adds `value` times a column.
     #[inline]
     pub fn add(&mut self, column: usize, value: T) {

@@ -39,12 +39,6 @@ pub(crate) struct Element<T: Real = f64> {
     pub flexibility: Flexibility,
     /// Whether it resists transverse displacements of its ends as a string, by its axial force alone.
     pub is_string: bool,
-    /// Local stiffness between the tips of the rigid offsets, releases condensed.
-    pub stiffness: Matrix12<T>,
-    /// Diagonal of the stiffness before releases: the scale of its rounding.
-    pub unreleased_diagonal: [f64; 12],
-    /// Factor by which the releases enlarge this rounding.
-    pub release_growth: f64,
     /// Effect of its releases; `None` if it has none.
     pub released: Option<Box<Released<T>>>,
 }
@@ -113,6 +107,8 @@ pub(crate) fn without_rounding(axes: &Matrix3<Extended>, size: f64) -> Matrix3<E
 pub(crate) struct Released<T: Real = f64> {
     /// Whether each end has a release.
     pub ends: [bool; 2],
+    /// Local stiffness between the tips of the rigid offsets, releases condensed.
+    pub stiffness: Matrix12<T>,
     /// Displacements of the flexible ends by those of the tips of the rigid offsets, without load.
     pub recovery: Matrix12<T>,
     /// K_rr^-1: displacements of the flexible ends per load on them while the tips are fixed. It is zero
@@ -202,24 +198,7 @@ impl<T: Real> Element<T> {
             MemberKind::Rod => flexibility = without_bending(flexibility.torsion, flexibility),
         }
         flexibility.tension = member.tension;
-        let mut stiffness: Matrix12<T> = stiffness(&flexibility, length);
-        if member.kind != MemberKind::Beam {
-            add_string(&mut stiffness, T::from(member.tension) / length);
-        }
-        // What was added up, where an axial force takes stiffness away.
-        let string = 2.0 * (member.tension / length.double()).abs();
-        let arm = string * length.double() * length.double();
-        let added = [string, string, string, 0.0, arm, arm];
-        let unreleased_diagonal = std::array::from_fn(|k| {
-            let own = stiffness[(k, k)].double().abs();
-            if own == 0.0 { 0.0 } else { own + added[k % 6] }
-        });
-        let released = release(&mut stiffness, &member.releases).map_err(|k| Error::Released {
-            member: index,
-            end: k / 6,
-            dof: Dof::ALL[k % 6],
-        })?;
-        Ok(Element {
+        let mut element = Element {
             points: member.points,
             offsets: member.offsets.map(vector),
             geometry,
@@ -228,10 +207,43 @@ impl<T: Real> Element<T> {
             length,
             flexibility,
             is_string: member.kind != MemberKind::Beam,
-            stiffness,
-            unreleased_diagonal,
-            release_growth: released.as_ref().map_or(1.0, |released| released.growth),
-            released,
+            released: None,
+        };
+        if member.releases.iter().flatten().any(|&released| released) {
+            let condensed = condense(element.unreleased_stiffness(), &member.releases);
+            element.released = Some(Box::new(condensed.map_err(|k| Error::Released {
+                member: index,
+                end: k / 6,
+                dof: Dof::ALL[k % 6],
+            })?));
+        }
+        Ok(element)
+    }
+
+    /// Local stiffness between the tips of the rigid offsets, releases condensed.
+    pub fn stiffness(&self) -> Matrix12<T> {
+        self.released.as_ref().map_or_else(|| self.unreleased_stiffness(), |released| released.stiffness)
+    }
+
+    /// The same before releases.
+    pub fn unreleased_stiffness(&self) -> Matrix12<T> {
+        let mut stiffness = stiffness(&self.flexibility, self.length);
+        if self.is_string {
+            add_string(&mut stiffness, T::from(self.flexibility.tension) / self.length);
+        }
+        stiffness
+    }
+
+    /// The magnitudes that were added up for each diagonal entry of `unreleased`, the stiffness before releases: more than the
+    /// entry where an axial force takes stiffness away.
+    pub fn diagonal_sizes(&self, unreleased: &Matrix12<T>) -> [f64; 12] {
+        let length = self.length.double();
+        let string = 2.0 * (self.flexibility.tension / length).abs();
+        let arm = string * length * length;
+        let added = [string, string, string, 0.0, arm, arm];
+        std::array::from_fn(|k| {
+            let own = unreleased[(k, k)].double().abs();
+            if own == 0.0 { 0.0 } else { own + added[k % 6] }
         })
     }
 
@@ -484,26 +496,13 @@ fn inverse<T: Real>(flexibility: f64, factor: T) -> T {
     if flexibility.is_finite() { T::one() / (T::from(flexibility) * factor) } else { T::zero() }
 }
 
-/// Condenses the releases of a member out of its stiffness; fails with the index of a degree of freedom that
-/// the other releases have left without stiffness.
-fn release<T: Real>(
-    stiffness: &mut Matrix12<T>,
-    releases: &[DofSet; 2],
-) -> Result<Option<Box<Released<T>>>, usize> {
-    let ends = releases.map(|set| set.contains(&true));
-    if !ends.contains(&true) {
-        return Ok(None);
-    }
-    condense(stiffness, releases).map(|condensed| Some(Box::new(Released { ends, ..condensed })))
-}
-
 /// Static condensation of the released degrees of freedom r of a member, one after the other:
 ///
 /// K' = K_oo - K_or K_rr^-1 K_ro,   u_r = -K_rr^-1 K_ro u_o + K_rr^-1 f_r
 ///
-/// Replaces `k` by K' and returns what becomes of the released degrees of freedom. One for which the section has no
-/// stiffness stays at rest.
-fn condense<T: Real>(k: &mut Matrix12<T>, releases: &[DofSet; 2]) -> Result<Released<T>, usize> {
+/// A degree of freedom for which the section has no stiffness stays at rest. Fails with the index of one that the other
+/// releases have left without stiffness.
+fn condense<T: Real>(mut k: Matrix12<T>, releases: &[DofSet; 2]) -> Result<Released<T>, usize> {
     let before: [f64; 12] = std::array::from_fn(|i| k[(i, i)].double());
     let mut recovery = Matrix12::identity();
     let mut compliance = Matrix12::zeros();
@@ -523,7 +522,7 @@ fn condense<T: Real>(k: &mut Matrix12<T>, releases: &[DofSet; 2]) -> Result<Rele
         let mut row = -k.row(r) / pivot;
         row[r] = T::zero();
         let column = k.column(r).into_owned();
-        *k += column * row;
+        k += column * row;
         k.row_mut(r).fill(T::zero());
         k.column_mut(r).fill(T::zero());
         // Degrees of freedom released before depend on this one: substitute its own dependence.
@@ -540,6 +539,7 @@ fn condense<T: Real>(k: &mut Matrix12<T>, releases: &[DofSet; 2]) -> Result<Rele
         }
     }
     // Symmetric to the last bit, whatever the order of the products above.
-    *k = (*k + k.transpose()) * T::from(0.5);
-    Ok(Released { ends: [false; 2], recovery, compliance, growth, negative })
+    let stiffness = (k + k.transpose()) * T::from(0.5);
+    let ends = releases.map(|set| set.contains(&true));
+    Ok(Released { ends, stiffness, recovery, compliance, growth, negative })
 }

@@ -8,12 +8,14 @@
 //!
 //! All of it is written for one number type, so that it can be repeated in double-doubles.
 //!
-//! Order of the files: `precision`, `sparse`, `ordering`, `element`, `combination`, `turning`, `bodies`,
-//! `stiffness`.
+//! Order of the files: `precision`, `sparse`, `ordering`, `element`, `combination`, `turning`, `bodies`, `ends`,
+//! `blocks`, `stiffness`.
 
+mod blocks;
 mod bodies;
 mod combination;
 mod element;
+mod ends;
 mod ordering;
 mod precision;
 mod sparse;
@@ -26,8 +28,9 @@ pub(crate) use element::{
     BendingPlane, Element, Geometry, Matrix6, Matrix12, Released, Triad, bending_planes, diagonal_blocks,
     vector, without_rounding,
 };
+pub(crate) use ends::{block_diagonal, end_motions, product, transformation};
 pub(crate) use precision::{Extended, Real, exact_sum};
 pub(crate) use sparse::{
     column_norm, inverse_iterations, irregular_vector, symmetric_product, symmetric_product_lanes,
 };
-pub(crate) use stiffness::{Numbering, ScaledStiffness, transformation, transformation_and_size};
+pub(crate) use stiffness::{Numbering, ScaledStiffness};

@@ -35,8 +35,9 @@ pub(crate) trait Real:
     /// Twice the largest relative rounding error of one operation.
     const ROUNDING: f64;
 
-    /// Whether dense kernels exist for panels of columns: faer has them only for native numbers.
-    const PANELS: bool;
+    /// Whether processors have instructions for these numbers: faer has dense kernels for them alone, and a product costs
+    /// less than to find out that it is zero.
+    const NATIVE: bool;
 
     /// The nearest double.
     fn double(self) -> f64;
@@ -58,7 +59,7 @@ pub(crate) trait Real:
 
 impl Real for f64 {
     const ROUNDING: f64 = f64::EPSILON;
-    const PANELS: bool = true;
+    const NATIVE: bool = true;
 
     fn double(self) -> f64 {
         self
@@ -80,7 +81,7 @@ impl Real for f64 {
 impl Real for Extended {
     // The error of sums and products of this implementation is a few units of 2^-104.
     const ROUNDING: f64 = 4.0 * f64::EPSILON * f64::EPSILON;
-    const PANELS: bool = false;
+    const NATIVE: bool = false;
 
     fn double(self) -> f64 {
         self.0 + self.1

@@ -1,19 +1,19 @@
 //! Stiffness of a whole frame, scaled, in elimination order.
 
-use nalgebra::{Matrix3, SMatrix, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use sprs::CsMat;
 
+use crate::assembly::blocks::BlockSums;
 use crate::assembly::bodies::{Bodies, Body};
-use crate::assembly::element::{Element, Matrix6, Matrix12, diagonal_blocks};
+use crate::assembly::element::{Element, Matrix6};
+use crate::assembly::ends::{congruence, end_motions, magnitudes, product};
 use crate::assembly::ordering::{Graph, order};
 use crate::assembly::precision::{Extended, Real};
-use crate::assembly::sparse::{Triplets, column_norm};
+use crate::assembly::sparse::column_norm;
 use crate::assembly::turning::{TurnedAxes, unstiffened_axes};
 use crate::error::Error;
 use crate::model::{ArmStiffness, GroundSpring, Model};
 
-/// Size of an entry of a transformation, in roundings of the magnitudes behind it, at which it counts as zero.
-const CANCELLED: f64 = 8.0;
 /// Pivot of the scaled rotational stiffness of a body, in doubles, below which it is formed again in double-doubles.
 const DOUBTFUL_PIVOT: f64 = 1e-12;
 /// Such a pivot, in double-doubles, at which nothing stiffens the rotation: that of a mechanism.
@@ -61,88 +61,11 @@ impl Numbering {
     }
 }
 
-/// B, 12 x 12: local end displacements of a member (tips of its rigid offsets) by the motions of the
-/// references of its two bodies.
-pub(crate) fn transformation<T: Real>(element: &Element<T>, bodies: &Bodies<T>) -> Matrix12<T> {
-    transformation_and_size(element, bodies).0
-}
-
-/// The same, with the sum of the magnitudes behind each entry. Entries that are only rounding are zero.
-pub(crate) fn transformation_and_size<T: Real>(
-    element: &Element<T>,
-    bodies: &Bodies<T>,
-) -> (Matrix12<T>, Matrix12) {
-    let mut out = Matrix12::zeros();
-    let mut size = Matrix12::zeros();
-    let rotation = element.rotation();
-    let magnitudes = |m: SMatrix<T, 6, 6>| m.map(|x| x.double().abs());
-    let errors = Matrix3::from_fn(|row, _| element.axes_error[row]);
-    let axes_error = diagonal_blocks(&errors);
-    for end in 0..2 {
-        let motion = bodies.motion(element.points[end], &element.offsets[end]);
-        let value = product(&rotation, &motion);
-        let bulk = product(&(magnitudes(rotation) + axes_error), &magnitudes(motion));
-        let clean =
-            value.zip_map(
-                &bulk,
-                |v, b| {
-                    if v.double().abs() <= CANCELLED * T::ROUNDING * b { T::zero() } else { v }
-                },
-            );
-        out.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(&clean);
-        size.fixed_view_mut::<6, 6>(6 * end, 6 * end).copy_from(&bulk);
-    }
-    (out, size)
-}
-
-/// A B, N x N; skips the zeros, which are most entries of both.
-fn product<T: Real, const N: usize>(a: &SMatrix<T, N, N>, b: &SMatrix<T, N, N>) -> SMatrix<T, N, N> {
-    let zero = T::zero();
-    let mut out = SMatrix::<T, N, N>::zeros();
-    for j in 0..N {
-        for l in (0..N).filter(|&l| b[(l, j)] != zero) {
-            for i in (0..N).filter(|&i| a[(i, l)] != zero) {
-                out[(i, j)] += a[(i, l)] * b[(l, j)];
-            }
-        }
-    }
-    out
-}
-
-/// B^T K B for a symmetric K, symmetric to the last bit.
-fn congruence<T: Real>(k: &Matrix12<T>, b: &Matrix12<T>) -> Matrix12<T> {
-    let zero = T::zero();
-    let kb = product(k, b);
-    let mut out = Matrix12::<T>::zeros();
-    for i in 0..12 {
-        for l in (0..12).filter(|&l| b[(l, i)] != zero) {
-            for j in (i..12).filter(|&j| kb[(l, j)] != zero) {
-                out[(i, j)] += b[(l, i)] * kb[(l, j)];
-            }
-        }
-        for j in i + 1..12 {
-            out[(j, i)] = out[(i, j)];
-        }
-    }
-    out
-}
-
-/// What the supports leave of the motions of two bodies.
-fn bases<T: Real>(pair: [usize; 2], bodies: &Bodies<T>) -> Matrix12<T> {
-    let mut out = Matrix12::zeros();
-    out.fixed_view_mut::<6, 6>(0, 0).copy_from(&bodies.list[pair[0]].basis);
-    out.fixed_view_mut::<6, 6>(6, 6).copy_from(&bodies.list[pair[1]].basis);
-    out
-}
-
-/// Stiffness of each member and spring over the columns of the bodies that it joins.
+/// Stiffness of the members, springs and arms over the columns of the bodies.
 struct Contributions<T: Real> {
-    /// Two different bodies, and the stiffness over their twelve columns.
-    members: Vec<([usize; 2], Matrix12<T>)>,
-    /// Body, displacement of the spring by its six columns, stiffness.
-    springs: Vec<(usize, [T; 6], T)>,
-    /// Body, and the stiffness of its rigid arms over its six columns.
-    arms: Vec<(usize, Matrix6<T>)>,
+    sums: BlockSums<T>,
+    /// Stiffness of the three rotational columns of each body, without that of its rigid arms.
+    rotational: Vec<[[T; 3]; 3]>,
     /// Diagonal of the sum, by column.
     diagonal: Vec<f64>,
     /// Magnitudes that each diagonal entry was formed from.
@@ -151,16 +74,16 @@ struct Contributions<T: Real> {
 
 impl<T: Real> Contributions<T> {
     fn new(m: &Model, elements: &[Element<T>], bodies: &Bodies<T>) -> Contributions<T> {
-        let columns = 6 * bodies.list.len();
+        let count = bodies.list.len();
         let mut out = Contributions {
-            members: Vec::with_capacity(elements.len()),
-            springs: Vec::with_capacity(m.springs.len()),
-            arms: Vec::with_capacity(m.arms.len()),
-            diagonal: vec![0.0; columns],
-            bulk: vec![0.0; columns],
+            sums: BlockSums::new(count, elements.len()),
+            rotational: Vec::new(),
+            diagonal: vec![0.0; 6 * count],
+            bulk: vec![0.0; 6 * count],
         };
         elements.iter().for_each(|element| out.add_member(element, bodies));
         m.springs.iter().for_each(|spring| out.add_spring(spring, bodies));
+        out.rotational = (0..count).map(|body| out.sums.rotational(body)).collect();
         m.arms.iter().for_each(|arm| out.add_arm(arm, bodies));
         out
     }
@@ -171,28 +94,42 @@ impl<T: Real> Contributions<T> {
         if pair[0] == pair[1] {
             return;
         }
-        let (mut b, mut size) = transformation_and_size(element, bodies);
-        // Most bodies are free: their basis is the identity.
-        if !pair.iter().all(|&body| bodies.list[body].is_free()) {
-            let basis = bases(pair, bodies);
-            (b, size) = (product(&b, &basis), product(&size, &basis.map(|x| x.double().abs())));
+        let (mut b, mut size) = end_motions(element, bodies);
+        for (end, &body) in pair.iter().enumerate() {
+            // Most bodies are free: their basis is the identity.
+            let body = &bodies.list[body];
+            if !body.is_free {
+                b[end] = product(&b[end], &body.basis);
+                size[end] = product(&size[end], &magnitudes(&body.basis));
+            }
         }
-        let k = congruence(&element.stiffness, &b);
+        let unreleased = element.unreleased_stiffness();
+        let (local, growth) = match &element.released {
+            None => (&unreleased, 1.0),
+            Some(released) => (&released.stiffness, released.growth),
+        };
+        let k = congruence(local, &b);
         // |K_ij| <= sqrt(K_ii K_jj) bounds what the congruence adds up for a diagonal entry. An error dB of the
         // transformation changes the entry by 2 B^T K dB + dB^T K dB.
-        let growth = element.release_growth;
-        let roots = SMatrix::<f64, 1, 12>::from_fn(|_, i| (growth * element.unreleased_diagonal[i]).sqrt());
-        let (own, behind) = (roots * b.map(|x| x.double().abs()), roots * size);
-        for i in 0..12 {
-            let column = 6 * pair[i / 6] + i % 6;
-            let diagonal = k[(i, i)].double();
-            // What has cancelled in the transformation.
-            let lost = (behind[i] - own[i]).max(0.0);
-            let moved = 2.0 * diagonal.max(0.0).sqrt() + T::ROUNDING * lost;
-            self.diagonal[column] += diagonal;
-            self.bulk[column] += own[i] * own[i] + moved * lost;
+        let roots = element.diagonal_sizes(&unreleased).map(|size| (growth * size).sqrt());
+        for (end, &body) in pair.iter().enumerate() {
+            let roots = &roots[6 * end..6 * end + 6];
+            for i in 0..6 {
+                let (mut own, mut behind) = (0.0, 0.0);
+                for (l, root) in roots.iter().enumerate() {
+                    own += root * b[end][(l, i)].double().abs();
+                    behind += root * size[end][(l, i)];
+                }
+                let diagonal = k[(6 * end + i, 6 * end + i)].double();
+                // What has cancelled in the transformation.
+                let lost = (behind - own).max(0.0);
+                let moved = 2.0 * diagonal.max(0.0).sqrt() + T::ROUNDING * lost;
+                self.diagonal[6 * body + i] += diagonal;
+                self.bulk[6 * body + i] += own * own + moved * lost;
+            }
+            self.sums.add_own(body, &k.fixed_view::<6, 6>(6 * end, 6 * end).into_owned());
         }
-        self.members.push((pair, k));
+        self.sums.add_coupling(pair, k.fixed_view::<6, 6>(0, 6).into_owned());
     }
 
     fn add_spring(&mut self, spring: &GroundSpring, bodies: &Bodies<T>) {
@@ -201,12 +138,13 @@ impl<T: Real> Contributions<T> {
         let motion = product(&motion, &bodies.list[body].basis);
         let row: [T; 6] = std::array::from_fn(|k| motion[(spring.dof as usize, k)]);
         let stiffness = T::from(spring.stiffness);
-        for (k, &displacement) in row.iter().enumerate() {
-            let part = (stiffness * displacement * displacement).double();
+        let all = Matrix6::from_fn(|i, j| stiffness * row[i] * row[j]);
+        for k in 0..6 {
+            let part = all[(k, k)].double();
             self.diagonal[6 * body + k] += part;
             self.bulk[6 * body + k] += part;
         }
-        self.springs.push((body, row, stiffness));
+        self.sums.add_own(body, &all);
     }
 
     fn add_arm(&mut self, arm: &ArmStiffness, bodies: &Bodies<T>) {
@@ -222,71 +160,7 @@ impl<T: Real> Contributions<T> {
             self.diagonal[6 * body + k] += all[(k, k)].double();
             self.bulk[6 * body + k] += bulk[(k, k)];
         }
-        self.arms.push((body, all));
-    }
-
-    /// Adds up the upper triangle of S K S.
-    fn sum(&self, numbering: &Numbering) -> CsMat<T> {
-        let Numbering { unknown, scale, .. } = numbering;
-        let n = scale.len();
-        let mut triplets = Triplets::new(n, 78 * self.members.len() + 36 * self.springs.len());
-        let mut add = |a: usize, b: usize, value: T| {
-            if let (Some(i), Some(j)) = (unknown[a], unknown[b])
-                && i <= j
-            {
-                triplets.add(i, j, T::from(scale[i]) * value * T::from(scale[j]));
-            }
-        };
-        for (pair, k) in &self.members {
-            for i in 0..12 {
-                for j in 0..12 {
-                    let value = k[(i, j)];
-                    // The diagonal always: its place exists even if this member adds zero.
-                    if value != T::zero() || i == j {
-                        add(6 * pair[i / 6] + i % 6, 6 * pair[j / 6] + j % 6, value);
-                    }
-                }
-            }
-        }
-        for &(body, row, stiffness) in &self.springs {
-            for i in 0..6 {
-                for j in 0..6 {
-                    if row[i] != T::zero() && row[j] != T::zero() {
-                        add(6 * body + i, 6 * body + j, stiffness * row[i] * row[j]);
-                    }
-                }
-            }
-        }
-        for (body, stiffness) in &self.arms {
-            for i in 0..6 {
-                for j in (0..6).filter(|&j| stiffness[(i, j)] != T::zero()) {
-                    add(6 * body + i, 6 * body + j, stiffness[(i, j)]);
-                }
-            }
-        }
-        triplets.sum()
-    }
-
-    /// Stiffness of the three rotational columns of each body.
-    fn rotational_blocks(&self, bodies: usize) -> Vec<[[T; 3]; 3]> {
-        let mut blocks = vec![[[T::zero(); 3]; 3]; bodies];
-        for (pair, k) in &self.members {
-            for (end, &body) in pair.iter().enumerate() {
-                for (i, row) in blocks[body].iter_mut().enumerate() {
-                    for (j, entry) in row.iter_mut().enumerate() {
-                        *entry += k[(6 * end + 3 + i, 6 * end + 3 + j)];
-                    }
-                }
-            }
-        }
-        for &(body, row, stiffness) in &self.springs {
-            for (i, entries) in blocks[body].iter_mut().enumerate() {
-                for (j, entry) in entries.iter_mut().enumerate() {
-                    *entry += stiffness * row[3 + i] * row[3 + j];
-                }
-            }
-        }
-        blocks
+        self.sums.add_own(body, &all);
     }
 
     /// Whether nothing seems to stiffen a column that no support fixes, or a rotation of a body about some axis.
@@ -294,7 +168,7 @@ impl<T: Real> Contributions<T> {
         let columns = bodies.list.iter().enumerate();
         let mut columns = columns.flat_map(|(body, own)| (0..6).map(move |k| (6 * body + k, own.free[k])));
         columns.any(|(column, is_free)| is_free && self.diagonal[column] <= 0.0)
-            || self.rotational_blocks(bodies.list.len()).iter().any(|block| {
+            || self.rotational.iter().any(|block| {
                 let doubles = block.map(|row| row.map(|x| x.double()));
                 !unstiffened_axes(&doubles, DOUBTFUL_PIVOT).is_empty()
             })
@@ -306,7 +180,8 @@ impl<T: Real> Contributions<T> {
 
     fn stiffness(&self, numbering: Numbering) -> ScaledStiffness<T> {
         let cancellation = self.cancellation(&numbering);
-        ScaledStiffness { upper: self.sum(&numbering), numbering, cancellation }
+        let upper = self.sums.upper(&numbering.unknown, &numbering.scale);
+        ScaledStiffness { upper, numbering, cancellation }
     }
 }
 
@@ -350,8 +225,7 @@ impl ScaledStiffness {
         };
         // Bodies that are held take no part in the elimination.
         let moves = |&body: &usize| bodies.list[body].free.contains(&true);
-        let pairs = parts.members.iter().map(|part| part.0);
-        let edges: Vec<[usize; 2]> = pairs.filter(|pair| pair.iter().all(moves)).collect();
+        let edges: Vec<[usize; 2]> = parts.sums.pairs().filter(|pair| pair.iter().all(moves)).collect();
         let mut unknown = vec![None; parts.diagonal.len()];
         let mut column = Vec::new();
         let (order, operations) = order(&Graph::new(bodies.list.len(), &edges));
@@ -434,9 +308,8 @@ fn turned_axes(
     parts: &Contributions<f64>,
 ) -> Result<Vec<TurnedAxes>, Error> {
     let count = bodies.list.len();
-    let blocks = parts.rotational_blocks(count);
     let doubtful: Vec<bool> =
-        blocks.iter().map(|block| !unstiffened_axes(block, DOUBTFUL_PIVOT).is_empty()).collect();
+        parts.rotational.iter().map(|block| !unstiffened_axes(block, DOUBTFUL_PIVOT).is_empty()).collect();
     if !doubtful.contains(&true) {
         return Ok(Vec::new());
     }
@@ -454,7 +327,7 @@ fn turned_axes(
         }
     }
     let bodies = Bodies::<Extended>::new(m);
-    let blocks = Contributions::new(m, &adjacent, &bodies).rotational_blocks(count);
+    let blocks = Contributions::new(m, &adjacent, &bodies).rotational;
     let mut turned = Vec::new();
     for body in (0..count).filter(|&body| doubtful[body]) {
         let axes = unstiffened_axes(&blocks[body], tolerances[body]);

@@ -62,7 +62,7 @@ impl<T: Real> Factor<T> {
         let n = upper.cols();
         let mut params = CholeskySymbolicParams::default();
         // faer has dense kernels for native numbers only: double-doubles are factored column by column.
-        if !T::PANELS {
+        if !T::NATIVE {
             params.supernodal_flop_ratio_threshold = SupernodalThreshold::FORCE_SIMPLICIAL;
         }
         let Analysis { pattern, symbolic, mut values } = analyse(upper, params)?;
@@ -355,7 +355,7 @@ impl<'a, T: Real> Panel<'a, T> {
     #[inline(always)]
     fn forward<const K: usize>(&self, x: &mut [[T; K]], scratch: &mut Vec<[T; K]>) {
         let height = self.height();
-        let dense = T::PANELS && K > 1 && self.width >= DENSE_WIDTH;
+        let dense = T::NATIVE && K > 1 && self.width >= DENSE_WIDTH;
         // What the columns subtract from a row below is added up before it is scattered.
         scratch.clear();
         scratch.resize(self.below.len(), [T::zero(); K]);

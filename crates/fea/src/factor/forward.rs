@@ -186,7 +186,7 @@ impl<'a, T: Real> Solved<'a, T> {
             let panel = self.factor.panel(k);
             let (own, above) = self.values[self.offsets[k]..].split_at_mut(panel.width * count);
             solve_triangle(&panel, own, count);
-            let dense = T::PANELS && panel.width >= DENSE_WIDTH && count >= DENSE_LOADS;
+            let dense = T::NATIVE && panel.width >= DENSE_WIDTH && count >= DENSE_LOADS;
             if dense && !panel.below.is_empty() {
                 scratch.clear();
                 scratch.resize(panel.below.len() * count, T::zero());
@@ -336,7 +336,7 @@ fn for_each_run<T: Real>(
 /// x := L11^-1 x for the `count` loads of a panel, whose numbers for an unknown adjoin.
 #[inline(always)]
 fn solve_triangle<T: Real>(panel: &Panel<'_, T>, x: &mut [T], count: usize) {
-    if T::PANELS && panel.width >= BLOCKED_WIDTH && count >= DENSE_LOADS {
+    if T::NATIVE && panel.width >= BLOCKED_WIDTH && count >= DENSE_LOADS {
         let x = MatMut::from_row_major_slice_mut(x, panel.width, count);
         solve_lower_triangular_in_place(panel.triangle(), x, Par::Seq);
         clear_registers();
@@ -416,7 +416,7 @@ mod tests {
         for (n, width, panels) in [(40, 1, false), (300, 299, true)] {
             let (dense, upper) = definite(n, width);
             let factor = Factor::new(&precision(&upper)).expect("positive definite");
-            assert_eq!(factor.panels < n, panels && T::PANELS, "another kind of factor than meant");
+            assert_eq!(factor.panels < n, panels && T::NATIVE, "another kind of factor than meant");
             let inverse = dense.clone().try_inverse().expect("positive definite");
             let scale = inverse.amax();
             let loads = [vec![(3, 1.0)], vec![(n - 1, 1.0), (7, -2.0)]];

@@ -117,7 +117,7 @@ impl FactoredFrame {
         let under_tension = element.tension_row(place, component);
         if pair[0] != pair[1] {
             let mut row =
-                balance * element.stiffness.fixed_rows::<6>(0) * transformation(element, &self.bodies);
+                balance * element.stiffness().fixed_rows::<6>(0) * transformation(element, &self.bodies);
             if let Some(deflected) = &under_tension {
                 row += deflected * element.recovery() * transformation(element, &self.bodies);
             }
@@ -160,7 +160,7 @@ impl FactoredFrame {
             }
             let b = transformation(element, &self.bodies);
             let end = usize::from(pair[1] == body);
-            let row = distribution * b.fixed_columns::<6>(6 * end).transpose() * element.stiffness * b;
+            let row = distribution * b.fixed_columns::<6>(6 * end).transpose() * element.stiffness() * b;
             (0..12).for_each(|k| strain.add(6 * pair[k / 6] + k % 6, row[k]));
         }
         for arm in m.arms.iter().filter(|arm| self.bodies.of_point[arm.point] == body) {

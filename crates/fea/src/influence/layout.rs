@@ -3,15 +3,13 @@
 //! The geometry is evaluated in double-doubles and then rounded: coordinates and offsets can be far larger than the
 //! distance of a place from the end of its member. The double-doubles are kept for grids that need them.
 
-use std::collections::HashMap;
-
 use nalgebra::{Matrix3, Vector3};
 use num_traits::Zero;
 use splines::{ElementMember, RailElement, Rails};
 
 use crate::assembly::{
     Bodies, Combination, Element, Extended, Geometry, Matrix6, Matrix12, Real, Released, Triad,
-    diagonal_blocks, exact_sum, transformation_and_size, vector, without_rounding,
+    block_diagonal, diagonal_blocks, end_motions, exact_sum, product, vector, without_rounding,
 };
 use crate::error::{EntryAttribute, EntryFault, Error, ModelEntry, finite};
 use crate::model::{Model, Rail, RailSegment};
@@ -86,8 +84,10 @@ struct Builder<'a> {
     bodies: &'a Bodies,
     states: Vec<[Combination; 6]>,
     exact: ExactLayout,
-    /// State of each tip: by rail, point, and bits of the offset.
-    tips: HashMap<(usize, usize, [u64; 3]), usize>,
+    /// The last tip at each point, on any rail: its state.
+    last_tip: Vec<Option<usize>>,
+    /// For each state, the tip before it at the same point, and the rail of the state.
+    tip_before: Vec<(Option<usize>, usize)>,
 }
 
 /// The rail that is being laid.
@@ -103,13 +103,21 @@ impl Layout {
     /// # Errors
     /// An axis or segment that cannot be used; segments that overlap; a station that no segment covers.
     pub fn new(m: &Model, rails: &[Rail], elements: &[Element], bodies: &Bodies) -> Result<Layout, Error> {
+        let segments = rails.iter().map(|rail| rail.segments.len()).sum::<usize>();
+        let states = segments + rails.len();
         let mut builder = Builder {
             points: &m.points,
             elements,
             bodies,
-            states: Vec::new(),
-            exact: ExactLayout::default(),
-            tips: HashMap::new(),
+            states: Vec::with_capacity(states),
+            exact: ExactLayout {
+                elements: Vec::with_capacity(segments),
+                states: Vec::with_capacity(states),
+                axes_error: Vec::with_capacity(segments),
+                coordinates: Vec::with_capacity(segments),
+            },
+            last_tip: vec![None; m.points.len()],
+            tip_before: Vec::with_capacity(states),
         };
         for (index, rail) in rails.iter().enumerate() {
             builder.lay(m, index, rail)?;
@@ -221,13 +229,19 @@ impl Builder<'_> {
     fn tip(&mut self, frame: &Frame, member: usize, end: usize) -> usize {
         let element = &self.elements[member];
         let (point, offset) = (element.points[end], element.offsets[end]);
-        // Adding 0.0 turns -0.0 into 0.0, so that equal offsets have equal bits.
-        let key = (frame.index, point, [offset.x, offset.y, offset.z].map(|x| (x + 0.0).to_bits()));
-        let next = self.states.len();
-        let state = *self.tips.entry(key).or_insert(next);
-        if state == next {
-            self.push_tip(frame, point, &offset);
+        let mut known = self.last_tip[point];
+        while let Some(state) = known {
+            let (before, rail) = self.tip_before[state];
+            if rail == frame.index
+                && matches!(&self.exact.states[state], StateRows::Tip { offset: other, .. } if *other == offset)
+            {
+                return state;
+            }
+            known = before;
         }
+        let state = self.states.len();
+        self.tip_before.push((self.last_tip[point].replace(state), frame.index));
+        self.push_tip(frame, point, &offset);
         state
     }
 
@@ -236,7 +250,8 @@ impl Builder<'_> {
         self.exact.states.push(StateRows::Tip { point, offset: *offset, rail });
         let rows = if rail.error == 0.0 {
             // Axes along those of the coordinates only exchange the entries.
-            let motion = diagonal_blocks(&rail.axes.map(Real::double)) * self.bodies.motion(point, offset);
+            let axes = diagonal_blocks(&rail.axes.map(Real::double));
+            let motion = product(&axes, &self.bodies.motion(point, offset));
             self.bodies.combinations(point, &motion)
         } else {
             // Doubles keep the exact zeros of axes that are only rounding.
@@ -258,6 +273,7 @@ impl Builder<'_> {
         let axes = clean.map(Real::double);
         let rows = released_rows(element, released, self.bodies, end, &axes, frame.axes.error);
         self.states.push(rows);
+        self.tip_before.push((None, frame.index));
         self.exact.states.push(StateRows::Released { member, end, rail: frame.axes });
         self.states.len() - 1
     }
@@ -307,8 +323,8 @@ pub(crate) fn released_rows<T: Real>(
     axes: &Matrix3<T>,
     axes_error: f64,
 ) -> [Combination<T>; 6] {
-    let (transformation, sizes) = transformation_and_size(element, bodies);
-    let local = released.recovery * transformation;
+    let (motions, sizes) = end_motions(element, bodies);
+    let local = released.recovery * block_diagonal(&motions);
     let to_rail: Matrix6<T> = diagonal_blocks(axes) * element.rotation().transpose();
     let motion = to_rail * local.fixed_rows::<6>(6 * end);
     // Rounding of the axes, of the recovery and of its products.
@@ -318,7 +334,7 @@ pub(crate) fn released_rows<T: Real>(
     let products = magnitudes(axes) * magnitudes(&element.axes).transpose();
     let turned = diagonal_blocks(&products.map(|x| x + error));
     let recovery = released.recovery.map(|x| x.double().abs()) * released.growth;
-    let bulk = turned * (recovery * sizes).fixed_rows::<6>(6 * end);
+    let bulk = turned * (recovery * block_diagonal(&sizes)).fixed_rows::<6>(6 * end);
     let pair = bodies.pair(element.points);
     std::array::from_fn(|i| {
         let mut row = Combination::default();

@@ -257,7 +257,8 @@ pub(super) fn unreleased_mass(
 pub(super) fn release_shapes(element: &Element) -> Option<Matrix12> {
     let mut shape = element.released.as_ref()?.recovery;
     // A release where the section has no stiffness changes nothing.
-    for k in (0..12).filter(|&k| element.unreleased_diagonal[k] == 0.0) {
+    let stiffness = element.unreleased_stiffness();
+    for k in (0..12).filter(|&k| stiffness[(k, k)] == 0.0) {
         shape.row_mut(k).fill(0.0);
         shape[(k, k)] = 1.0;
     }

@@ -315,7 +315,7 @@ impl<'a> Critical<'a> {
             }
             let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
             let tips = crate::assembly::transformation(&loaded, &self.bodies) * both;
-            (tips.transpose() * (own.stiffness - loaded.stiffness) * tips)[0]
+            (tips.transpose() * (own.stiffness() - loaded.stiffness()) * tips)[0]
         };
         let all: Vec<f64> = (0..m.members.len()).map(work).collect();
         (0..all.len()).fold(0, |a, b| if all[b] > all[a] { b } else { a })

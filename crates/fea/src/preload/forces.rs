@@ -70,7 +70,7 @@ fn member_forces(
     }
     let both = SVector::<f64, 12>::from_fn(|k, _| motions[pair[k / 6]][k % 6]);
     let tips = transformation(element, &frame.bodies) * both;
-    let force = element.stiffness * tips;
+    let force = element.stiffness() * tips;
     let moment = [4, 5, 10, 11].into_iter().fold(0.0_f64, |most, k| most.max(force[k].abs()));
     let across = (tips[7] - tips[1]).hypot(tips[8] - tips[2]);
     let global = |k: usize| element.axes.transpose() * Vector3::new(force[k], force[k + 1], force[k + 2]);

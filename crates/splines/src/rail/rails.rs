@@ -71,7 +71,7 @@ struct Prepared {
 #[derive(Clone, Debug)]
 struct AxisCubics {
     shapes: ShapeCubics,
-    planar: Option<PlanarCubics>,
+    planar: Option<Box<PlanarCubics>>,
 }
 
 impl AxisCubics {
@@ -80,7 +80,7 @@ impl AxisCubics {
     #[inline(never)]
     fn new(element: &RailElement, axis: usize) -> AxisCubics {
         let shapes = ShapeCubics::new(element, axis);
-        let planar = PlanarCubics::new(element, axis, &shapes);
+        let planar = PlanarCubics::new(element, axis, &shapes).map(Box::new);
         AxisCubics { shapes, planar }
     }
 }
@@ -216,7 +216,7 @@ impl Rails {
             let (block, at) = (3 * span.element + axis, span.local(p.x));
             PlanarPlace { cubics, block, at, scale: span.scale }
         };
-        Ok(self.cubics(span.element, axis).planar.as_ref().map(found))
+        Ok(self.cubics(span.element, axis).planar.as_deref().map(found))
     }
 
     /// The cubics of the shape functions of an element along a rail direction.
