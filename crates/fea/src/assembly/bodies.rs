@@ -140,8 +140,8 @@ impl<T: Real> Bodies<T> {
 
     /// What the supports leave of a combination of the motions of the references.
     pub fn supported(&self, row: &Combination<T>) -> Combination<T> {
-        let mut out = Combination::with_capacity(row.terms.len());
-        for &(column, value) in &row.terms {
+        let mut out = Combination::with_capacity(row.terms().len());
+        for (column, value) in row.terms() {
             let basis = &self.list[column / 6].basis;
             (0..6).for_each(|k| out.add(column - column % 6 + k, value * basis[(column % 6, k)]));
         }

@@ -23,18 +23,17 @@ pub(crate) fn end_motions<T: Real>(
 ) -> ([Matrix6<T>; 2], [Matrix6; 2]) {
     let sizes = Matrix3::from_fn(|i, j| element.axes[(i, j)].double().abs() + element.axes_error[i]);
     let clean = |v: T, b: f64| if v.double().abs() <= CANCELLED * T::ROUNDING * b { T::zero() } else { v };
-    let without_arm = diagonal_blocks(&element.axes.zip_map(&sizes, clean));
-    let (rotation, sizes) = (element.rotation(), diagonal_blocks(&sizes));
-    let ends = [0, 1].map(|end| {
+    let mut ends = [diagonal_blocks(&element.axes.zip_map(&sizes, clean)); 2];
+    let mut bulks = [diagonal_blocks(&sizes); 2];
+    for (end, (value, bulk)) in ends.iter_mut().zip(&mut bulks).enumerate() {
         let arm = bodies.arm(element.points[end], &element.offsets[end]);
-        if arm == Vector3::zeros() {
-            return (without_arm, sizes);
+        if arm != Vector3::zeros() {
+            let motion = motion_of_tip(&arm);
+            *bulk = product(bulk, &magnitudes(&motion));
+            *value = product(&element.rotation(), &motion).zip_map(bulk, clean);
         }
-        let motion = motion_of_tip(&arm);
-        let bulk = product(&sizes, &magnitudes(&motion));
-        (product(&rotation, &motion).zip_map(&bulk, clean), bulk)
-    });
-    (ends.map(|end| end.0), ends.map(|end| end.1))
+    }
+    (ends, bulks)
 }
 
 /// The matrix with two diagonal blocks.

@@ -92,11 +92,11 @@ impl FactoredFrame {
             };
             sum.add_scaled(&own[k % 6], shape);
         }
-        let unknown = |&(column, value): &(usize, Extended)| {
+        let unknown = |(column, value): (usize, Extended)| {
             let k = self.unknown(column)?;
             Some((k, value * Extended::from(self.scale(k))))
         };
-        let load = extended.bodies.supported(&sum).terms.iter().filter_map(unknown).collect();
+        let load = extended.bodies.supported(&sum).terms().filter_map(unknown).collect();
         Ok(Place { axis: probe.axis, x, functions, shapes, load })
     }
 

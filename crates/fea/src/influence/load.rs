@@ -40,7 +40,7 @@ impl RailLoads<'_> {
     /// stiffens.
     pub fn scaled(&self, row: &Combination) -> Option<SparseLoad> {
         let row = self.bodies.supported(row);
-        let mut load = SparseLoad::with_capacity(row.terms.len());
+        let mut load = SparseLoad::with_capacity(row.terms().len());
         for (column, value) in row.significant() {
             load.push(self.term(column, value)?);
         }
