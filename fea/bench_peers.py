@@ -130,12 +130,12 @@ def error(grid, wanted):
 
 
 def grids(profile, quick):
-    """Rows of all codes: case, code, setting, error, least, median and most ms."""
+    """Rows of all codes: case, code, setting, error, None for forces, least, median and most ms."""
     wanted = reference()
     command = ["cargo", "run", "-q", "--profile", profile, "-p", "fea", "--example", "girder"]
     text = subprocess.run(command, cwd=HERE.parent, check=True, capture_output=True, text=True).stdout
     times, *lines = ([float(value) for value in line.split(",")] for line in text.splitlines())
-    yield GRID, "girderway", "4 states", error(np.array(lines), wanted), *times
+    yield GRID, "girderway", "4 states", error(np.array(lines), wanted), None, *times
     jobs = [("scikit-fem", by_scikit_fem, count) for count in (6, 12, 24, 48, 60, 120, 240)]
     jobs += [("PyNite", by_pynite, 60), ("OpenSees", by_opensees, 60)]
     found = {}
@@ -146,7 +146,7 @@ def grids(profile, quick):
             passed = 1e3 * (time.thread_time() - began)
             found.setdefault((code, f"{setting} elements"), (error(grid, wanted), []))[1].append(passed)
     for (code, setting), (off, times) in found.items():
-        yield GRID, code, setting, off, min(times), float(np.median(times)), max(times)
+        yield GRID, code, setting, off, None, min(times), float(np.median(times)), max(times)
 
 
 def chart(rows, path):
@@ -160,16 +160,16 @@ def chart(rows, path):
     figure, axes = plt.subplots(2, 4, figsize=(15, 7.5))
     for axis, case in zip(axes.flat, cases):
         for code, marker in zip(codes, "oX^sDvP*"):
-            own = [row for row in rows if row[:2] == (case, code) and 0 < row[3] < 1]
-            if own:
-                middle = [row[5] for row in own]
-                spread = [[row[5] - row[4] for row in own], [row[6] - row[5] for row in own]]
-                at = codes.index(code)
-                axis.errorbar(
-                    middle, [row[3] for row in own], xerr=spread, fmt=marker, color=f"C{at}", markersize=5, elinewidth=0.7
-                )
+            at = codes.index(code)
+            for error, face in ((3, f"C{at}"), (4, "none")):
+                own = [row for row in rows if row[:2] == (case, code) and row[error] is not None and 0 < row[error] < 1]
+                middle = [row[6] for row in own]
+                spread = [[row[6] - row[5] for row in own], [row[7] - row[6] for row in own]]
+                style = {"color": f"C{at}", "markerfacecolor": face, "markersize": 5, "elinewidth": 0.7}
+                if own:
+                    axis.errorbar(middle, [row[error] for row in own], xerr=spread, fmt=marker, **style)
         axis.set(xscale="log", yscale="log", title=case, xlabel="time, ms: median, least to most")
-        axis.set_ylabel("error by the largest coefficient" if case == GRID else "error of the deflection by its peak")
+        axis.set_ylabel("error by the largest coefficient" if case == GRID else "error of deflection, hollow: forces")
         axis.grid(True, which="major", alpha=0.3)
     for axis in list(axes.flat)[len(cases) :]:
         axis.axis("off")
@@ -192,9 +192,10 @@ def main():
     cases = [scenes.case(name) for name in options.scenes]
     rows = list(grids(options.profile, options.quick))
     rows += list(scenes.ours(options.profile, cases)) + list(scenes.measure(cases, [], options.quick))
-    print(f"{'case':24s}{'code':12s}{'setting':24s}   error     least    median      most, ms")
-    for case, code, setting, off, *times in sorted(rows, key=lambda row: (row[0], row[1], row[5])):
-        print(f"{case:24s}{code:12s}{setting:24s}{off:8.1e}", *(f"{t:9.4f}" for t in times))
+    print(f"{'case':24s}{'code':12s}{'setting':24s}   error  of force     least    median      most, ms")
+    for case, code, setting, off, of_force, *times in sorted(rows, key=lambda row: (row[0], row[1], row[6])):
+        forces = "       -" if of_force is None else f"{of_force:8.1e}"
+        print(f"{case:24s}{code:12s}{setting:24s}{off:8.1e}  {forces}", *(f"{t:9.4f}" for t in times))
     scenes.write(rows, options.o / "peers.json")
     chart(rows, options.o / "peers.svg")
 

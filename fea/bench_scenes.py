@@ -10,17 +10,17 @@ S3 is a carriage with eight wheels at 10 ft/s over the same girder; "S1 beam", "
 bridge) have the mass of the girder: scene_peers.py. Their references are its own, in fine steps: DOP853 at 1e-11 for S3,
 Newmark on 48 cells a span for the others.
 
-Every code runs over a range of steps or tolerances; its error is the largest of the deflection over 101 samples, of
-its peak. Times are milliseconds that the thread worked, the least, the median and the most of interleaved repetitions,
-without compilation:
+Every code runs over a range of steps or tolerances. Two errors are measured over 101 samples: that of the deflection, by its
+peak, and that of the vertical forces of all wheels, by the largest force (of girderway and numba alone). Times are
+milliseconds that the thread worked, the least, the median and the most of interleaved repetitions, without compilation:
 
     girderway   the public `run` with history, audit and events (example `crossings` of the crate sim)
     numba       RK4 with fixed steps in force form, two wheels solved by Cramer's rule
     scipy       solve_ivp with RK45, DOP853, LSODA, Radau
     Exudyn      GenericODE2, stiffness and damping set before each step, implicit trapezoidal rule
 
-Prints all pairs, and the cheapest setting of each code that reaches 1e-3 and 1e-4; -o writes them as scenes.json, with
-a chart scenes.svg.
+Prints all of them, and by each error the cheapest setting of every code that reaches 1e-3, 1e-4, 1e-5 and 1e-6; -o writes
+scenes.json, with a chart scenes.svg.
 """
 
 import os
@@ -43,6 +43,8 @@ import scene_peers as peers
 
 HERE = pathlib.Path(__file__).resolve().parent
 SAMPLES = bogie.SAMPLES
+# Errors at which codes are compared.
+ERRORS = (1e-3, 1e-4, 1e-5, 1e-6)
 # Scenes; ratio of the time of code by hand, and of Exudyn, to ours that is aimed at.
 GOALS = {
     "S1": {"numba": 15, "Exudyn": 1000},
@@ -65,11 +67,17 @@ class Crossing:
         self.times = np.linspace(0.0, self.end, SAMPLES)
         data = json.loads((HERE / "reference" / f"bogie_{name.lower()}.json").read_text())
         self.z = np.array(data["z"])
+        self.forces = np.array([data["F1"], data["F2"]]).T
 
-    def error(self, z):
-        z = np.asarray(z)
-        difference = np.abs(z - self.z[:: (SAMPLES - 1) // (len(z) - 1)]).max() / self.z.max()
-        return float(difference) if np.isfinite(difference) else float("inf")
+    def errors(self, z, forces=None):
+        """Errors of the deflection and of wheel forces, one row for each sample; the second None without forces."""
+
+        def error(found, wanted):
+            found = np.asarray(found)
+            off = np.abs(found - wanted[:: (SAMPLES - 1) // (len(found) - 1)]).max() / np.abs(wanted).max()
+            return float(off) if np.isfinite(off) else float("inf")
+
+        return error(z, self.z), None if forces is None else error(forces, self.forces)
 
 
 class Train(Crossing):
@@ -81,6 +89,7 @@ class Train(Crossing):
         rate = lambda t, s: peers.train_rate(self.speed * t, s)  # noqa: E731
         run = solve_ivp(rate, (0.0, self.end), peers.train_start(), "DOP853", self.times, rtol=1e-11, atol=1e-13)
         self.z = run.y[0]
+        self.forces = np.array([peers.train_forces(self.speed * t, s) for t, s in zip(self.times, run.y.T)])
 
 
 class Heavy(Crossing):
@@ -88,7 +97,7 @@ class Heavy(Crossing):
 
     def __init__(self, name, steps):
         self.name, self.beam = name, peers.Beam(name)
-        self.z = peers.beam_by_hand(self.beam, (self.beam.fine, steps))
+        self.z, self.forces = peers.beam_by_hand(self.beam, (self.beam.fine, steps))
 
 
 @numba.njit(cache=False)
@@ -116,30 +125,32 @@ def rates(x, s0, s1, s2, s3):
     e2 = s0 + arm * s1 + c / k * (s2 + arm * s3)
     det = g11 * g22 - g12 * g12
     f1, f2 = (g22 * e1 - g12 * e2) / det, (g11 * e2 - g12 * e1) / det
-    return s2, s3, 32.174 - (f1 + f2) / mass, -arm * (f2 - f1) / (mass * 2.25)
+    return s2, s3, 32.174 - (f1 + f2) / mass, -arm * (f2 - f1) / (mass * 2.25), f1, f2
 
 
 @numba.njit(cache=False)
 def rk4(speed, end, steps, start):
-    out = np.empty(min(steps, 100) + 1)
+    samples = min(steps, 100)
+    out, forces = np.empty(samples + 1), np.empty((samples + 1, 2))
     h = end / steps
     every = max(steps // 100, 1)
     a, b, c, d = start[0], start[1], start[2], start[3]
-    out[0] = a
     for n in range(steps):
         x = speed * n * h
         xm, xe = x + 0.5 * speed * h, x + speed * h
-        p1, p2, p3, p4 = rates(x, a, b, c, d)
-        q1, q2, q3, q4 = rates(xm, a + 0.5 * h * p1, b + 0.5 * h * p2, c + 0.5 * h * p3, d + 0.5 * h * p4)
-        r1, r2, r3, r4 = rates(xm, a + 0.5 * h * q1, b + 0.5 * h * q2, c + 0.5 * h * q3, d + 0.5 * h * q4)
-        s1, s2, s3, s4 = rates(xe, a + h * r1, b + h * r2, c + h * r3, d + h * r4)
+        p1, p2, p3, p4, f1, f2 = rates(x, a, b, c, d)
+        if n % every == 0:
+            out[n // every], forces[n // every, 0], forces[n // every, 1] = a, f1, f2
+        q1, q2, q3, q4, _, _ = rates(xm, a + 0.5 * h * p1, b + 0.5 * h * p2, c + 0.5 * h * p3, d + 0.5 * h * p4)
+        r1, r2, r3, r4, _, _ = rates(xm, a + 0.5 * h * q1, b + 0.5 * h * q2, c + 0.5 * h * q3, d + 0.5 * h * q4)
+        s1, s2, s3, s4, _, _ = rates(xe, a + h * r1, b + h * r2, c + h * r3, d + h * r4)
         a += h / 6.0 * (p1 + 2.0 * (q1 + r1) + s1)
         b += h / 6.0 * (p2 + 2.0 * (q2 + r2) + s2)
         c += h / 6.0 * (p3 + 2.0 * (q3 + r3) + s3)
         d += h / 6.0 * (p4 + 2.0 * (q4 + r4) + s4)
-        if (n + 1) % every == 0:
-            out[(n + 1) // every] = a
-    return out
+    _, _, _, _, f1, f2 = rates(speed * end, a, b, c, d)
+    out[samples], forces[samples, 0], forces[samples, 1] = a, f1, f2
+    return out, forces
 
 
 def by_hand(case, steps):
@@ -191,7 +202,8 @@ def settings(case, quick):
     pairs = [(m, r) for m in methods for r in ([1e-3, 1e-5] if quick else [1e-3, 1e-4, 1e-5, 1e-6, 1e-7])]
     coarse = [100, 200, 500, 1000, 2000] if quick else [100, 200, 500, 1000, 2000, 5000, 10000]
     if isinstance(case, Heavy):
-        meshes = [(cells, steps) for cells in (8, 12, 24) for steps in (100, 200, 400, 800, 1600, 3200)]
+        counts = (100, 200, 400, 800, 1600, 3200) if quick else (100, 200, 400, 800, 1600, 3200, 6400, 12800)
+        meshes = [(cells, steps) for cells in (8, 12, 24, 36) for steps in counts]
         modal = [("LSODA", rtol, count) for rtol in (1e-4, 1e-6) for count in (3, 6)]
         hand, by_scipy_, exu = peers.beam_by_hand, peers.beam_by_scipy, peers.beam_by_exudyn
         return [
@@ -200,13 +212,13 @@ def settings(case, quick):
             ("Exudyn", lambda c, v: exu(c.beam, v), [(12, n) for n in coarse]),
         ]
     if isinstance(case, Train):
-        many = [200, 300, 400, 600, 1000, 2000, 4000]
+        many = [200, 300, 400, 600, 1000, 2000, 4000, 8000]
         return [
             ("numba", train_by_hand, many),
             ("scipy", train_by_scipy, pairs),
             ("Exudyn", peers.train_by_exudyn, coarse),
         ]
-    many = [20, 25, 50, 100, 200, 300, 400, 500, 700, 1000, 1500, 2000, 3000, 5000]
+    many = [20, 25, 50, 100, 200, 300, 400, 500, 700, 1000, 1500, 2000, 3000, 5000, 10000, 20000]
     return [("numba", by_hand, many), ("scipy", by_scipy, pairs), ("Exudyn", by_exudyn, coarse)]
 
 
@@ -226,8 +238,9 @@ def ours(profile, cases):
     for line in text.splitlines()[1:]:
         name, setting, _, least, median, most, *z = line.split(",")
         if name in known:
-            error = known[name].error([float(value) for value in z])
-            yield name, "girderway", setting, error, float(least), float(median), float(most)
+            columns = np.array([float(value) for value in z]).reshape(-1, SAMPLES)
+            errors = known[name].errors(columns[0], columns[1:].T)
+            yield name, "girderway", setting, *errors, float(least), float(median), float(most)
 
 
 def measure(cases, skip, quick):
@@ -244,28 +257,30 @@ def measure(cases, skip, quick):
             if repetition == 0 and code == "numba":
                 function(case, value)
             began = time.thread_time()
-            z = function(case, value)
+            result = function(case, value)
             passed = 1e3 * (time.thread_time() - began)
-            error, times = found.setdefault((case.name, code, str(value)), (case.error(z), []))
+            results = result if isinstance(result, tuple) else (result,)
+            errors, times = found.setdefault((case.name, code, str(value)), (case.errors(*results), []))
             times.append(passed)
-    for key, (error, times) in found.items():
-        yield (*key, error, min(times), float(np.median(times)), max(times))
+    for key, (errors, times) in found.items():
+        yield (*key, *errors, min(times), float(np.median(times)), max(times))
 
 
 def cheapest(rows):
-    """Scene, error asked, code -> setting and times."""
+    """Quantity, scene, error asked, code -> setting and times."""
     best = {}
-    for scene, code, setting, error, *times in rows:
-        for asked in (1e-3, 1e-4):
-            key = (scene, asked, code)
-            if error <= asked and (key not in best or times[1] < best[key][2]):
-                best[key] = (setting, *times)
+    for scene, code, setting, of_deflection, of_force, *times in rows:
+        for quantity, error in (("deflection", of_deflection), ("force", of_force)):
+            for asked in ERRORS:
+                key = (quantity, scene, asked, code)
+                if error is not None and error <= asked and (key not in best or times[1] < best[key][2]):
+                    best[key] = (setting, *times)
     return best
 
 
 def write(rows, path):
     path.parent.mkdir(parents=True, exist_ok=True)
-    keys = ("scene", "code", "setting", "error", "least_ms", "median_ms", "most_ms")
+    keys = ("scene", "code", "setting", "error", "force_error", "least_ms", "median_ms", "most_ms")
     # an error without bound is no number of JSON
     lasting = [[None if isinstance(own, float) and not np.isfinite(own) else own for own in row] for row in rows]
     text = json.dumps([dict(zip(keys, row)) for row in lasting], indent=1, allow_nan=False)
@@ -280,13 +295,16 @@ def chart(rows, path):
 
     figure, axes = plt.subplots(2, 3, figsize=(12, 7), sharey=True)
     for axis, scene in zip(axes.flat, GOALS):
-        for code in dict.fromkeys(row[1] for row in rows):
-            pairs = [(row[5], row[3]) for row in rows if row[:2] == (scene, code) and 0 < row[3] < 1]
-            axis.loglog(*zip(*pairs), "o", label=code, markersize=4) if pairs else None
+        for at, code in enumerate(dict.fromkeys(row[1] for row in rows)):
+            for error, face in ((3, f"C{at}"), (4, "none")):
+                own = [row for row in rows if row[:2] == (scene, code) and row[error] is not None and 0 < row[error] < 1]
+                style = {"color": f"C{at}", "markerfacecolor": face, "markersize": 4}
+                label = {"label": code} if error == 3 else {}
+                axis.loglog([row[6] for row in own], [row[error] for row in own], "o", **style, **label)
         axis.set(title=scene, xlabel="median time, ms")
         axis.grid(True, which="major", alpha=0.3)
     for axis in axes[:, 0]:
-        axis.set_ylabel("error of the deflection, of its peak")
+        axis.set_ylabel("error of the deflection (filled), of wheel forces (hollow)")
     axes[0, 0].legend()
     figure.tight_layout()
     figure.savefig(path, metadata={"Date": None})
@@ -302,16 +320,18 @@ def main():
     options = parser.parse_args()
     cases = [case(name) for name in options.scenes]
     rows = list(ours(options.profile, cases)) + list(measure(cases, options.skip, options.quick))
-    print("scene    code       setting                  error     least    median      most, ms")
-    for scene, code, setting, error, *times in sorted(rows, key=lambda row: (row[0], row[1], row[5])):
-        print(f"{scene:7s}  {code:9s}  {setting:22s}  {error:8.1e}", *(f"{t:9.4f}" for t in times))
+    print("scene    code       setting                  error  of force     least    median      most, ms")
+    for scene, code, setting, error, of_force, *times in sorted(rows, key=lambda row: (row[0], row[1], row[6])):
+        forces = "       -" if of_force is None else f"{of_force:8.1e}"
+        print(f"{scene:7s}  {code:9s}  {setting:22s}  {error:8.1e}  {forces}", *(f"{t:9.4f}" for t in times))
     best = cheapest(rows)
-    print("\ncheapest: scene, error, code, setting, least, median, most ms, median by ours (goal)")
-    for (scene, asked, code), (setting, *times) in sorted(best.items()):
-        own = best.get((scene, asked, "girderway"))
-        ratio = f"{times[1] / own[2]:.2f}" if own else "-"
+    print("\ncheapest: error of, scene, error, code, setting, least, median, most ms, least and median by ours (goal)")
+    for (quantity, scene, asked, code), (setting, *times) in sorted(best.items()):
+        own = best.get((quantity, scene, asked, "girderway"))
+        ratio = f"{times[0] / own[1]:.2f} {times[1] / own[2]:.2f}" if own else "-"
         told = " ".join(f"{t:9.4f}" for t in times)
-        print(f"{scene:7s}  {asked:.0e}  {code:9s}  {setting:22s}  {told}  {ratio} ({GOALS[scene].get(code, '-')})")
+        goal = GOALS[scene].get(code, "-")
+        print(f"{quantity:10s}  {scene:7s}  {asked:.0e}  {code:9s}  {setting:22s}  {told}  {ratio} ({goal})")
     if options.o:
         write(rows, options.o / "scenes.json")
         chart(rows, options.o / "scenes.svg")

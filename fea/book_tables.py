@@ -67,22 +67,28 @@ def peers(path):
     heads = ("code", "setting", "error", "median, ms", "by ours")
     table(heads, [(run["code"], run["setting"], scientific(run["error"], 0), number(run["median_ms"], 3),
                    number(run["median_ms"] / ours, 2)) for run in loads])
-    heads = ["scene", "error", "girderway"]
-    for code in OTHERS:
+    for quantity, codes in (("error", OTHERS), ("force_error", OTHERS[:1])):
+        crossings([run for run in runs if run["scene"] != LOADS], quantity, codes)
+
+
+def crossings(runs, quantity, codes):
+    """The cheapest setting of each code by an error, of the deflection or of wheel forces."""
+    heads = ["scene", "error of forces" if quantity == "force_error" else "error", "girderway"]
+    for code in codes:
         heads += [code, "by ours"]
     rows = []
-    for scene in dict.fromkeys(run["scene"] for run in runs if run["scene"] != LOADS):
-        for error in (1e-3, 1e-4):
+    for scene in dict.fromkeys(run["scene"] for run in runs):
+        for error in (1e-3, 1e-4, 1e-5, 1e-6):
             def least(code):
                 # an error that is no number is one without bound
                 own = [run["median_ms"] for run in runs if (run["scene"], run["code"]) == (scene, code)
-                       and run["error"] is not None and run["error"] <= error]
+                       and run[quantity] is not None and run[quantity] <= error]
                 return min(own, default=None)
             ours = least("girderway")
             row = [scene, scientific(error, 0), number(ours, 3)]
-            for code in OTHERS:
+            for code in codes:
                 other = least(code)
-                row += [number(other, 3), number(other and other / ours, 2)]
+                row += [number(other, 3), number(other and ours and other / ours, 2)]
             rows.append(row)
     table(heads, rows)
 

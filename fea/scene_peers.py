@@ -57,10 +57,13 @@ def train_start():
     return np.concatenate([np.linalg.solve(LEVERS, train_compliance(0.0) @ force), np.zeros(8)])
 
 
-def train_rate(x, s):
+def train_forces(x, s):
     drop = LEVERS @ (s[:8] + bogie.DAMPING / bogie.STIFFNESS * s[8:])
-    force = np.linalg.solve(train_compliance(x), drop)
-    return np.concatenate([s[8:], INVERSE @ (PULL - LEVERS.T @ force)])
+    return np.linalg.solve(train_compliance(x), drop)
+
+
+def train_rate(x, s):
+    return np.concatenate([s[8:], INVERSE @ (PULL - LEVERS.T @ train_forces(x, s))])
 
 
 @numba.njit(cache=False)
@@ -88,24 +91,25 @@ def train_rate_fast(x, s, levers, inverse, pull, at, give):
     out = np.empty(16)
     out[:8] = s[8:]
     out[8:] = inverse @ (pull - levers.T @ f)
-    return out
+    return out, f
 
 
 @numba.njit(cache=False)
 def train_rk4(speed, end, steps, s, levers, inverse, pull, at, give):
     h, every = end / steps, steps // 100
-    z = np.empty(101)
-    z[0] = s[0]
+    z, forces = np.empty(101), np.empty((101, 8))
     for n in range(steps):
         x = speed * n * h
-        a = train_rate_fast(x, s, levers, inverse, pull, at, give)
-        b = train_rate_fast(x + 0.5 * speed * h, s + 0.5 * h * a, levers, inverse, pull, at, give)
-        c = train_rate_fast(x + 0.5 * speed * h, s + 0.5 * h * b, levers, inverse, pull, at, give)
-        d = train_rate_fast(x + speed * h, s + h * c, levers, inverse, pull, at, give)
+        a, f = train_rate_fast(x, s, levers, inverse, pull, at, give)
+        if n % every == 0:
+            z[n // every], forces[n // every] = s[0], f
+        b, _ = train_rate_fast(x + 0.5 * speed * h, s + 0.5 * h * a, levers, inverse, pull, at, give)
+        c, _ = train_rate_fast(x + 0.5 * speed * h, s + 0.5 * h * b, levers, inverse, pull, at, give)
+        d, _ = train_rate_fast(x + speed * h, s + h * c, levers, inverse, pull, at, give)
         s = s + h / 6.0 * (a + 2.0 * (b + c) + d)
-        if (n + 1) % every == 0:
-            z[(n + 1) // every] = s[0]
-    return z
+    z[100] = s[0]
+    forces[100] = train_rate_fast(speed * end, s, levers, inverse, pull, at, give)[1]
+    return z, forces
 
 
 class Beam:
@@ -185,7 +189,7 @@ def newmark(steps, end, speed, overhang, h, held, k, m, arms, spring, damper, ma
     first = np.zeros(wheels, dtype=np.int64)
     f = np.zeros(wheels)
     body_a = np.zeros(2)
-    out = np.empty(101)
+    out, forces = np.empty(101), np.empty((101, wheels))
     out[0] = z
     every = steps // 100
     a_matrix, right = np.empty((wheels, wheels)), np.empty(wheels)
@@ -207,6 +211,7 @@ def newmark(steps, end, speed, overhang, h, held, k, m, arms, spring, damper, ma
                 load[first[i] : first[i] + 4] += n[i] * f[i]
             acc = np.linalg.solve(m, load)
             body_a[0], body_a[1] = gravity - f.sum() / mass, -(arms * f).sum() / inertia
+            forces[0] = f
             continue
         guess = u + dt * v + b * acc
         rate = v + 0.5 * dt * acc
@@ -235,8 +240,8 @@ def newmark(steps, end, speed, overhang, h, held, k, m, arms, spring, damper, ma
         v, body_v = rate + 0.5 * dt * acc, body_rate + 0.5 * dt * body_a
         u, body = new, fall
         if (step + 1) % every == 0:
-            out[(step + 1) // every] = body[0]
-    return out
+            out[(step + 1) // every], forces[(step + 1) // every] = body[0], f
+    return out, forces
 
 
 def beam_by_hand(beam, setting):

@@ -1,13 +1,14 @@
 //! Work and precision of the public `run` on crossings of the paper's girder, and its cost by the number of wheels.
 //!
 //! ```text
-//! cargo run --release -p sim --example crossings            scene,accuracy,steps,least ms,median ms,most ms,z0,...,z100
+//! cargo run --release -p sim --example crossings            scene,accuracy,steps,least ms,median ms,most ms,z,forces
 //! cargo run --release -p sim --example crossings -- wheels  n,steps,stages,events,us a step,residual
 //! ```
 //!
 //! S1 and S2 are the bogie at 5 and 100 ft/s, S3 eight wheels under a carriage at 10 ft/s, S4 a sprung mass over Yang and
-//! Yau's bridge; "beam" has the mass of the girder, in its lowest modes. z is the body's deflection at 101 times, which
-//! `fea/bench_scenes.py` compares. History, audit and events are on. Settings are interleaved: every repetition runs all.
+//! Yau's bridge; "beam" has the mass of the girder, in its lowest modes. z is the body's deflection at 101 times, and the
+//! vertical forces of each wheel at these times follow, one wheel after the other; `fea/bench_scenes.py` compares both.
+//! History, audit and events are on. Settings are interleaved: every repetition runs all.
 
 #![allow(clippy::print_stdout, reason = "the figures are what the example is for")]
 
@@ -160,7 +161,7 @@ fn crossings() -> Result<(), Error> {
             }
         }
     }
-    println!("scene,setting,steps,least ms,median ms,most ms,z");
+    println!("scene,setting,steps,least ms,median ms,most ms,z,forces");
     for (name, told, foundations, rows) in &mut settings {
         for (scene, times) in rows {
             let run = solve(scene, foundations)?;
@@ -173,6 +174,10 @@ fn crossings() -> Result<(), Error> {
                 scene.accuracy, run.counts.steps
             );
             y.iter().for_each(|y| print!(",{:.10e}", -y));
+            for wheel in 0..scene.contacts.len() {
+                let forces = run.history.column(Channel::Vertical(wheel));
+                forces.iter().for_each(|force| print!(",{force:.10e}"));
+            }
             println!();
         }
     }

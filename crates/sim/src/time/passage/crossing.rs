@@ -9,6 +9,8 @@
 use std::f64::consts::TAU;
 use std::ops::ControlFlow;
 
+use pulp::{Arch, Simd, WithSimd};
+
 use super::path::Path;
 use super::series::{Contacts, Impulse, Matrix, ORDER, Series, TERMS, Values, subtract};
 use crate::contact::geometry::Geometry;
@@ -32,7 +34,7 @@ const LAST: f64 = 0.05;
 const FORCES: f64 = 16.0;
 
 /// Coarsest accuracy used for the step length; larger values are reduced to it.
-const COARSEST: f64 = 1e-3;
+const COARSEST: f64 = 1e-2;
 
 /// Number of bounces over which the errors of steps add up to the accuracy allowed by [`LAST`]; for N more bounces the
 /// steps are more accurate by N times the reciprocal.
@@ -114,10 +116,38 @@ pub(crate) fn run(
     watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<Option<Crossed>, Error> {
     match system.elements.len() {
-        1..=2 => Crossing::<2>::new(system, start)?.run(placed, watch),
-        3..=4 => Crossing::<4>::new(system, start)?.run(placed, watch),
-        5..=WIDEST => Crossing::<WIDEST>::new(system, start)?.run(placed, watch),
+        1..=2 => dispatch::<2>(system, start, placed, watch),
+        3..=4 => dispatch::<4>(system, start, placed, watch),
+        5..=WIDEST => dispatch::<WIDEST>(system, start, placed, watch),
         _ => Ok(None),
+    }
+}
+
+/// Runs a crossing of at most P contacts with the widest vector registers that the processor has. The order of the sums
+/// is fixed and products are rounded before they are added: the results are the same in every bit without them.
+fn dispatch<const P: usize>(
+    system: &System,
+    start: State,
+    placed: bool,
+    watch: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<Option<Crossed>, Error> {
+    let crossing = Crossing::<P>::new(system, start)?;
+    Arch::new().dispatch(Dispatched { crossing, placed, watch })
+}
+
+/// [`Crossing::run`], compiled for several sets of vector registers.
+struct Dispatched<'a, 'w, const P: usize> {
+    crossing: Crossing<'a, P>,
+    placed: bool,
+    watch: &'w mut dyn FnMut(f64) -> ControlFlow<()>,
+}
+
+impl<const P: usize> WithSimd for Dispatched<'_, '_, P> {
+    type Output = Result<Option<Crossed>, Error>;
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) -> Self::Output {
+        self.crossing.run(self.placed, self.watch)
     }
 }
 
@@ -245,6 +275,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
         })
     }
 
+    #[inline(always)]
     fn run(
         mut self,
         placed: bool,
@@ -359,6 +390,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
 
     /// Approach of the stiffest contact under the largest force on each contact: the smallest row sum of G + 1/k, times
     /// this force.
+    #[inline(always)]
     fn yielding(&self, compliance: &Matrix<P>) -> f64 {
         let m = self.system.elements.len();
         let row = |i: usize| (0..m).map(|j| compliance[j][i].abs()).sum::<f64>() + self.contacts.softness[i];
@@ -389,6 +421,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Approaches, constant + R q, or their rates, R v.
+    #[inline(always)]
     fn approach(&self, freedoms: &[f64; P], with_constant: bool) -> [f64; P] {
         let mut sum = if with_constant { self.matrices.constant } else { [0.0; P] };
         for (column, q) in self.matrices.rows.iter().zip(freedoms) {
@@ -426,6 +459,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Starts the audit at the start of the first step; returns false if a contact is not pressed there.
+    #[inline(always)]
     fn begin(&mut self) -> bool {
         let look = self.series.first();
         let p = self.penetration(&look.force, &look.rate);
@@ -442,12 +476,14 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Penetration p = F/k - r w' under the forces `force` at the rates of the approaches `rate`.
+    #[inline(always)]
     fn penetration(&self, force: &[f64; P], rate: &[f64; P]) -> [f64; P] {
         let Contacts { ratio, softness, .. } = &self.contacts;
         std::array::from_fn(|i| force[i] * softness[i] - ratio[i] * rate[i])
     }
 
     /// Rate of the penetration.
+    #[inline(always)]
     fn penetration_rate(&self, at: &Values<P>) -> [f64; P] {
         let mut lift = self.contacts.free;
         subtract(&self.contacts.mobile, &at.force, &mut lift);
@@ -455,6 +491,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Displacements and speeds of the degrees of freedom at the scaled time `s` of the step.
+    #[inline(always)]
     fn moved(&self, s: f64, impulse: &Impulse<P>) -> [[f64; P]; 2] {
         let time = s * self.series.scale;
         let [mut q, mut v] = [[0.0; P]; 2];
@@ -469,6 +506,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Stored energy without its constant part, and the elastic part of it.
+    #[inline(always)]
     fn energy(&self, q: &[f64; P], v: &[f64; P], at: &Values<P>) -> [f64; 2] {
         let p = self.penetration(&at.force, &at.rate);
         let (mut elastic, mut rest) = (0.0, 0.0);
@@ -484,6 +522,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Takes the step of length `h` and adds it to the audit; returns false if a contact would have to pull.
+    #[inline(always)]
     fn step(&mut self, h: f64) -> bool {
         let end = h / self.series.scale;
         self.length = h;
@@ -520,6 +559,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
 
     /// Power dissipated in the dampers, c w' p', and power supplied by the travel, -1/2 F dG/dt F, where u = w - p is
     /// the deflection and F dG/dt F = F u' - u F'.
+    #[inline(always)]
     fn power(&self, at: &Values<P>) -> [f64; 2] {
         let (p, p_rate) = (self.penetration(&at.force, &at.rate), self.penetration_rate(at));
         let (mut dampers, mut drives) = (0.0, 0.0);
@@ -535,6 +575,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     ///
     /// # Errors
     /// Any error from evaluating the rails at the gauges.
+    #[inline(always)]
     fn record<const N: usize>(
         &mut self,
         recorder: &mut Recorder,
@@ -559,6 +600,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// Sets the slopes of the rails at the scaled time `s` under the forces `force`.
+    #[inline(always)]
     fn tilt(&mut self, s: f64, force: &[f64; P]) {
         if self.travel.root.is_none() {
             return;
@@ -577,6 +619,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
     }
 
     /// G at the scaled time `s` of the step, and its derivative by the scaled time.
+    #[inline(always)]
     fn compliance_at(&self, s: f64) -> [Matrix<P>; 2] {
         let (mut value, mut rate) = (self.compliance[TERMS - 1], [[0.0; P]; P]);
         for matrix in self.compliance[..TERMS - 1].iter().rev() {
@@ -592,6 +635,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
 
     /// Sets the state to the degrees of freedom `q`, their rates `v` and the forces `force` at time `t`, and the places of the
     /// wheels with it.
+    #[inline(always)]
     fn fill(&mut self, t: f64, q: &[f64; P], v: &[f64; P], force: &[f64; P]) {
         let p = self.penetration(force, &self.approach(v, false));
         let mut a = self.matrices.free_fall;
@@ -608,6 +652,7 @@ impl<'a, const P: usize> Crossing<'a, P> {
 }
 
 /// Copies the leading values, two at a time: a call that copies two numbers takes longer.
+#[inline(always)]
 fn put<const P: usize>(values: &[f64; P], to: &mut [f64]) {
     let (pairs, last) = to.as_chunks_mut::<2>();
     if let ([last], Some(value)) = (last, values.get(2 * pairs.len())) {

@@ -71,6 +71,7 @@ impl<const P: usize> Path<P> {
     }
 
     /// Coefficients of G over the time since `t` divided by `scale`.
+    #[inline(always)]
     pub fn about(&self, t: f64, scale: f64) -> [Matrix<P>; TERMS] {
         let at = (t - self.middle) / self.half;
         let mut sum = [[[0.0; P]; P]; TERMS];
@@ -97,6 +98,7 @@ fn place(k: usize) -> f64 {
 }
 
 /// `sum` = `gap` `sum` + `more`.
+#[inline(always)]
 fn blend<const P: usize>(sum: &mut Matrix<P>, gap: f64, more: &Matrix<P>) {
     for (sum, more) in sum.as_flattened_mut().iter_mut().zip(more.as_flattened()) {
         *sum = *sum * gap + more;

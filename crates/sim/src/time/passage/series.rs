@@ -71,6 +71,7 @@ impl<const P: usize> Series<P> {
 
     /// Computes the series of the step that starts with the approach `start` and its rate `rate`; `compliance` holds
     /// the coefficients of G over the scaled time. Returns `None` if A is not positive definite.
+    #[inline(always)]
     pub fn expand(
         &mut self,
         contacts: &Contacts<P>,
@@ -133,6 +134,7 @@ impl<const P: usize> Series<P> {
     }
 
     /// Length, relative to `scale`, of the longest step whose last two terms are at most `approach` and `force`.
+    #[inline(always)]
     pub fn reach(&self, approach: f64, force: f64) -> f64 {
         let longest = |terms: &[[f64; P]], allowed: f64, k: usize| {
             let size = terms[k].iter().fold(f64::MIN_POSITIVE, |max, term| max.max(term.abs()));
@@ -144,6 +146,7 @@ impl<const P: usize> Series<P> {
     }
 
     /// Values at each of the scaled times `places`.
+    #[inline(always)]
     pub fn at<const N: usize>(&self, places: &[f64; N]) -> [Values<P>; N] {
         let (force, force_rate) = look(&self.force, places);
         let (approach, rate) = look(&self.approach, places);
@@ -157,6 +160,7 @@ impl<const P: usize> Series<P> {
     }
 
     /// Values at the start.
+    #[inline(always)]
     pub fn first(&self) -> Values<P> {
         let per_time = 1.0 / self.scale;
         Values {
@@ -168,6 +172,7 @@ impl<const P: usize> Series<P> {
     }
 
     /// Forces and their integrals from the start to each of the scaled times `places`.
+    #[inline(always)]
     pub fn impulses<const N: usize>(&self, places: &[f64; N]) -> [Impulse<P>; N] {
         let [mut force, mut once, mut twice] = [[[0.0; P]; N]; 3];
         let (moving, more) = self.force.split_at(ORDER);
@@ -220,6 +225,7 @@ const fn inverses(more: usize) -> [f64; ORDER + MORE] {
 }
 
 /// Values and derivatives of a series at each of `places`.
+#[inline(always)]
 fn look<const P: usize, const N: usize>(
     series: &[[f64; P]],
     places: &[f64; N],
@@ -237,6 +243,7 @@ fn look<const P: usize, const N: usize>(
 }
 
 /// `out` -= `matrix` `x`.
+#[inline(always)]
 pub(super) fn subtract<const P: usize>(matrix: &Matrix<P>, x: &[f64; P], out: &mut [f64; P]) {
     for (column, x) in matrix.iter().zip(x) {
         for (out, entry) in out.iter_mut().zip(column) {
@@ -246,6 +253,7 @@ pub(super) fn subtract<const P: usize>(matrix: &Matrix<P>, x: &[f64; P], out: &m
 }
 
 /// Product of two matrices.
+#[inline(always)]
 fn product<const P: usize>(a: &Matrix<P>, b: &Matrix<P>) -> Matrix<P> {
     let mut out = [[0.0; P]; P];
     for (out, b) in out.iter_mut().zip(b) {
@@ -259,6 +267,7 @@ fn product<const P: usize>(a: &Matrix<P>, b: &Matrix<P>) -> Matrix<P> {
 }
 
 /// `a` + `factor` `b`.
+#[inline(always)]
 fn sum<const P: usize>(a: &Matrix<P>, factor: f64, b: &Matrix<P>) -> Matrix<P> {
     let mut out = *a;
     for (out, b) in out.iter_mut().zip(b) {
@@ -270,6 +279,7 @@ fn sum<const P: usize>(a: &Matrix<P>, factor: f64, b: &Matrix<P>) -> Matrix<P> {
 }
 
 /// Inverse of a positive definite matrix by elimination; `None` if a pivot is not positive.
+#[inline(always)]
 fn inverse<const P: usize>(mut a: Matrix<P>) -> Option<Matrix<P>> {
     for k in 0..P {
         let pivot = a[k][k];
