@@ -26,8 +26,9 @@ const QUICK: f64 = 0.25;
 const ROUNDING: f64 = 1e-14;
 const CONVERGED: f64 = 1e-9;
 
-/// Number of contacts from which the compliance of one place serves for all, in more iterations, and that place.
-const MANY: usize = 8;
+/// Number of contacts from which the compliance of one place serves for all, in more iterations, and that place. With 8 contacts
+/// a step takes a fifth less time by the whole matrix, with 24 a twentieth, with 32 as much.
+const MANY: usize = 32;
 const MIDDLE: usize = 2;
 
 /// The start and the nodes.
