@@ -114,37 +114,47 @@ def by_size(binaries, sizes, files, arguments):
     return [[(row[k][0], row[k][2]) for row in found] for k in range(len(binaries))]
 
 
+def names(binaries):
+    return ["before", "after"][-len(binaries) :]
+
+
+def compared(binaries, sizes, title, what, jobs):
+    """A table of some jobs, each the files for a size and the arguments of the command."""
+    columns = [column for files, arguments in jobs for column in by_size(binaries, sizes, files, arguments)]
+    heads = [f"{job}: {name}" for job in what for name in names(binaries)]
+    table(title, [title.lower(), *heads], sizes, columns)
+
+
+RUN = ["run", "--quiet", "--threads", "1", "scene.json"]
+
+
 def spans(binaries, quick):
+    def crossing(end):
+        return lambda n: {"spec.json": girder(n), "scene.json": truck(end(n), 0.01)}
+
+    jobs = [(crossing(lambda n: 1.3), RUN), (crossing(lambda n: (SPAN * n - 4.0) / SPEED), RUN)]
+    jobs.append((lambda n: {"spec.json": girder(n)}, ["fea", "--quiet", "spec.json"]))
     sizes = [1, 16, 64] if quick else [1, 16, 64, 256, 480]
-    run = ["run", "--quiet", "--threads", "1", "scene.json"]
-    short = lambda n: {"spec.json": girder(n), "scene.json": truck(1.3, 0.01)}  # noqa: E731
-    whole = lambda n: {"spec.json": girder(n), "scene.json": truck((SPAN * n - 4.0) / SPEED, 0.01)}  # noqa: E731
-    columns = by_size(binaries, sizes, short, run) + by_size(binaries, sizes, whole, run)
-    columns += by_size(binaries, sizes, lambda n: {"spec.json": girder(n)}, ["fea", "--quiet", "spec.json"])
-    names = ["before", "after"][-len(binaries):]
-    heads = [f"{what}: {name}" for what in ("1.3 s", "end to end", "`fea`") for name in names]
-    table("Spans", ["spans", *heads], sizes, columns)
+    compared(binaries, sizes, "Spans", ["1.3 s", "end to end", "`fea`"], jobs)
 
 
 def simulated(binaries, quick):
-    sizes = [1, 4] if quick else [1, 4, 16, 64]
-    run = ["run", "--quiet", "--threads", "1", "scene.json"]
-    long = girder(160)
-    columns = by_size(binaries, sizes, lambda k: {"spec.json": long, "scene.json": truck(9.6 * k, 0.01)}, run)
-    columns += by_size(binaries, sizes, lambda k: {"spec.json": long, "scene.json": truck(9.6 * k, 9.6e-3 * k)}, run)
-    turning = lambda k: truck(19.2 * k, 0.01, back_and_forth(19.2 * k, 14.0))  # noqa: E731
-    columns += by_size(binaries, sizes, lambda k: {"spec.json": girder(3), "scene.json": turning(k)}, run)
-    names = ["before", "after"][-len(binaries):]
-    heads = [f"{what}: {name}" for what in ("times 9.6 s, 160 spans", "the same, 1,000 rows", "times 19.2 s, to and fro") for name in names]
-    table("Simulated time", ["times", *heads], sizes, columns)
+    def crossing(count, scene):
+        return lambda k: {"spec.json": girder(count), "scene.json": scene(k)}
+
+    jobs = [
+        (crossing(160, lambda k: truck(9.6 * k, 0.01)), RUN),
+        (crossing(160, lambda k: truck(9.6 * k, 9.6e-3 * k)), RUN),
+        (crossing(3, lambda k: truck(19.2 * k, 0.01, back_and_forth(19.2 * k, 14.0))), RUN),
+    ]
+    what = ["times 9.6 s, 160 spans", "the same, 1,000 rows", "times 19.2 s, to and fro"]
+    compared(binaries, [1, 4] if quick else [1, 4, 16, 64], "Times", what, jobs)
 
 
 def rows(binaries, quick):
     sizes = [100, 1000] if quick else [100, 1000, 10_000, 100_000]
-    run = ["run", "--quiet", "--threads", "1", "scene.json"]
-    columns = by_size(binaries, sizes, lambda n: {"spec.json": girder(3), "scene.json": truck(9.0, 9.0 / n)}, run)
-    names = ["before", "after"][-len(binaries):]
-    table("Rows of 9 s on three spans", ["rows", *names], sizes, columns)
+    files = lambda n: {"spec.json": girder(3), "scene.json": truck(9.0, 9.0 / n)}  # noqa: E731
+    table("Rows of 9 s on three spans", ["rows", *names(binaries)], sizes, by_size(binaries, sizes, files, RUN))
 
 
 def runs(binaries, quick):
@@ -154,7 +164,7 @@ def runs(binaries, quick):
     own = files["scene.json"]
     own.pop("compare", None)
     columns, heads = [], []
-    for binary, name in zip(binaries, ["before", "after"][-len(binaries):]):
+    for binary, name in zip(binaries, names(binaries)):
         for threads in ("1", "2"):
             found = []
             for count in sizes:
