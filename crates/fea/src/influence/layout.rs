@@ -365,22 +365,9 @@ fn turned_motion<T: Real>(
     error: f64,
 ) -> (Matrix6<Extended>, Matrix6) {
     let motion = bodies.exact_motion(point, offset);
-    let value = block_product(axes, &motion);
+    let value = product(&diagonal_blocks(axes), &motion);
     let all = diagonal_blocks(&Matrix3::from_element(error)) * motion.map(|x| x.double().abs());
     (value, value.map(|x| x.double().abs()) + all)
-}
-
-/// Axes times both blocks of a motion; skips the zeros, which are most entries of both.
-fn block_product(axes: &Matrix3<Extended>, motion: &Matrix6<Extended>) -> Matrix6<Extended> {
-    let mut out = Matrix6::zeros();
-    for (block, j) in [(0, 0), (0, 1), (0, 2), (0, 3), (0, 4), (0, 5), (3, 3), (3, 4), (3, 5)] {
-        for l in (0..3).filter(|&l| motion[(block + l, j)] != Extended::zero()) {
-            for i in (0..3).filter(|&i| axes[(i, l)] != Extended::zero()) {
-                out[(block + i, j)] += axes[(i, l)] * motion[(block + l, j)];
-            }
-        }
-    }
-    out
 }
 
 /// A rail element that moves rigidly with one state.
