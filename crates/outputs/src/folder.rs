@@ -5,20 +5,16 @@ use std::io::{self, BufWriter, Write};
 use std::mem;
 use std::path::{Component, Path, PathBuf};
 
-use tempfile::{NamedTempFile, TempDir};
-
 use crate::Error;
-use crate::files::{TEMPORARY, cannot_write, clear_dead_files, folder_of, sync, temporaries, temporary};
+use crate::files::{cannot_write, clear_dead_files, folder_of, sync, temporaries, temporary};
 use crate::hashed::HashedWriter;
 use crate::journal::Journal;
 use crate::manifest::{MANIFEST, Manifest, OutputEntry, listed_files};
 use formats::text::diagnostic::Diagnostic;
 use formats::text::inputs::sha256;
-use results::threads::parallel_map;
+use staging::{FileContents, Staging};
 
-/// Number of files that are written to the disk at the same time. Their threads wait for the disk, which takes most files
-/// in one go with the others, so that their number does not follow from that of the processors.
-const AT_ONCE: u16 = 8;
+mod staging;
 
 /// Folder of the pictures in an output folder.
 const PLOTS: &str = "plots";
@@ -32,12 +28,15 @@ pub struct PlannedFiles {
     pub plots: Vec<String>,
 }
 
-/// An output folder that is locked for one run. The contents are kept in memory or in temporary files until
-/// [`OutputFolder::commit`] places them. A run that does not commit leaves the folder as it was.
+/// An output folder that is locked for one run. Its files are written to the disk under temporary names while the run goes
+/// on, until [`OutputFolder::commit`] places them. A run that does not commit leaves the folder as it was.
 #[derive(Debug)]
 pub struct OutputFolder {
     path: PathBuf,
-    files: Vec<(String, FileContents)>,
+    /// Names of the files, and their numbers in the temporary folder.
+    files: Vec<(String, usize)>,
+    /// Removed before the folder itself.
+    staging: Option<Staging>,
     journal: Journal,
     /// Files of the folder that the program wrote, by its manifest and by the journal of a run that has not ended.
     listed: Vec<OutputEntry>,
@@ -45,43 +44,6 @@ pub struct OutputFolder {
     /// Folders that did not exist before, outermost first.
     created: Vec<PathBuf>,
     keeps_journal: bool,
-}
-
-/// The contents of a file of the folder.
-#[derive(Debug)]
-enum FileContents {
-    /// In memory, with their hash in the manifest.
-    Fixed(Vec<u8>),
-    /// In memory; they may differ between equal runs.
-    Varying(Vec<u8>),
-    /// In a temporary file, with their number of bytes and SHA-256.
-    Written(NamedTempFile, usize, String),
-}
-
-impl FileContents {
-    /// The number of bytes and their SHA-256 in hexadecimal; `None` for those that may differ between equal runs.
-    fn hash(&self) -> Option<(usize, String)> {
-        match self {
-            FileContents::Fixed(bytes) => Some((bytes.len(), sha256(bytes))),
-            FileContents::Varying(_) => None,
-            FileContents::Written(_, bytes, sha256) => Some((*bytes, sha256.clone())),
-        }
-    }
-
-    /// Writes them to the disk, under a path of the same file system.
-    fn put_at(&self, path: &Path) -> io::Result<()> {
-        match self {
-            FileContents::Fixed(bytes) | FileContents::Varying(bytes) => {
-                let mut file = fs::File::create(path)?;
-                file.write_all(bytes)?;
-                file.sync_all()
-            }
-            FileContents::Written(file, ..) => {
-                fs::rename(file.path(), path)?;
-                file.as_file().sync_all()
-            }
-        }
-    }
 }
 
 impl OutputFolder {
@@ -116,6 +78,7 @@ impl OutputFolder {
         let mut folder = OutputFolder {
             path: path.to_path_buf(),
             files: Vec::new(),
+            staging: None,
             journal,
             listed,
             may_replace_all: force,
@@ -130,6 +93,7 @@ impl OutputFolder {
         names.push(MANIFEST.to_owned());
         folder.check_owner(names.iter().map(String::as_str))?;
         folder.journal.begin(command).map_err(fail)?;
+        folder.staging = Some(Staging::new(path).map_err(fail)?);
         Ok(folder)
     }
 
@@ -232,94 +196,85 @@ impl OutputFolder {
     }
 
     fn put(&mut self, name: &str, contents: FileContents) {
+        let number = self.staging().begin(contents);
         self.files.retain(|(known, _)| known != name);
-        self.files.push((name.to_owned(), contents));
+        self.files.push((name.to_owned(), number));
     }
 
-    /// Writes all files and then `manifest.json`, which lists them.
+    fn staging(&mut self) -> &mut Staging {
+        self.staging.as_mut().expect("it is there from the opening to the end")
+    }
+
+    /// Places all files and then `manifest.json`, which lists them.
     ///
-    /// All files, the manifest last, are first written to the disk in a temporary folder, under their own names. The
-    /// journal then lists the files of the older result and of the new one. The older manifest is put aside, so that
-    /// a manifest never lists files of another run; the files are renamed; the new manifest comes last. If one of
-    /// these steps fails, the older result is put back. Only then are files of the older result removed that the new
-    /// one does not have and nobody has changed, and at last the journal.
+    /// All files, the manifest last, have first been written to the disk in a temporary folder. The journal then lists the
+    /// files of the older result and of the new one. The older manifest is put aside, so that a manifest never lists files
+    /// of another run; the files are renamed; the new manifest comes last. If one of these steps fails, the older result is
+    /// put back. Only then are files of the older result removed that the new one does not have and nobody has changed,
+    /// and at last the journal.
     ///
     /// # Errors
     /// A file that would be replaced belongs to somebody else, or an operation of the file system fails; the error
     /// contains the name of the file.
     pub fn commit(mut self, mut manifest: Manifest) -> Result<PathBuf, Error> {
         self.files.sort_by(|a, b| a.0.cmp(&b.0));
-        for (name, contents) in &self.files {
-            let (bytes, sha256) = contents.hash().unzip();
-            manifest.outputs.push(OutputEntry { name: name.clone(), bytes, sha256 });
-        }
         let names = self.files.iter().map(|(name, _)| name.as_str());
         self.check_owner(names.chain([MANIFEST]))?;
-        self.write(&manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
+        self.write(&mut manifest).map_err(|(file, error)| cannot_write(&file, &error))?;
         self.clear_older();
         self.keeps_journal = false;
         self.created.clear();
         Ok(self.path.clone())
     }
 
-    fn write(&mut self, manifest: &Manifest) -> Result<(), (PathBuf, io::Error)> {
-        let staging = self.stage(manifest)?;
-        let older = staging.path().join("older");
-        fs::create_dir(&older).map_err(at(&older))?;
+    fn write(&mut self, manifest: &mut Manifest) -> Result<(), (PathBuf, io::Error)> {
+        self.finish_files(manifest)?;
+        let number = self.staging().begin(FileContents::Fixed(manifest.text().into_bytes()));
         let all = self.listed.iter().chain(&manifest.outputs);
         let entries: Vec<OutputEntry> =
             all.filter(|entry| !self.journal.listed().contains(entry)).cloned().collect();
         self.journal.list(&entries).map_err(at(&self.path))?;
-        let mut exchange = Exchange { older, steps: Vec::new() };
-        let placed = self.place(&staging.path().join("new"), &mut exchange);
+        self.staging().finish(number).map_err(at(&self.path.join(MANIFEST)))?;
+        let staging = self.staging.take().expect("it is there from the opening to the end");
+        let mut exchange = Exchange { staging: &staging, steps: Vec::new() };
+        let placed = self.place(&mut exchange, number);
         if placed.is_err() && exchange.undo().is_err() {
             // the older files remain beside the new ones, and the next run may replace both
             self.keeps_journal = true;
-            let _ = staging.keep();
+            staging.keep();
         }
         placed
     }
 
-    /// Writes all files to the disk in a temporary folder, under their own names.
-    fn stage(&self, manifest: &Manifest) -> Result<TempDir, (PathBuf, io::Error)> {
-        let staging =
-            tempfile::Builder::new().prefix(TEMPORARY).tempdir_in(&self.path).map_err(at(&self.path))?;
-        let new = staging.path().join("new");
-        let manifest = [(MANIFEST.to_owned(), FileContents::Fixed(manifest.text().into_bytes()))];
-        let files: Vec<&(String, FileContents)> = self.files.iter().chain(&manifest).collect();
-        let mut folders: Vec<PathBuf> = Vec::new();
-        for (name, _) in &files {
-            let folder = folder_of(&new.join(name));
-            if !folders.contains(&folder) {
-                fs::create_dir_all(&folder).map_err(at(&self.path.join(name)))?;
-                folders.push(folder);
-            }
+    /// Waits until all files are on the disk, and lists them in the manifest.
+    fn finish_files(&mut self, manifest: &mut Manifest) -> Result<(), (PathBuf, io::Error)> {
+        let staging = self.staging.as_mut().expect("it is there from the opening to the end");
+        for (name, number) in &self.files {
+            let hash = staging.finish(*number).map_err(at(&self.path.join(name)))?;
+            let (bytes, sha256) = hash.unzip();
+            manifest.outputs.push(OutputEntry { name: name.clone(), bytes, sha256 });
         }
-        let put = |_, (name, contents): &&(String, FileContents)| {
-            contents.put_at(&new.join(name)).map_err(at(&self.path.join(name)))
-        };
-        parallel_map(&files, Some(AT_ONCE), put).into_iter().collect::<Result<(), _>>()?;
-        Ok(staging)
+        Ok(())
     }
 
-    /// Renames all files from the temporary folder `new`, the manifest last.
-    fn place(&self, new: &Path, exchange: &mut Exchange) -> Result<(), (PathBuf, io::Error)> {
+    /// Renames all files from the temporary folder, the manifest of the given number last.
+    fn place(&self, exchange: &mut Exchange, number: usize) -> Result<(), (PathBuf, io::Error)> {
         let manifest = self.path.join(MANIFEST);
         let mut folders = vec![self.path.clone()];
         exchange.take_away(&manifest).map_err(at(&manifest))?;
-        for (name, _) in &self.files {
+        for (name, number) in &self.files {
             let target = self.path.join(name);
             let folder = folder_of(&target);
             if !folders.contains(&folder) {
                 fs::create_dir_all(&folder).map_err(at(&folder))?;
                 folders.push(folder);
             }
-            exchange.replace(&target, &new.join(name)).map_err(at(&target))?;
+            exchange.replace(&target, *number).map_err(at(&target))?;
         }
         for folder in &folders {
             sync(folder).map_err(at(folder))?;
         }
-        exchange.replace(&manifest, &new.join(MANIFEST)).map_err(at(&manifest))?;
+        exchange.replace(&manifest, number).map_err(at(&manifest))?;
         sync(&self.path).map_err(at(&self.path))
     }
 
@@ -345,6 +300,7 @@ impl OutputFolder {
 impl Drop for OutputFolder {
     fn drop(&mut self) {
         // errors are ignored: what remains is cleared by the next run
+        self.staging = None;
         if !self.keeps_journal {
             let _ = self.journal.remove();
         }
@@ -380,15 +336,15 @@ fn at(file: &Path) -> impl FnOnce(io::Error) -> (PathBuf, io::Error) + use<> {
     move |error| (file, error)
 }
 
-/// Replacements of files that can be undone. What was there before is kept in the folder `older`.
-struct Exchange {
-    older: PathBuf,
+/// Replacements of files that can be undone. What was there before is kept in the temporary folder.
+struct Exchange<'s> {
+    staging: &'s Staging,
     /// Each file, and where the one that was there before is kept.
     steps: Vec<(PathBuf, Option<PathBuf>)>,
 }
 
-impl Exchange {
-    /// Moves a file to the folder `older`, if it exists.
+impl Exchange<'_> {
+    /// Moves a file to the temporary folder, if it exists.
     fn take_away(&mut self, target: &Path) -> io::Result<()> {
         let kept = self.place_of_next();
         let was_there = unless_missing(fs::rename(target, &kept))?;
@@ -396,18 +352,18 @@ impl Exchange {
         Ok(())
     }
 
-    /// Renames `new` to `target`. What was there has a second name in the folder `older` from then on, so that
-    /// `target` exists at every instant.
-    fn replace(&mut self, target: &Path, new: &Path) -> io::Result<()> {
+    /// Renames the new file of a number to `target`. What was there has a second name in the temporary folder from then on,
+    /// so that `target` exists at every instant.
+    fn replace(&mut self, target: &Path, number: usize) -> io::Result<()> {
         let kept = self.place_of_next();
         let was_there = unless_missing(fs::hard_link(target, &kept))
             .or_else(|_| unless_missing(fs::rename(target, &kept)))?;
         self.steps.push((target.to_path_buf(), was_there.then_some(kept)));
-        fs::rename(new, target)
+        fs::rename(self.staging.path(number), target)
     }
 
     fn place_of_next(&self) -> PathBuf {
-        self.older.join(self.steps.len().to_string())
+        self.staging.path_of_older(self.steps.len())
     }
 
     /// Puts everything back, the last replacement first.

@@ -1,9 +1,10 @@
-//! Threads: parallel maps over the items of a list, and work that its caller watches. No other module of the libraries
-//! of the workspace starts threads.
+//! Threads: parallel maps over the items of a list, work that its caller watches, and work behind its caller. No other
+//! module of the libraries of the workspace starts threads.
 
-use std::sync::LazyLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::sync::mpsc::{self, RecvTimeoutError, SyncSender};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender, SyncSender};
+use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// Number of threads that the machine has, for which the system is asked once: it reads several files for the answer.
@@ -161,9 +162,91 @@ pub fn parallel_stream<T: Sync, R: Send>(
     });
 }
 
+/// Work on other threads while the caller goes on with its own, such as files that are written to the disk.
+///
+/// ```
+/// use results::threads::Background;
+///
+/// let mut squares = Background::new(2, |n: u64| n * n);
+/// for n in 1..=4 {
+///     squares.begin(n);
+/// }
+/// assert_eq!(squares.wait(), [1, 4, 9, 16]);
+/// ```
+///
+/// A value that is dropped performs what has begun.
+#[derive(Debug)]
+pub struct Background<T, R> {
+    work: fn(T) -> R,
+    threads: u16,
+    /// Number of items since the last wait.
+    begun: usize,
+    items: Option<Sender<(usize, T)>>,
+    waiting: Arc<Mutex<Receiver<(usize, T)>>>,
+    workers: Vec<JoinHandle<Vec<(usize, R)>>>,
+}
+
+impl<T: Send + 'static, R: Send + 'static> Background<T, R> {
+    /// Performs `work` on at most `threads` threads, which start with the first items.
+    #[must_use]
+    pub fn new(threads: u16, work: fn(T) -> R) -> Background<T, R> {
+        let (items, waiting) = mpsc::channel();
+        let waiting = Arc::new(Mutex::new(waiting));
+        Background { work, threads, begun: 0, items: Some(items), waiting, workers: Vec::new() }
+    }
+
+    /// Begins the work on an item; it starts a thread until all are there.
+    pub fn begin(&mut self, item: T) {
+        if self.workers.len() < usize::from(self.threads.max(1)) {
+            let (work, waiting) = (self.work, Arc::clone(&self.waiting));
+            self.workers.push(std::thread::spawn(move || {
+                let next = || waiting.lock().unwrap_or_else(PoisonError::into_inner).recv();
+                std::iter::from_fn(|| next().ok()).map(|(index, item)| (index, work(item))).collect()
+            }));
+        }
+        let items = self.items.as_ref().expect("it is closed in a wait alone");
+        items.send((self.begun, item)).expect("the receiver lives as long as this value");
+        self.begun += 1;
+    }
+
+    /// Waits for all work that has begun and returns its results since the last wait, in the order of the items.
+    ///
+    /// # Panics
+    /// If `work` panics, with its message.
+    pub fn wait(&mut self) -> Vec<R> {
+        let mut fresh = Background::new(self.threads, self.work);
+        std::mem::swap(self, &mut fresh);
+        fresh.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+    }
+}
+
+impl<T, R> Background<T, R> {
+    /// Lets the threads end after the last item, and returns the results in the order of the items.
+    fn join(&mut self) -> std::thread::Result<Vec<R>> {
+        self.items = None;
+        let mut made = Vec::with_capacity(self.begun);
+        let mut result = Ok(());
+        for worker in self.workers.drain(..) {
+            match worker.join() {
+                Ok(done) => made.extend(done),
+                Err(panic) => result = Err(panic),
+            }
+        }
+        made.sort_by_key(|(index, _)| *index);
+        result.map(|()| made.into_iter().map(|(_, made)| made).collect())
+    }
+}
+
+impl<T, R> Drop for Background<T, R> {
+    fn drop(&mut self) {
+        // a panic of a thread has been reported there, and nobody asks for its result
+        let _ = self.join();
+    }
+}
+
 #[cfg(test)]
 mod tests {
-    use super::{parallel_map, parallel_stream};
+    use super::{Background, parallel_map, parallel_stream};
 
     #[test]
     fn a_stream_has_every_result_once_and_ends_where_it_is_told() {
@@ -194,6 +277,21 @@ mod tests {
             );
             assert_eq!(count, 5);
         }
+    }
+
+    #[test]
+    fn work_behind_its_caller_is_done_once_and_can_be_waited_for_again() {
+        for threads in [0, 1, 3] {
+            let mut squares = Background::new(threads, |n: u64| n * n);
+            assert!(squares.wait().is_empty());
+            for begun in [0..100, 100..101] {
+                begun.clone().for_each(|n| squares.begin(n));
+                assert_eq!(squares.wait(), begun.map(|n| n * n).collect::<Vec<_>>());
+            }
+        }
+        let mut fails = Background::new(2, |n: u64| assert_ne!(n, 3, "the third fails"));
+        (0..5).for_each(|n| fails.begin(n));
+        assert!(std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| fails.wait())).is_err());
     }
 
     #[test]

@@ -152,14 +152,13 @@ fn a_replacement_that_fails_puts_the_older_result_back() {
     let path = temporary.path();
     commit(path, &[("a.csv", "1"), ("b.csv", "2")]);
     let before = read(&path.join(MANIFEST));
-    let folder = filled(path, &[("a.csv", "3"), ("b.csv", "4"), ("new.csv", "5")]);
-    let staging = folder.stage(&new_manifest()).expect("writable");
-    let older = staging.path().join("older");
-    fs::create_dir(&older).expect("writable");
+    let mut folder = filled(path, &[("a.csv", "3"), ("b.csv", "4"), ("new.csv", "5")]);
+    folder.finish_files(&mut new_manifest()).expect("writable");
+    let staging = folder.staging.take().expect("an open folder");
     // the third file cannot be placed
-    fs::remove_file(staging.path().join("new/new.csv")).expect("written");
-    let mut exchange = Exchange { older, steps: Vec::new() };
-    folder.place(&staging.path().join("new"), &mut exchange).expect_err("a file is missing");
+    fs::remove_file(staging.path(2)).expect("written");
+    let mut exchange = Exchange { staging: &staging, steps: Vec::new() };
+    folder.place(&mut exchange, 0).expect_err("a file is missing");
     assert_eq!((read(&path.join("a.csv")), path.join(MANIFEST).exists()), ("3".into(), false));
     exchange.undo().expect("renames");
     drop((staging, folder));
@@ -173,11 +172,12 @@ fn a_second_writer_is_refused_while_the_first_one_lives() {
     let temporary = tempfile::tempdir().expect("a temporary folder");
     let path = temporary.path();
     let mut first = filled(path, &[("history.csv", "1")]);
-    let staging = first.stage(&new_manifest()).expect("writable");
+    let number = first.staging().begin(FileContents::Varying(Vec::new()));
+    first.staging().finish(number).expect("writable");
+    let staged = first.staging().path(number);
     let told = message(&open(path, true, &[]).expect_err("the first one lives"));
     assert!(told.contains("another run is writing into this folder"), "{told}");
-    assert!(staging.path().exists());
-    drop(staging);
+    assert!(staged.exists());
     first.add("summary.json", "2");
     first.commit(new_manifest()).expect("its own folder");
     drop(open(path, false, &["history.csv"]).expect("the first one has ended"));
@@ -198,17 +198,20 @@ fn what_a_dead_run_left_is_cleared_and_its_files_count_as_ours() {
     let old = dead.listed.clone();
     dead.journal.list(&old).expect("writable");
     dead.journal.list(&[entry("a.csv", "3"), entry("b.csv", "4"), entry("c.csv", "5")]).expect("writable");
-    let staging = dead.stage(&new_manifest()).expect("writable").keep();
+    dead.finish_files(&mut new_manifest()).expect("writable");
+    let staging = dead.staging.take().expect("an open folder");
+    let left = staging.path(0);
+    staging.keep();
     fs::remove_file(path.join(MANIFEST)).expect("there");
     fs::write(path.join("a.csv"), "3").expect("writable");
     fs::write(path.join("c.csv"), "5").expect("writable");
     dead.keeps_journal = true;
     drop(dead);
-    assert!(staging.exists() && path.join(JOURNAL).exists());
+    assert!(left.exists() && path.join(JOURNAL).exists());
 
     // a run that fails leaves the journal of the dead one
     drop(open(path, false, &["a.csv", "b.csv", "c.csv"]).expect("all of them are ours"));
-    assert!(path.join(JOURNAL).exists() && !staging.exists());
+    assert!(path.join(JOURNAL).exists() && !left.exists());
     commit(path, &[("a.csv", "7"), ("b.csv", "8")]);
     assert_eq!(names(path), ["a.csv", "b.csv", "manifest.json", "timing.json"]);
 }

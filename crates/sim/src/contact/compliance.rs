@@ -279,8 +279,7 @@ fn transpose(from: &[f64], to: &mut [f64], m: usize) {
         for left in (0..size).step_by(TILE) {
             for i in rows.clone() {
                 let row = &mut to[i * m + left..i * m + (left + TILE).min(size)];
-                let column = from[left * size + i..].iter().step_by(size);
-                row.iter_mut().zip(column).for_each(|(to, from)| *to = *from);
+                row.iter_mut().enumerate().for_each(|(j, to)| *to = from[(left + j) * size + i]);
             }
         }
     }

@@ -222,6 +222,29 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     substitute(a, b);
 }
 
+/// Solves A x = b for four right sides, the columns of `b`, with the factors and row exchanges of [`factor_general`]. Each
+/// unknown is taken from all later equations at once, which do not wait for each other.
+pub(crate) fn solve_four_factored(a: &[f64], pivots: &[usize], b: &mut [[f64; 4]]) {
+    let n = b.len();
+    for (j, &pivot) in pivots.iter().enumerate() {
+        b.swap(j, pivot);
+    }
+    let take = |own: [f64; 4], entry: f64, from: &mut [f64; 4]| {
+        *from = std::array::from_fn(|k| from[k] - entry * own[k]);
+    };
+    for j in 0..n {
+        let (known, later) = b.split_at_mut(j + 1);
+        let column = a[(j + 1) * n..].chunks_exact(n).map(|line| line[j]);
+        later.iter_mut().zip(column).for_each(|(b, entry)| take(known[j], entry, b));
+    }
+    for j in (0..n).rev() {
+        let (later, known) = b.split_at_mut(j);
+        known[0] = known[0].map(|x| x * a[j * n + j]);
+        let column = a.chunks_exact(n).map(|line| line[j]);
+        later.iter_mut().zip(column).for_each(|(b, entry)| take(known[0], entry, b));
+    }
+}
+
 /// Scalar products of four lines with `vector`, whose length is a multiple of four: those of [`dot`].
 #[inline]
 fn four_dots(lines: [&[f64]; 4], vector: &[f64]) -> [f64; 4] {

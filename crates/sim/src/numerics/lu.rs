@@ -5,7 +5,7 @@ use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{MatMut, MatRef};
 use nalgebra::DMatrix;
 
-use super::dense::{BLOCKED, factor_general, solve_factored};
+use super::dense::{BLOCKED, factor_general, solve_factored, solve_four_factored};
 
 /// The factors of a matrix, P A = L U. Their memory serves for one matrix after the other.
 #[derive(Default)]
@@ -50,6 +50,19 @@ impl LuFactors {
         }
         self.is_regular
     }
+
+    /// Replaces four right sides, the columns of `b`, by their solutions; false where A is singular.
+    pub fn solve_four(&self, b: &mut [[f64; 4]]) -> bool {
+        if let Some(factors) = &self.large {
+            let order = b.len();
+            factors.solve_in_place(MatMut::from_row_major_slice_mut(b.as_flattened_mut(), order, 4));
+            return b.as_flattened().iter().all(|x| x.is_finite());
+        }
+        if self.is_regular {
+            solve_four_factored(&self.entries, &self.pivots, b);
+        }
+        self.is_regular
+    }
 }
 
 #[cfg(test)]
@@ -69,7 +82,15 @@ mod tests {
             let b = &matrix * &x;
             let mut found = b.clone();
             assert!(LuFactors::new(&matrix).solve(found.as_mut_slice()), "the matrix is regular");
-            assert!((found - x).amax() < 1e-11, "n {n}");
+            assert!((found - &x).amax() < 1e-11, "n {n}");
+            let mut four: Vec<[f64; 4]> =
+                b.iter().map(|b| [1.0, -2.0, 0.0, 0.5].map(|scale| scale * b)).collect();
+            assert!(LuFactors::new(&matrix).solve_four(&mut four), "the matrix is regular");
+            for (found, x) in four.iter().zip(x.iter()) {
+                for (found, scale) in found.iter().zip([1.0, -2.0, 0.0, 0.5]) {
+                    assert!((found - scale * x).abs() < 1e-11, "n {n}");
+                }
+            }
         }
     }
 

@@ -23,7 +23,7 @@ use crate::contact::geometry::Geometry;
 use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
-use crate::numerics::dense::{dot, solve_general, solve_spd};
+use crate::numerics::dense::{along, dot, solve_general, solve_spd};
 use crate::scene::wheel::LawValue;
 
 /// Advantage in operations from which the forces are eliminated first.
@@ -45,12 +45,17 @@ pub(crate) struct NodeForces {
     pub force: Vec<f64>,
     /// Whether the compliance of every structure is symmetric.
     is_symmetric: bool,
-    /// Influence of the force at another (node, element) on approach and rate, and whether it has been used.
+    /// The active contacts.
+    active: Vec<usize>,
+    /// Influence of the unknown forces, node by node those of the active contacts, on approach and rate of each (node,
+    /// element), and whether it has been used.
     has_effects: bool,
     effect: Vec<f64>,
     rate_effect: Vec<f64>,
+    /// R S^T for approaches and rates, where it is the same for all nodes: elements x active contacts.
+    constant: [Vec<f64>; 2],
     matrix: Vec<f64>,
-    /// Right sides and solutions.
+    /// Right sides and solutions: the unknown forces.
     right: Vec<f64>,
     /// The laws of the unknown forces near the last iterate.
     tangents: Vec<Tangent>,
@@ -106,9 +111,11 @@ impl NodeForces {
             rate: vec![0.0; size],
             force: vec![0.0; size],
             is_symmetric: compliances.all(|compliance| compliance.is_symmetric()),
+            active: Vec::new(),
             has_effects: false,
             effect: Vec::new(),
             rate_effect: Vec::new(),
+            constant: Default::default(),
             matrix: Vec::new(),
             right: Vec::new(),
             tangents: Vec::new(),
@@ -118,7 +125,15 @@ impl NodeForces {
 
     /// Solves for the forces of the active contacts in `motion`. Returns false if none are found.
     pub fn solve(&mut self, solver: &Solver, motion: &NodeMotion) -> bool {
-        let active = solver.active_contacts().collect::<Vec<_>>();
+        let mut active = std::mem::take(&mut self.active);
+        active.clear();
+        active.extend(solver.active_contacts());
+        let is_solved = self.solve_active(solver, motion, &active);
+        self.active = active;
+        is_solved
+    }
+
+    fn solve_active(&mut self, solver: &Solver, motion: &NodeMotion, active: &[usize]) -> bool {
         let (s, m, n) = (motion.nodes.count(), active.len(), motion.dofs());
         let [contacts, freedoms] = [m, n].map(|count| (s * count) as f64);
         let in_forces = 2.0 / 3.0 * contacts.powi(3) + contacts * contacts * n as f64;
@@ -132,10 +147,10 @@ impl NodeForces {
             || !solver.system().traits.has_linear_laws
             || CHEAPER * in_motion >= in_forces;
         if self.has_effects {
-            self.fill_effects(solver.system(), motion, &active);
-            self.solve_for_forces(solver, motion, &active)
+            self.fill_effects(solver.system(), motion, active);
+            self.solve_for_forces(solver, motion, active)
         } else {
-            self.eliminate_forces(solver, motion, &active)
+            self.eliminate_forces(solver, motion, active)
         }
     }
 
@@ -210,55 +225,51 @@ impl NodeForces {
     /// damper to ground. Where rows are constant, no degree of freedom is a natural mode: all bodies respond alike, and one
     /// product R S^T serves for all pairs of nodes.
     fn fill_effects(&mut self, system: &System, motion: &NodeMotion, active: &[usize]) {
-        let (s, m) = (motion.nodes.count(), motion.from.force.len());
-        let size = s * m;
-        self.effect.resize(size * size, 0.0);
-        self.rate_effect.resize(size * size, 0.0);
-        let n = motion.dofs();
+        let (s, m, n) = (motion.nodes.count(), motion.from.force.len(), motion.dofs());
         let is_constant = system.traits.has_constant_rows && n > 0;
-        let mut constant = Vec::new();
         if is_constant {
             let rows = motion.geometries[0].rows();
-            for i in 0..m {
-                let along = |&j: &usize| {
-                    [rows.approach_row(i), rows.rate_row(i)].map(|row| dot(row, motion.spread(0, j)))
-                };
-                constant.extend(active.iter().map(along));
+            for (constant, own) in self.constant.iter_mut().zip([&rows.approach, &rows.rate]) {
+                constant.clear();
+                for i in 0..m {
+                    constant.extend(active.iter().map(|&j| along(own, i, motion.spread(0, j))));
+                }
             }
         }
         let (mut by_load, mut by_load_rate) = (vec![0.0; n], vec![0.0; n]);
-        // Approach and rate of one contact by unit forces of the active ones, without the compliance.
-        let mut by_force: Vec<[f64; 2]> = Vec::with_capacity(active.len());
+        self.effect.clear();
+        self.rate_effect.clear();
         for a in 0..s {
             let geometry = &motion.geometries[a];
             for i in 0..m {
-                let (row, rate_row) = (geometry.rows().approach_row(i), geometry.rows().rate_row(i));
                 let feels_rates = system.fixed[i].feels_rates;
+                let own = i * active.len()..(i + 1) * active.len();
                 for b in 0..s {
-                    by_force.clear();
+                    let first = self.effect.len();
                     if is_constant {
                         let [by_q, by_v] = motion.responses(a, b)[0];
-                        let own = constant[i * active.len()..].iter().take(active.len());
-                        by_force.extend(own.map(|[approach, rate]| [by_q * approach, by_v * rate]));
+                        let [approach, rate] =
+                            self.constant.each_ref().map(|constant| &constant[own.clone()]);
+                        self.effect.extend(approach.iter().map(|approach| by_q * approach));
+                        self.rate_effect.extend(rate.iter().map(|rate| by_v * rate));
                     } else {
-                        let responses = row.iter().zip(rate_row).zip(motion.responses(a, b));
-                        let own = by_load.iter_mut().zip(by_load_rate.iter_mut()).zip(responses);
-                        for ((by_load, by_load_rate), ((row, rate_row), [by_q, by_v])) in own {
-                            (*by_load, *by_load_rate) = (row * by_q, rate_row * by_v);
+                        let rows = geometry.rows().approach_row(i).iter().zip(geometry.rows().rate_row(i));
+                        let own = by_load.iter_mut().zip(by_load_rate.iter_mut());
+                        for ((load, load_rate), ((row, rate_row), [by_q, by_v])) in
+                            own.zip(rows.zip(motion.responses(a, b)))
+                        {
+                            (*load, *load_rate) = (row * by_q, rate_row * by_v);
                         }
-                        by_force.extend(active.iter().map(|&j| {
-                            let spread = motion.spread(b, j);
-                            [
-                                dot(&by_load, spread),
-                                if feels_rates { dot(&by_load_rate, spread) } else { 0.0 },
-                            ]
+                        self.effect.extend(active.iter().map(|&j| dot(&by_load, motion.spread(b, j))));
+                        self.rate_effect.extend(active.iter().map(|&j| {
+                            if feels_rates { dot(&by_load_rate, motion.spread(b, j)) } else { 0.0 }
                         }));
                     }
-                    let place = (a * m + i) * size + b * m;
-                    for (&j, [approach, rate]) in active.iter().zip(&by_force) {
-                        let compliance_here = if a == b { geometry.rails().value[i * m + j] } else { 0.0 };
-                        self.effect[place + j] = compliance_here + approach;
-                        self.rate_effect[place + j] = *rate;
+                    if a == b {
+                        let compliance = &geometry.rails().value[i * m..(i + 1) * m];
+                        for (effect, &j) in self.effect[first..].iter_mut().zip(active) {
+                            *effect += compliance[j];
+                        }
                     }
                 }
             }
@@ -298,7 +309,7 @@ impl NodeForces {
     /// Sets the tangents of the laws at the present forces, or at the state at the start of the step if this `is_first`.
     fn set_tangents(&mut self, solver: &Solver, motion: &NodeMotion, is_first: bool) {
         let (system, from, m) = (solver.system(), motion.from, motion.from.force.len());
-        let (s, size) = (motion.nodes.count(), self.force.len());
+        let s = motion.nodes.count();
         let mut tangents = std::mem::take(&mut self.tangents);
         tangents.clear();
         let tangent = |&at: &usize| {
@@ -315,8 +326,7 @@ impl NodeForces {
                 [penetration(a), (0..s).map(|l| by(l) * (penetration(l) - from.p[i])).sum()]
             } else {
                 let feels_rates = system.fixed[i].feels_rates;
-                let effects =
-                    feels_rates.then(|| dot(&self.rate_effect[at * size..(at + 1) * size], &self.force));
+                let effects = feels_rates.then(|| along(&self.rate_effect, at, &self.right));
                 [penetration(a), self.rate[at] - effects.unwrap_or(0.0)]
             };
             let LawValue { force, by_penetration, by_rate } = law.at(p, rate);
@@ -329,40 +339,39 @@ impl NodeForces {
     /// Solves for the forces at all nodes by the tangents of their laws; the solution replaces the right side.
     fn solve_tangents(&mut self, solver: &Solver, motion: &NodeMotion) -> bool {
         let (system, NodeMotion { nodes, h, from, .. }) = (solver.system(), motion);
-        let (s, m, size) = (nodes.count(), system.elements.len(), self.force.len());
-        let count = self.index.len();
-        self.matrix.resize(count * count, 0.0);
-        self.right.resize(count, 0.0);
+        let (s, m, count) = (nodes.count(), system.elements.len(), self.index.len());
+        self.matrix.clear();
+        self.right.clear();
         for (line, (&at, tangent)) in self.index.iter().zip(&self.tangents).enumerate() {
             let (a, i) = (at / m, at % m);
             let Tangent { by_penetration, by_rate, rest } = *tangent;
-            let memory = solver.remembers(i);
-            let by = |l: usize| nodes.rate[a * s + l] * by_rate / h;
             let mut right = rest + by_penetration * self.approach[at];
-            if memory {
-                right += (0..s).map(|l| by(l) * (self.approach[l * m + i] - from.p[i])).sum::<f64>();
+            let effects = |at: usize| &self.effect[at * count..(at + 1) * count];
+            let first = self.matrix.len();
+            self.matrix.extend(effects(at).iter().map(|effect| by_penetration * effect));
+            let row = &mut self.matrix[first..];
+            if solver.remembers(i) {
+                for (l, weight) in nodes.rate[a * s..(a + 1) * s].iter().enumerate() {
+                    let (at, weight) = (l * m + i, weight * by_rate / h);
+                    right += weight * (self.approach[at] - from.p[i]);
+                    row.iter_mut().zip(effects(at)).for_each(|(entry, effect)| *entry += weight * effect);
+                }
             } else {
                 right += by_rate * self.rate[at];
-            }
-            for (column, &other) in self.index.iter().enumerate() {
-                let mut entry = by_penetration * self.effect[at * size + other];
-                if memory {
-                    entry += (0..s).map(|l| by(l) * self.effect[(l * m + i) * size + other]).sum::<f64>();
-                } else if system.fixed[i].feels_rates {
-                    entry += by_rate * self.rate_effect[at * size + other];
+                if system.fixed[i].feels_rates {
+                    let effects = &self.rate_effect[at * count..(at + 1) * count];
+                    row.iter_mut().zip(effects).for_each(|(entry, effect)| *entry += by_rate * effect);
                 }
-                self.matrix[line * count + column] = entry;
             }
-            self.matrix[line * count + line] += 1.0 / system.mechanics.groups[i].count();
-            self.right[line] = right;
+            row[line] += 1.0 / system.mechanics.groups[i].count();
+            self.right.push(right);
         }
-        solve_general(&mut self.matrix[..count * count], &mut self.right[..count])
+        solve_general(&mut self.matrix, &mut self.right)
     }
 
-    /// Penetration at a (node, element) by the influence of all forces.
+    /// Penetration at a (node, element) by the influence of the unknown forces.
     fn penetration(&self, place: usize) -> f64 {
-        let size = self.force.len();
-        self.approach[place] - dot(&self.effect[place * size..(place + 1) * size], &self.force)
+        self.approach[place] - along(&self.effect, place, &self.right)
     }
 
     /// Sets the forces and penetrations of `at` at node `a`, p = e - (G + R Q S) F, where the influence of the forces is known,

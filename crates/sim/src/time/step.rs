@@ -304,8 +304,8 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Finds the penetrations in the step just taken; `at` is overwritten.
     fn find_penetrations(&mut self, at: &mut State) -> Result<(), Error> {
         let settled = if self.begins_smoothly { f64::INFINITY } else { self.shortest_delay };
-        let h = self.length();
-        self.penetrations.begin(self.solver, &self.from, h, settled);
+        let (h, has_waves) = (self.length(), self.propagates_modes());
+        self.penetrations.begin(self.solver, &self.from, h, (settled, has_waves));
         for fraction in self.penetrations.fractions() {
             self.interpolate(fraction, at)?;
             self.penetrations.add(self.solver, at)?;

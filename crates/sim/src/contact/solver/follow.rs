@@ -20,9 +20,42 @@ pub(crate) struct Followed {
 }
 
 impl Followed {
-    /// Compliance of contact `r` under the force of contact `c`.
-    pub fn compliance(&self, r: usize, c: usize) -> f64 {
-        self.compliance[r * self.approach.len() + c]
+    /// Compliance of contact `r` under its own force.
+    pub fn own_compliance(&self, r: usize) -> f64 {
+        self.compliances(r)[r]
+    }
+
+    /// Compliances of contact `r` under the forces of all contacts.
+    pub fn compliances(&self, r: usize) -> &[f64] {
+        let count = self.approach.len();
+        &self.compliance[r * count..(r + 1) * count]
+    }
+
+    /// Factors of I + G K.
+    pub fn factors(&self) -> &LuFactors {
+        &self.factors
+    }
+
+    /// Sets the compliance, and factors I + G K.
+    fn factor(&mut self, compliance: impl Iterator<Item = f64>, stiffness: &[f64]) {
+        set(&mut self.compliance, compliance);
+        let count = stiffness.len();
+        self.factors.replace(count, |matrix| {
+            for (r, row) in self.compliance.chunks_exact(count).enumerate() {
+                let own = |(c, (entry, stiffness))| f64::from(u8::from(r == c)) + entry * stiffness;
+                matrix.extend(row.iter().zip(stiffness).enumerate().map(own));
+            }
+        });
+    }
+
+    /// Contacts without approach on springs of the given `stiffness`.
+    #[cfg(test)]
+    pub fn of_springs(compliance: impl Fn(usize, usize) -> f64, stiffness: &[f64]) -> Followed {
+        let count = stiffness.len();
+        let mut made = Followed { approach: vec![0.0; count], ..Followed::default() };
+        let compliance = &compliance;
+        made.factor((0..count).flat_map(|r| (0..count).map(move |c| compliance(r, c))), stiffness);
+        made
     }
 }
 
@@ -64,7 +97,7 @@ impl Solver<'_> {
     /// dG_ij/dx_i + x_j' dG_ji/dx_j, for a symmetric compliance. Returns false if the matrix is singular, or if forces of
     /// other elements deflect the rails below these wheels.
     pub fn follow(&self, at: &State, contacts: &[usize], stiffness: &[f64], out: &mut Followed) -> bool {
-        let (count, m) = (contacts.len(), at.force.len());
+        let m = at.force.len();
         let (rows, rails) = (self.geometry.rows(), self.geometry.rails());
         // Forces of other elements that deflect the rails below these wheels are not included.
         let is_other = |j: &usize| at.force[*j] != 0.0 && !contacts.contains(j);
@@ -72,19 +105,11 @@ impl Solver<'_> {
         if (0..m).filter(is_other).any(is_coupled) {
             return false;
         }
-        let Followed { approach, compliance, value, rate, speed, factors } = out;
+        let compliance = contacts.iter().flat_map(|&i| contacts.iter().map(move |&j| rails.value[i * m + j]));
+        out.factor(compliance, stiffness);
+        let Followed { approach, value, rate, speed, factors, .. } = out;
         set(speed, contacts.iter().map(|&i| self.system.contact_speed(i, at)));
         set(approach, contacts.iter().map(|&i| self.geometry.approach(i, &at.q)));
-        compliance.clear();
-        for &i in contacts {
-            compliance.extend(contacts.iter().map(|&j| rails.value[i * m + j]));
-        }
-        factors.replace(count, |matrix| {
-            for (r, row) in compliance.chunks_exact(count).enumerate() {
-                let own = |(c, (entry, stiffness))| f64::from(u8::from(r == c)) + entry * stiffness;
-                matrix.extend(row.iter().zip(stiffness).enumerate().map(own));
-            }
-        });
         value.clone_from(approach);
         if !factors.solve(value) {
             return false;
