@@ -11,14 +11,18 @@ use crate::folder::OutputFolder;
 use crate::manifest::Manifest;
 use crate::planned::{check_names, planned_files};
 use formats::grid::file as grid_file;
-use formats::tables;
+use formats::tables as adams_tables;
 use foundations::distinct_specs;
 use report::figures::run::{OmittedFigure, figures};
 use report::text::run_report;
 use results::fatigue;
+use results::response::RunComparison;
 use results::scene_run::SceneRun;
 use results::threads::parallel_map;
 use results::warning::case_warnings;
+
+/// Files with their names.
+type NamedFiles = Vec<(String, Vec<u8>)>;
 
 /// What was written for a run.
 #[derive(Clone, Debug)]
@@ -61,20 +65,10 @@ pub fn write_run(
 ) -> Result<WrittenRun, Error> {
     let SceneRun { document, structures, cases } = run;
     let scene = document.scene();
-    for ((name, ..), entry) in distinct_specs(document).iter().zip(structures) {
-        let solved = &entry.solution;
-        folder.add(&format!("grid-{name}.json"), grid_file::write(&solved.grid, solved.surface.as_ref()));
-        if let Some(text) = tables::adm(name, &solved.grid).map_err(Error::not_shown)? {
-            folder.add(&format!("{name}.adm"), text);
-        }
+    let (files, comparison, summary) = tables(run, threads)?;
+    for (name, contents) in files {
+        folder.add(&name, contents);
     }
-    for sheets in parallel_map(cases, threads, |index, _| sheets(run, index)) {
-        for (name, sheet) in sheets? {
-            folder.add(&name, sheet);
-        }
-    }
-    let comparison = run.comparison(threads);
-    let summary = run.summary(&comparison);
     folder.add("summary.json", json_text(&summary));
     clock.lap("tables");
 
@@ -95,9 +89,56 @@ pub fn write_run(
     Ok(WrittenRun { folder, summary, warnings: warnings.collect() })
 }
 
+/// What is made of a run on one thread.
+enum TablePart {
+    Comparison,
+    /// The tables of a case.
+    Sheets(usize),
+    Grids,
+}
+
+/// The tables of all cases and structures with their names, and the comparison of the cases with the summary, which take
+/// longest and begin first.
+fn tables(run: &SceneRun, threads: Option<u16>) -> Result<(NamedFiles, RunComparison, Value), Error> {
+    let sheets_of = (0..run.cases.len()).map(TablePart::Sheets);
+    let parts: Vec<TablePart> =
+        [TablePart::Comparison].into_iter().chain(sheets_of).chain([TablePart::Grids]).collect();
+    let made = parallel_map(&parts, threads, |_, part| match part {
+        TablePart::Comparison => {
+            let comparison = run.comparison(Some(1));
+            let summary = run.summary(&comparison);
+            Ok::<_, Error>((Vec::new(), Some((comparison, summary))))
+        }
+        TablePart::Sheets(index) => Ok((sheets(run, *index)?, None)),
+        TablePart::Grids => Ok((grids(run)?, None)),
+    });
+    let (mut files, mut compared) = (Vec::new(), None);
+    for part in made {
+        let (own, found) = part?;
+        files.extend(own);
+        compared = compared.or(found);
+    }
+    let (comparison, summary) = compared.expect("the comparison is one of the parts");
+    Ok((files, comparison, summary))
+}
+
+/// The grids of the structures, and their tables for ADAMS, with their names.
+fn grids(run: &SceneRun) -> Result<NamedFiles, Error> {
+    let mut all = Vec::new();
+    for ((name, ..), entry) in distinct_specs(&run.document).iter().zip(&run.structures) {
+        let solved = &entry.solution;
+        let text = grid_file::write(&solved.grid, solved.surface.as_ref());
+        all.push((format!("grid-{name}.json"), text.into()));
+        if let Some(text) = adams_tables::adm(name, &solved.grid).map_err(Error::not_shown)? {
+            all.push((format!("{name}.adm"), text.into()));
+        }
+    }
+    Ok(all)
+}
+
 /// The tables of a case with their names: history, cycles and envelope. Its warnings, for which summary and page ask, are
 /// found on the same thread.
-fn sheets(run: &SceneRun, index: usize) -> Result<Vec<(String, Vec<u8>)>, Error> {
+fn sheets(run: &SceneRun, index: usize) -> Result<NamedFiles, Error> {
     let (case, result) = (&run.document.cases[index], &run.cases[index]);
     let _ = case_warnings(&case.scene, result);
     let name = |kind: &str| match &case.label {

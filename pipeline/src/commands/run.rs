@@ -93,7 +93,10 @@ fn whole(
     for warning in &written.warnings {
         progress.say(&format!("warning: {warning}"));
     }
-    finish(&run, &written, global, &progress)
+    let exit = finish(&run, &written, global, &progress);
+    // the process ends now, and its memory with it, in one piece
+    std::mem::forget(run);
+    exit
 }
 
 /// Prints the results and warnings. Returns an error if a run is incomplete.

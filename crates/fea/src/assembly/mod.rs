@@ -8,7 +8,7 @@
 //!
 //! All of it is written for one number type, so that it can be repeated in double-doubles.
 //!
-//! Order of the files: `precision`, `sparse`, `ordering`, `element`, `combination`, `turning`, `bodies`, `ends`,
+//! Order of the files: `precision`, `sparse`, `graph`, `forest`, `ordering`, `element`, `combination`, `turning`, `bodies`, `ends`,
 //! `blocks`, `stiffness`.
 
 mod blocks;
@@ -16,6 +16,8 @@ mod bodies;
 mod combination;
 mod element;
 mod ends;
+mod forest;
+mod graph;
 mod ordering;
 mod precision;
 mod sparse;

@@ -56,36 +56,17 @@ fn add_four([(a, first), (b, second), (c, third), (d, fourth)]: [(f64, &[f64]); 
 
 /// Order of a matrix from which blocked factorization is faster.
 pub(crate) const BLOCKED: usize = 64;
-/// Order of a matrix from which scalar products use `LANES` partial sums; below it the plain loop is faster.
-const WIDE: usize = 16;
-/// Number of partial sums of a scalar product, large enough to hide the latency of an addition.
-const LANES: usize = 16;
-
-/// Scalar product in [`LANES`] partial sums of a fixed order, so that the result is the same on every machine.
-fn dot_wide(a: &[f64], b: &[f64]) -> f64 {
-    let mut sums = [0.0; LANES];
-    let (first, second) = (a.chunks_exact(LANES), b.chunks_exact(LANES));
-    let rest = dot(first.remainder(), second.remainder());
-    for (a, b) in first.zip(second) {
-        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
-            *sum += a * b;
-        }
-    }
-    sums.iter().sum::<f64>() + rest
-}
-
 /// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n, both triangles given) and one or
 /// more right sides, which follow each other in `b`.
 ///
-/// `a` is overwritten by its factor and `b` by the solutions. The factor of a small matrix is computed row by row from the
+/// `a` is overwritten and `b` becomes the solutions. The factor of a small matrix is computed row by row from the
 /// top, so that every scalar product uses contiguous memory, that of a large one by faer in blocks. Returns false where A
 /// is not positive definite to working precision; the contents of `a` and `b` are then undefined.
 #[must_use]
 pub(crate) fn solve_spd(a: &mut [f64], b: &mut [f64]) -> bool {
     match a.len().isqrt() {
         0 => true,
-        n @ 1..WIDE => factor_and_solve(a, b, n, dot),
-        n @ WIDE..BLOCKED => factor_and_solve(a, b, n, dot_wide),
+        n @ 1..BLOCKED => factor_and_solve(a, b, n),
         n => factor_and_solve_in_blocks(a, b, n),
     }
 }
@@ -104,40 +85,57 @@ fn factor_and_solve_in_blocks(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
     b.iter().all(|x| x.is_finite())
 }
 
-/// Replaces the lower triangle of a symmetric positive definite matrix (n x n, row-major) by its Cholesky factor, row by
-/// row from the top. Returns false where a pivot is not positive.
-#[inline]
-fn factor_spd(a: &mut [f64], n: usize, dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
+/// Replaces the lower triangle of a symmetric positive definite matrix (n x n, row-major) by its Cholesky factor with the
+/// reciprocals of its diagonal, row by row from the top: each row is the solution of the rows above it, and so are the right
+/// sides. Returns false where a pivot is not positive.
+fn factor_spd(a: &mut [f64], n: usize) -> bool {
     for i in 0..n {
         let (above, row) = a.split_at_mut(i * n);
-        for j in 0..i {
-            let other = &above[j * n..(j + 1) * n];
-            row[j] = (row[j] - dot(&row[..j], &other[..j])) / other[j];
-        }
+        let row = &mut row[..=i];
+        solve_lower(above, n, &mut row[..i]);
         let pivot = row[i] - dot(&row[..i], &row[..i]);
         if !(pivot > 0.0 && pivot.is_finite()) {
             return false;
         }
-        row[i] = pivot.sqrt();
+        row[i] = 1.0 / pivot.sqrt();
     }
     true
 }
 
+/// Solves L x = b, where L are the leading rows of `a` (n columns) with the reciprocals of its diagonal; `b` is overwritten
+/// by x. Four rows at a time: the sums over the unknowns that are known before them, which all four read together, and then
+/// the unknowns of the four one by one, each of which waits for the one before.
 #[inline]
-fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize, dot: impl Fn(&[f64], &[f64]) -> f64) -> bool {
-    if !factor_spd(a, n, &dot) {
+fn solve_lower(a: &[f64], n: usize, b: &mut [f64]) {
+    let count = b.len();
+    let whole = count / 4 * 4;
+    for i in (0..whole).step_by(4) {
+        let (known, own) = b.split_at_mut(i);
+        let lines: [&[f64]; 4] = std::array::from_fn(|k| &a[(i + k) * n..(i + k) * n + i + 4]);
+        let sums = four_dots(lines.map(|line| &line[..i]), known);
+        for k in 0..4 {
+            let own_line = &lines[k][i..];
+            let late = own_line[..k].iter().zip(&own[..k]);
+            own[k] = late.fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b) * own_line[k];
+        }
+    }
+    for i in whole..count {
+        let (row, (known, own)) = (&a[i * n..=i * n + i], b.split_at_mut(i));
+        own[0] = (own[0] - dot(&row[..i], known)) * row[i];
+    }
+}
+
+fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
+    if !factor_spd(a, n) {
         return false;
     }
     for b in b.chunks_exact_mut(n) {
-        for i in 0..n {
-            let row = &a[i * n..=i * n + i];
-            b[i] = (b[i] - dot(&row[..i], &b[..i])) / row[i];
-        }
+        solve_lower(a, n, b);
         // The columns of the transposed factor are the rows of the factor.
         for i in (0..n).rev() {
             let (before, rest) = b.split_at_mut(i);
             let row = &a[i * n..=i * n + i];
-            rest[0] /= row[i];
+            rest[0] *= row[i];
             before.iter_mut().zip(row).for_each(|(b, l)| *b -= rest[0] * l);
         }
     }
@@ -201,8 +199,7 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     for (j, &pivot) in pivots.iter().enumerate() {
         b.swap(j, pivot);
     }
-    // Four rows at a time: the sums over the unknowns that are known before them, which all four read together, and then the
-    // unknowns of the four one by one, each of which waits for the one before.
+    // As in `solve_lower`, with a diagonal of ones.
     let whole = n / 4 * 4;
     for i in (0..whole).step_by(4) {
         let (known, own) = b.split_at_mut(i);

@@ -53,6 +53,7 @@ impl Problem {
         self.unknown.clear();
         self.unknown.extend((0..m).filter(|&i| active[i] && kind[i] != RowKind::Given));
         let count = self.unknown.len();
+        let has_given = kind.contains(&RowKind::Given);
         for (row, &i) in self.unknown.iter().enumerate() {
             let law = system.law(i);
             let ratio = law.damping / law.stiffness;
@@ -62,11 +63,15 @@ impl Problem {
                 _ => (1.0, ratio),
             };
             let mut rhs = (approach[i] + ratio * rate[i]) * scale;
-            for (column, &j) in self.unknown.iter().enumerate() {
-                self.matrix[row * count + column] = w[i * m + j] + by_rate * y[i * m + j];
+            let (own_w, own_y) = (&w[i * m..(i + 1) * m], &y[i * m..(i + 1) * m]);
+            let entries = self.matrix[row * count..(row + 1) * count].iter_mut().zip(&self.unknown);
+            if by_rate == 0.0 {
+                entries.for_each(|(entry, &j)| *entry = own_w[j]);
+            } else {
+                entries.for_each(|(entry, &j)| *entry = own_w[j] + by_rate * own_y[j]);
             }
-            for j in (0..m).filter(|&j| kind[j] == RowKind::Given) {
-                rhs -= (w[i * m + j] + by_rate * y[i * m + j]) * force[j];
+            for j in (0..m).filter(|&j| has_given && kind[j] == RowKind::Given) {
+                rhs -= (own_w[j] + by_rate * own_y[j]) * force[j];
             }
             let wheels = system.mechanics.groups[i].count();
             self.matrix[row * count + row] += scale / (law.stiffness * wheels * local[i].fraction[0]);
