@@ -1,5 +1,7 @@
 //! Static equilibrium of weights, loads and contact forces on wheels, with the deflection of the rails.
 
+use std::borrow::Cow;
+
 use nalgebra::{DMatrix, DMatrixView, DVector};
 use smallvec::SmallVec;
 
@@ -7,7 +9,7 @@ use crate::contact::solver::Solver;
 use crate::contact::system::System;
 use crate::mechanics::state::State;
 use crate::numerics::dense::dot;
-use crate::numerics::lu::LuFactors;
+use crate::numerics::lu::{Entries, LuFactors};
 use crate::{BodyDof, Error};
 
 /// Largest number of sweeps of the active set.
@@ -46,7 +48,7 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
     // The rope forces are kept at their values on entry: solving an instant during the iteration would find the ropes
     // slack.
     let springs: Vec<f64> = system.springs().iter().map(|&i| at.force[i]).collect();
-    let entry = at.q.clone();
+    let entry = Values::from_slice(at.q.as_slice());
     let restore = |force: &mut [f64]| {
         system.springs().iter().zip(&springs).for_each(|(&i, pull)| force[i] = *pull);
     };
@@ -55,9 +57,9 @@ pub(crate) fn balance_wheels(solver: &mut Solver, at: &mut State) -> Result<(), 
     let guides = system.guides();
     let mut relaxation = Relaxation::default();
     for _ in 0..FLANGES {
-        let before = at.q.clone();
+        let before = system.mechanics.moves_freely.then(|| at.q.clone());
         balance(solver, &entry, at)?;
-        let rests = !system.mechanics.moves_freely || has_settled(&before, at);
+        let rests = before.is_none_or(|before| has_settled(&before, at));
         if guides.is_empty() {
             if rests {
                 return Ok(());
@@ -89,7 +91,7 @@ pub(crate) fn has_settled(before: &DVector<f64>, at: &State) -> bool {
 }
 
 /// Solves the equilibrium for the flange forces of `at`, with ropes and stops whose forces in `at` belong to `entry`.
-fn balance(solver: &mut Solver, entry: &DVector<f64>, at: &mut State) -> Result<(), Error> {
+fn balance(solver: &mut Solver, entry: &[f64], at: &mut State) -> Result<(), Error> {
     let system = solver.system();
     solver.update(at)?;
     let moving = balancing(solver);
@@ -244,11 +246,9 @@ struct Balance<'a> {
     factors: [LuFactors; 2],
 }
 
-/// Numbers of contacts or of degrees of freedom, a value for each of them, and for each of both; few of them need no
-/// allocation.
+/// Numbers of contacts or of degrees of freedom, and a value for each of them; few of them need no allocation.
 type Numbers = SmallVec<[usize; 8]>;
 type Values = SmallVec<[f64; 8]>;
-type Entries = SmallVec<[f64; 16]>;
 
 /// The largest absolute value.
 fn largest(values: &[f64]) -> f64 {
@@ -282,7 +282,7 @@ impl<'a> Balance<'a> {
     /// Sets up the equilibrium of the degrees of freedom `moving` for the current geometry of the solver. As a first
     /// estimate, all wheels that may act carry the same force. If no degree of freedom is unknown, the wheels with
     /// positive penetration carry.
-    fn new(solver: &Solver<'a>, moving: Numbers, entry: &DVector<f64>, at: &State) -> Result<Self, Error> {
+    fn new(solver: &Solver<'a>, moving: Numbers, entry: &[f64], at: &State) -> Result<Self, Error> {
         let (system, geometry) = (solver.system(), solver.geometry());
         let rows = geometry.rows();
         let (n, count) = (system.mechanics.dofs, system.verticals());
@@ -304,8 +304,11 @@ impl<'a> Balance<'a> {
         let reach = |i: usize| if moving.is_empty() { Some(constant[i]) } else { None };
         let active: Numbers =
             (0..count).filter(|&i| share[i] > 0.0 && reach(i).is_none_or(|p| p > 0.0)).collect();
-        let mut gravity = system.mechanics.gravity.clone();
-        system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), &mut gravity);
+        let mut gravity = Cow::Borrowed(&system.mechanics.gravity);
+        if !system.mechanics.carried.is_empty() {
+            let weight = gravity.to_mut();
+            system.mechanics.carried.weigh(&system.mechanics.kinematics, (at.t, &at.q), weight);
+        }
         let mut weight: Values =
             moving.iter().map(|&k| gravity[k] + pull_of_springs(solver, k, at)).collect();
         for load in &system.scene.actuators.loads {
@@ -445,7 +448,7 @@ impl<'a> Balance<'a> {
         balance.iter_mut().zip(&self.pull).for_each(|(sum, own)| *sum += own);
         let mut next = balance.clone();
         of_dofs.replace(moving, |matrix| {
-            (0..moving).for_each(|r| matrix.extend(stiffness[r..].iter().step_by(moving)));
+            (0..moving).for_each(|r| matrix.extend(stiffness[r..].iter().step_by(moving).copied()));
         });
         if !of_dofs.solve(&mut next) {
             return None;

@@ -4,16 +4,20 @@
 use faer::linalg::solvers::{PartialPivLu, Solve};
 use faer::{MatMut, MatRef};
 use nalgebra::DMatrix;
+use smallvec::SmallVec;
 
 use super::dense::{BLOCKED, factor_general, solve_factored, solve_four_factored};
+
+/// Entries of a matrix, without allocation up to the order 4.
+pub(crate) type Entries = SmallVec<[f64; 16]>;
 
 /// The factors of a matrix, P A = L U. Their memory serves for one matrix after the other.
 #[derive(Default)]
 pub(crate) struct LuFactors {
     /// Entries of the matrix, row by row; of a small one its factors.
-    entries: Vec<f64>,
+    entries: Entries,
     /// The row with which each row of a small matrix was exchanged.
-    pivots: Vec<usize>,
+    pivots: SmallVec<[usize; 4]>,
     is_regular: bool,
     large: Option<PartialPivLu<f64>>,
 }
@@ -27,7 +31,7 @@ impl LuFactors {
     }
 
     /// Replaces the matrix by one of this order, whose rows `fill` adds one after the other.
-    pub fn replace(&mut self, order: usize, fill: impl FnOnce(&mut Vec<f64>)) {
+    pub fn replace(&mut self, order: usize, fill: impl FnOnce(&mut Entries)) {
         self.entries.clear();
         fill(&mut self.entries);
         self.large = (order >= BLOCKED)
