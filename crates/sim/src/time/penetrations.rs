@@ -94,9 +94,9 @@ impl Penetrations {
     /// Begins a step of length `h` from `from`, with the active contacts of the solver. A penetration that follows its
     /// force within a fraction of the step, and in at most the time `settled`, is independent of its value at the start,
     /// whose error is then of no effect. This time is infinite in the course of a motion without a jump; after a jump it is
-    /// that below which the transient is not resolved. Natural modes that move by their propagators (`has_waves`) may have
-    /// many periods in a step.
-    pub fn begin(&mut self, solver: &mut Solver, from: &State, h: f64, (settled, has_waves): (f64, bool)) {
+    /// that below which the transient is not resolved. The springs' penetrations follow a polynomial where the motion
+    /// `is_even`: it has no break at the ends of the step, and no waves that are shorter.
+    pub fn begin(&mut self, solver: &mut Solver, from: &State, h: f64, (settled, is_even): (f64, bool)) {
         (self.is_known, self.h, self.places) = (true, h, 0);
         self.differences.clear();
         if !(is_suited(solver) && solver.active_contacts().any(|i| solver.remembers(i))) {
@@ -131,7 +131,7 @@ impl Penetrations {
             is_free.push(by_rate * compliance / (1.0 + by_place * compliance) < settled.min(QUICK * h));
             self.delay = self.delay.max(by_rate / by_place.max(0.0));
         }
-        self.is_polynomial = !has_waves && h >= SHORT * self.delay;
+        self.is_polynomial = is_even && h >= SHORT * self.delay;
         self.places = 1;
     }
 

@@ -69,6 +69,8 @@ pub(crate) struct Step<'a, 'b> {
     pub shortest_delay: f64,
     /// Whether the step just taken begins neither at a break nor at an event.
     pub begins_smoothly: bool,
+    /// Whether it ends neither at a break nor at an event.
+    pub ends_smoothly: bool,
     /// Penetrations in the step just taken, known from its first sample on.
     penetrations: Penetrations,
 }
@@ -108,6 +110,7 @@ impl<'a, 'b> Step<'a, 'b> {
             last_jump: start.t,
             shortest_delay: 0.0,
             begins_smoothly: false,
+            ends_smoothly: false,
             penetrations: Penetrations::default(),
             from: start.clone(),
             arrived: start.clone(),
@@ -304,8 +307,10 @@ impl<'a, 'b> Step<'a, 'b> {
     /// Finds the penetrations in the step just taken; `at` is overwritten.
     fn find_penetrations(&mut self, at: &mut State) -> Result<(), Error> {
         let settled = if self.begins_smoothly { f64::INFINITY } else { self.shortest_delay };
-        let (h, has_waves) = (self.length(), self.propagates_modes());
-        self.penetrations.begin(self.solver, &self.from, h, (settled, has_waves));
+        // at a break rates jump, and natural modes that move by their propagators may have many periods in a step
+        let is_even = self.begins_smoothly && self.ends_smoothly && !self.propagates_modes();
+        let h = self.length();
+        self.penetrations.begin(self.solver, &self.from, h, (settled, is_even));
         for fraction in self.penetrations.fractions() {
             self.interpolate(fraction, at)?;
             self.penetrations.add(self.solver, at)?;

@@ -149,8 +149,6 @@ pub(crate) struct Stepper<'a, 'b> {
     wheel_forces: WheelForces,
     /// Loads of the natural modes, to which the errors of their accelerations are relative, where these have propagators.
     modal_loads: Option<ModalLoads>,
-    /// Whether the last step ended neither at a break nor at an event.
-    ended_smoothly: bool,
     /// Touch guards at the start of the next step.
     touches: Vec<Guard>,
     /// Those at the end of the step just tried, once they are known.
@@ -188,7 +186,6 @@ impl<'a, 'b> Stepper<'a, 'b> {
             books,
             touches,
             ending: None,
-            ended_smoothly: false,
             wheel_forces,
             modal_loads: step.propagates_modes().then(|| ModalLoads::new(system)),
             size,
@@ -276,7 +273,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             return Err(Failure::TooSmall);
         }
         self.accept(trial.h)?;
-        self.ended_smoothly = !(trial.ends_at_event || ends_at_break || self.step.to.t >= self.limit);
+        self.step.ends_smoothly = !(trial.ends_at_event || ends_at_break || self.step.to.t >= self.limit);
         Ok(())
     }
 
@@ -288,8 +285,8 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         let widest = if self.chatter > SHORT { WIDER * self.step.length() } else { f64::INFINITY };
         self.step.begin();
-        self.step.begins_smoothly = self.ended_smoothly;
-        if !self.ended_smoothly {
+        self.step.begins_smoothly = self.step.ends_smoothly;
+        if !self.step.begins_smoothly {
             self.step.last_jump = self.step.from.t;
             // A transient has decayed to the accuracy at the end of the window.
             let decay = (1.0 / self.size.tolerance).ln().max(1.0);
