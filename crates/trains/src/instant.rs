@@ -11,6 +11,7 @@ use crate::rail_deflection::CarrierLines;
 use crate::section::slope_index;
 use crate::structure::{Carrier, OnMember, QUANTITIES, Structure};
 use fea::{Effect, Model, Rail};
+use smallvec::SmallVec;
 
 /// Distance from the end of a member, relative to its length along the rail, within which a load counts as just inside.
 const INSIDE: f64 = 1e-9;
@@ -91,7 +92,7 @@ pub struct RailMember {
 #[derive(Clone, Debug, Default)]
 pub struct PassedLoads {
     base: [f64; QUANTITIES],
-    passed: Vec<PassedLoad>,
+    passed: SmallVec<[PassedLoad; 4]>,
     /// The planes that an axial force bends.
     planes: Option<[BentPlane; 2]>,
 }

@@ -13,7 +13,7 @@ use trains::SectionSide;
 
 use super::distributed::FORCES;
 use super::peaks::{Peak, SIGNS, largest};
-use super::refine::{GirderValue, NEAR, ROUNDS, Refinement, offer};
+use super::refine::{Corners, GirderValue, NEAR, ROUNDS, Refinement, offer};
 
 /// An extreme of a deflection of a span: its plane (0: vertical, 1: lateral) and kind (0: largest, 1: smallest).
 #[derive(Clone, Copy)]
@@ -87,7 +87,7 @@ impl Refinement<'_> {
                 .map_or(f64::NEG_INFINITY, |all| SIGNS[kind] * all[0])
         };
         let (signed, position) =
-            self.over_time((peak, girders.deflection_stride), FORCES + plane, &mut value);
+            self.over_time((peak, girders.deflection_stride), (FORCES + plane, Corners::NONE), &mut value);
         let x = girders.states.at(position).loads[load].x;
         let side = SectionSide::At;
         Some(GirderValue { signed, position, x, section: None, own: None, is_after: None, side })

@@ -89,9 +89,10 @@ pub(super) struct LoadState<'a> {
 
 /// The values of a state, which are interpolated when they are needed.
 #[derive(Clone)]
+#[expect(clippy::large_enum_variant, reason = "a search makes thousands of states, one after the other")]
 enum StateValues<'a> {
     Row(&'a [f64]),
-    Between(Box<Between<'a>>),
+    Between(Between<'a>),
     Limit(Vec<f64>),
 }
 
@@ -290,7 +291,7 @@ impl LoadStates {
     }
 
     /// What interpolates at a time that is counted in rows; at a row its number instead.
-    fn between(&self, position: f64) -> Result<usize, Box<Between<'_>>> {
+    fn between(&self, position: f64) -> Result<usize, Between<'_>> {
         let last = self.len() - 1;
         let row = (position.max(0.0) as usize).min(last.saturating_sub(1));
         let fraction = position - row as f64;
@@ -310,7 +311,7 @@ impl LoadStates {
             None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
         };
         let cubics = Default::default();
-        Err(Box::new(Between { states: self, ends, fraction, time, is_after, starts, cubics }))
+        Err(Between { states: self, ends, fraction, time, is_after, starts, cubics })
     }
 
     fn four(&self, start: usize) -> [&[f64]; 4] {

@@ -5,8 +5,8 @@ use trains::{GirderResponse, SectionSide};
 use super::distributed::FORCES;
 use super::girder::{LoadedGirders, OwnLoad};
 use super::instants::LoadState;
-use super::peaks::{Fall, Peak, SIGNS, SearchEnd, Vertex, bulge, largest, largest_between};
-use super::scan::Scan;
+use super::peaks::{BESIDE, Fall, Peak, SIGNS, SearchEnd, Vertex, bulge, largest, largest_between};
+use super::scan::{Passage, Scan};
 
 /// Largest number of evaluations for the peak between two rows.
 const EVALUATIONS: usize = 20;
@@ -16,6 +16,10 @@ const ENOUGH: f64 = 1e-2;
 /// How much lower a peak may seem than another one at rows between which others are left out, relative to the largest value of its
 /// kind, and still be followed.
 pub(super) const RANKED: f64 = 1e-4;
+/// Time from a row, in rows, within which a corner is at the row.
+const AT_ROW: f64 = 1e-6;
+/// Distance from a corner, relative to the interval, at which the force is the limit there.
+const INSIDE: f64 = 1e-9;
 /// Rounds of refinement over time and along the girder in turn.
 pub(super) const ROUNDS: usize = 3;
 /// Peaks that are lower than the highest one by more than this fraction of the largest value of their kind are left out.
@@ -35,6 +39,58 @@ pub(super) struct GirderValue {
     /// Whether it is the state just after a passage; `None` for the state at the time itself.
     pub is_after: Option<bool>,
     pub side: SectionSide,
+}
+
+/// Corners of a force at a section over time, where loads pass it; the limits of the force there are known.
+#[derive(Clone, Copy)]
+pub(super) struct Corners<'a> {
+    /// By increasing time.
+    pub passages: &'a [Passage],
+    pub quantity: usize,
+    pub kind: usize,
+}
+
+impl Corners<'_> {
+    /// No corners.
+    pub const NONE: Corners<'static> = Corners { passages: &[], quantity: 0, kind: 0 };
+
+    /// The part of an interval without corners in which a peak may lie beside a known value, with its ends; `None` where
+    /// the force rises as far as a corner, or falls from one on both sides of it.
+    ///
+    /// A peak in a part whose largest value seems to be at its end shows by a larger value just beside the end.
+    fn divide(
+        &self,
+        ends: [f64; 2],
+        known: (f64, f64),
+        value: &mut dyn FnMut(f64) -> f64,
+    ) -> Option<[f64; 2]> {
+        let mut part = ends;
+        for (side, sense) in [-1.0, 1.0].into_iter().enumerate() {
+            let distance = |passage: &Passage| sense * (passage.position - known.1);
+            let reach = sense * (ends[side] - known.1);
+            let ahead =
+                self.passages.iter().map(distance).filter(|ahead| *ahead >= -AT_ROW && *ahead < reach);
+            let Some(ahead) = ahead.min_by(f64::total_cmp) else { continue };
+            // of the limits on this side of the corner the larger one
+            let limits = self.passages.iter().filter(|passage| distance(passage) == ahead);
+            let limits = limits.filter(|passage| passage.is_after == (side == 0) || ahead <= AT_ROW);
+            let limit = limits.map(|passage| SIGNS[self.kind] * passage.values[self.quantity]);
+            let limit = limit.fold(known.0, f64::max);
+            let corner = known.1 + sense * ahead;
+            if ahead <= AT_ROW {
+                // the known value is at the corner, and the force falls from it on this side
+                if [-1.0, 1.0].into_iter().all(|sense| value(corner + sense * BESIDE) <= limit) {
+                    return None;
+                }
+                continue;
+            }
+            if limit > known.0 && value(corner - sense * BESIDE * ahead) <= limit {
+                return None;
+            }
+            part[side] = corner - sense * INSIDE * ahead;
+        }
+        Some(part)
+    }
 }
 
 /// The refinement of the peaks of one scan.
@@ -96,7 +152,9 @@ impl Refinement<'_> {
         };
         let mut found = None;
         if is_near {
-            let (signed, position) = self.over_time((peak, 1), quantity, &mut |position| value(position));
+            let corners = Corners { passages: &self.scan.passages[at], quantity, kind };
+            let (signed, position) =
+                self.over_time((peak, 1), (quantity, corners), &mut |position| value(position));
             offer(&mut found, Some(make(signed, position, None, None, section.side)));
         }
         for passage in &self.scan.passages[at] {
@@ -122,8 +180,11 @@ impl Refinement<'_> {
         }
         let mut value =
             |position: f64| SIGNS[kind] * self.girders.deflection(point.rail, point.x, plane, position);
-        let (signed, position) =
-            self.over_time((peak, self.girders.deflection_stride), FORCES + plane, &mut value);
+        let (signed, position) = self.over_time(
+            (peak, self.girders.deflection_stride),
+            (FORCES + plane, Corners::NONE),
+            &mut value,
+        );
         let side = SectionSide::At;
         Some(GirderValue { signed, position, x: point.x, section: None, own: None, is_after: None, side })
     }
@@ -141,11 +202,12 @@ impl Refinement<'_> {
 
     /// The largest value in the two intervals beside the row of a peak, at whose ends it is not larger; the value at the row
     /// where the values beside it show that no larger one lies between the rows. Where the peak with the highest vertex turns
-    /// out lower than the one with the largest value may be, that one is followed as well.
+    /// out lower than the one with the largest value may be, that one is followed as well. Corners divide the intervals; the
+    /// values at them are not looked for.
     pub fn over_time(
         &self,
         (peak, stride): (&Peak, usize),
-        quantity: usize,
+        (quantity, corners): (usize, Corners<'_>),
         value: &mut dyn FnMut(f64) -> f64,
     ) -> (f64, f64) {
         let end = self.search_end(self.size(quantity));
@@ -156,7 +218,10 @@ impl Refinement<'_> {
             if vertex.height - vertex.value <= end.enough || ends[1] <= ends[0] || vertex.height <= least {
                 return known;
             }
-            largest_between(ends, known, end, &mut *value)
+            match corners.divide(ends, known, &mut *value) {
+                Some(ends) => largest_between(ends, known, end, &mut *value),
+                None => known,
+            }
         };
         let mut found = near(&peak.highest, f64::NEG_INFINITY);
         for vertex in self.lower_peaks(peak, (stride, self.size(quantity))) {

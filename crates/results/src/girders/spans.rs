@@ -5,7 +5,7 @@ use trains::SectionSide;
 use super::deflections::Wanted;
 use super::distributed::FORCES;
 use super::peaks::{Peak, SIGNS, largest};
-use super::refine::{GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
+use super::refine::{Corners, GirderValue, NEAR, ROUNDS, Refinement, is_moment, offer};
 use super::scan::Scan;
 
 /// Peaks of sections that are lower than a refined value by more than this fraction of the largest value of their kind are left
@@ -128,7 +128,8 @@ impl Refinement<'_> {
                 SIGNS[kind] * girders.forces_in(member, place, &state, Some((own.0, is_behind)))[quantity]
             })
         };
-        let (signed, position) = self.over_time((peak, 1), quantity, &mut |position| value(position, own.1));
+        let (signed, position) =
+            self.over_time((peak, 1), (quantity, Corners::NONE), &mut |position| value(position, own.1));
         let (_, (member, place, x)) = place(position)?;
         let side = match own.1 {
             _ if is_moment(quantity) => SectionSide::At,
