@@ -257,7 +257,8 @@ impl Penetrations {
                 return Ok(());
             }
         }
-        let (slopes, springs) = (slopes(share), SpringSlopes::new(share));
+        let slopes = slopes(share);
+        let springs = SpringSlopes::new(share, &slopes);
         for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
             let by_springs = if self.is_polynomial {
                 springs.rate(&self.followed, r, self.h)

@@ -11,16 +11,27 @@ pub const COUNT: usize = 4;
 /// The start and the nodes.
 pub const PLACES: [f64; COUNT] = [0.0, Nodes::RADAU_3[0], Nodes::RADAU_3[1], Nodes::RADAU_3[2]];
 
+/// The other places of each.
+const OTHERS: [[usize; 3]; COUNT] = [[1, 2, 3], [0, 2, 3], [0, 1, 3], [0, 1, 2]];
+
+/// Reciprocal of the product of the distances of each place from the others.
+const SCALE: [f64; COUNT] = {
+    let mut scale = [1.0; COUNT];
+    let mut j = 0;
+    while j < COUNT {
+        let [a, b, c] = OTHERS[j];
+        scale[j] /= (PLACES[j] - PLACES[a]) * (PLACES[j] - PLACES[b]) * (PLACES[j] - PLACES[c]);
+        j += 1;
+    }
+    scale
+};
+
 /// Derivatives at `share` of the cubic Lagrange polynomials through the places.
 pub fn slopes(share: f64) -> [f64; COUNT] {
-    let places = PLACES;
+    let away = PLACES.map(|place| share - place);
     std::array::from_fn(|j| {
-        let others = [0, 1, 2, 3].into_iter().filter(|&k| k != j);
-        let scale: f64 = others.clone().map(|k| places[j] - places[k]).product();
-        let term = |left: usize| -> f64 {
-            others.clone().filter(|&k| k != left).map(|k| share - places[k]).product()
-        };
-        others.clone().map(term).sum::<f64>() / scale
+        let [a, b, c] = OTHERS[j].map(|other| away[other]);
+        SCALE[j] * (a * b + a * c + b * c)
     })
 }
 
@@ -46,16 +57,16 @@ pub struct SpringSlopes {
 }
 
 impl SpringSlopes {
-    pub fn new(share: f64) -> SpringSlopes {
-        let slope_here = slopes(share);
+    /// Those at the fraction `share` of the step, where the Lagrange polynomials have these `slopes`.
+    pub fn new(share: f64, slopes: &[f64; COUNT]) -> SpringSlopes {
+        let away = PLACES.map(|place| share - place);
         let parts: [[f64; 2]; COUNT] = std::array::from_fn(|j| {
-            let (own, away) = (slopes(PLACES[j])[j], share - PLACES[j]);
-            let others = PLACES.iter().enumerate().filter(|(k, _)| *k != j);
-            let value: f64 = others.map(|(_, place)| (share - place) / (PLACES[j] - place)).product();
-            let square_slope = 2.0 * value * slope_here[j];
+            let own = weights()[j][j];
+            let value = OTHERS[j].iter().fold(SCALE[j], |product, other| product * away[*other]);
+            let square_slope = 2.0 * value * slopes[j];
             [
-                (1.0 - 2.0 * own * away) * square_slope - 2.0 * own * value * value,
-                away * square_slope + value * value,
+                (1.0 - 2.0 * own * away[j]) * square_slope - 2.0 * own * value * value,
+                away[j] * square_slope + value * value,
             ]
         });
         SpringSlopes { by_value: parts.map(|part| part[0]), by_rate: parts.map(|part| part[1]) }
@@ -85,7 +96,7 @@ mod tests {
             node
         });
         for share in [0.0, 0.1, 0.4, PLACES[2], 0.9, 1.0] {
-            let found = SpringSlopes::new(share).rate(&followed, 0, h);
+            let found = SpringSlopes::new(share, &slopes(share)).rate(&followed, 0, h);
             assert!((found - rate(share) / h).abs() < 1e-12 / h, "{share}: {found}");
         }
     }
