@@ -256,8 +256,8 @@ impl LoadStates {
     /// The state at a time that is counted in rows, between the first and the last.
     pub fn at(&self, position: f64) -> LoadState<'_> {
         match self.between(position) {
-            Ok(row) => self.at_row(row),
-            Err(between) => {
+            (row, None) => self.at_row(row),
+            (_, Some(between)) => {
                 let mut loads = self.loads_by(&|c| between.value(c));
                 // also a corner at the next row, which is just behind it
                 for corner in self.corners_in(position.floor()..=position.floor() + 1.0 + 2.0 * AFTER_ROW) {
@@ -280,8 +280,8 @@ impl LoadStates {
     /// The coordinate of a load at a time that is counted in rows.
     fn coordinate(&self, index: usize, position: f64) -> f64 {
         match self.between(position) {
-            Ok(row) => self.loads(row)[index].x,
-            Err(between) => load(&self.sources[index], &|c| between.value(c)).x,
+            (row, None) => self.loads(row)[index].x,
+            (_, Some(between)) => load(&self.sources[index], &|c| between.value(c)).x,
         }
     }
 
@@ -290,16 +290,16 @@ impl LoadStates {
         self.sources.iter().map(|source| load(source, value)).collect()
     }
 
-    /// What interpolates at a time that is counted in rows; at a row its number instead.
-    fn between(&self, position: f64) -> Result<usize, Between<'_>> {
+    /// The row at or before a time that is counted in rows, and what interpolates between it and the next.
+    fn between(&self, position: f64) -> (usize, Option<Between<'_>>) {
         let last = self.len() - 1;
         let row = (position.max(0.0) as usize).min(last.saturating_sub(1));
         let fraction = position - row as f64;
         if fraction <= 0.0 || last == 0 {
-            return Ok(row);
+            return (row, None);
         }
         if fraction >= 1.0 {
-            return Ok(row + 1);
+            return (row + 1, None);
         }
         let ends = [self.row(row), self.row(row + 1)];
         let time = ends[0][0] + fraction * (ends[1][0] - ends[0][0]);
@@ -311,7 +311,7 @@ impl LoadStates {
             None => [row.checked_sub(1), row.checked_sub(2), Some(row)],
         };
         let cubics = Default::default();
-        Err(Between { states: self, ends, fraction, time, is_after, starts, cubics })
+        (row, Some(Between { states: self, ends, fraction, time, is_after, starts, cubics }))
     }
 
     fn four(&self, start: usize) -> [&[f64]; 4] {
