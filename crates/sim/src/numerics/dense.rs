@@ -157,24 +157,12 @@ pub(crate) fn solve_general(a: &mut [f64], b: &mut [f64]) -> bool {
     for j in 0..n {
         let Some(pivot) = exchange(a, j, n) else { return false };
         b.swap(pivot, j);
-        let (above, below) = a.split_at_mut((j + 1) * n);
-        let row = &above[j * n..];
-        let (head, tail) = b.split_at_mut(j + 1);
-        for (line, b) in below.chunks_exact_mut(n).zip(tail) {
-            let factor = line[j] / row[j];
-            if factor != 0.0 {
-                line[j + 1..].iter_mut().zip(&row[j + 1..]).for_each(|(x, y)| *x -= factor * y);
-                *b -= factor * head[j];
-            }
-        }
+        eliminate(a, j, n);
+        let (known, later) = b.split_at_mut(j + 1);
+        let factors = a[(j + 1) * n..].chunks_exact(n).map(|line| line[j]);
+        later.iter_mut().zip(factors).for_each(|(b, factor)| *b -= factor * known[j]);
     }
-    for i in (0..n).rev() {
-        let mut sum = b[i];
-        for k in i + 1..n {
-            sum -= a[i * n + k] * b[k];
-        }
-        b[i] = sum / a[i * n + i];
-    }
+    substitute(a, b);
     true
 }
 
