@@ -350,3 +350,46 @@ pub(super) fn offer(known: &mut Option<GirderValue>, found: Option<GirderValue>)
         *known = Some(found);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A passage at a position, with the limit of the first quantity just before or just after it.
+    fn passage(position: f64, is_after: bool, limit: f64) -> Passage {
+        let mut values = [0.0; FORCES];
+        values[0] = limit;
+        Passage { load: 0, position, is_after, is_behind: is_after, values }
+    }
+
+    /// Analytic: a force rises to a corner behind the row, or has a peak before it; it falls from a corner at the row, or from one
+    /// before it; without corners the interval is whole.
+    #[test]
+    fn intervals_of_peaks_end_at_corners() {
+        let part = |passages: &[Passage], value: &dyn Fn(f64) -> f64| {
+            let corners = Corners { passages, quantity: 0, kind: 0 };
+            corners.divide([3.0, 5.0], (value(4.0), 4.0), &mut |position| value(position))
+        };
+        assert_eq!(part(&[], &|x| -(x - 4.1).powi(2)), Some([3.0, 5.0]));
+
+        // 1 just before the corner at 4.5, far below behind it
+        let rising = |x: f64| if x < 4.5 { 1.0 + (x - 4.5) } else { -9.0 };
+        let at_corner = [passage(4.5, false, 1.0), passage(4.5, true, -9.0)];
+        assert_eq!(part(&at_corner, &rising), None);
+        // the same limit, but a higher peak at 4.4
+        let peaked = |x: f64| if x < 4.5 { 1.01 - (x - 4.4).powi(2) } else { -9.0 };
+        let [from, to] = part(&at_corner, &peaked).expect("a peak before the corner");
+        assert!(from == 3.0 && to < 4.5 && to > 4.5 - 1e-8);
+
+        // a corner at the row: a force that falls on both sides, and one with a peak behind it
+        let at_row = [passage(4.0, false, 0.0), passage(4.0, true, 0.0)];
+        assert_eq!(part(&at_row, &|x| -(x - 4.0).abs()), None);
+        assert_eq!(part(&at_row, &|x| if x > 4.0 { x - 4.0 } else { 4.0 - x }), Some([3.0, 5.0]));
+
+        // lower limits at a corner before the row bound the interval
+        let before = [passage(3.25, false, -7.0), passage(3.25, true, -2.0)];
+        let [from, to] =
+            part(&before, &|x| if x > 3.25 { -(x - 4.2).powi(2) } else { -7.0 }).expect("smooth");
+        assert!(to == 5.0 && from > 3.25 && from < 3.25 + 1e-8);
+    }
+}

@@ -18,7 +18,7 @@ use crate::mechanics::state::State;
 use factors::Factors;
 use places::{COUNT, SpringSlopes, slopes, sum_of, weights};
 
-/// Number of Newton iterations at most; linear laws need one or two.
+/// Number of iterations at most; with the factors of all places linear laws need one or two.
 const ITERATIONS: usize = 12;
 
 /// Time in which a penetration follows its force, per step, below which its value at the start may be free.
