@@ -51,7 +51,7 @@ pub fn parallel_map<T: Sync, R: Send>(
         }
         done
     };
-    let mut made: Vec<(usize, R)> = std::thread::scope(|scope| {
+    let made: Vec<(usize, R)> = std::thread::scope(|scope| {
         let others: Vec<_> = (1..threads).map(|_| scope.spawn(worker)).collect();
         let mut all = worker();
         for other in others {
@@ -62,6 +62,11 @@ pub fn parallel_map<T: Sync, R: Send>(
         }
         all
     });
+    in_order(made)
+}
+
+/// Takes the results, in the order of the items by whose indices they are.
+fn in_order<R>(mut made: Vec<(usize, R)>) -> Vec<R> {
     made.sort_by_key(|(index, _)| *index);
     made.into_iter().map(|(_, made)| made).collect()
 }
@@ -214,9 +219,8 @@ impl<T: Send + 'static, R: Send + 'static> Background<T, R> {
     /// # Panics
     /// If `work` panics, with its message.
     pub fn wait(&mut self) -> Vec<R> {
-        let mut fresh = Background::new(self.threads, self.work);
-        std::mem::swap(self, &mut fresh);
-        fresh.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
+        let mut ended = std::mem::replace(self, Background::new(self.threads, self.work));
+        ended.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic))
     }
 }
 
@@ -232,8 +236,7 @@ impl<T, R> Background<T, R> {
                 Err(panic) => result = Err(panic),
             }
         }
-        made.sort_by_key(|(index, _)| *index);
-        result.map(|()| made.into_iter().map(|(_, made)| made).collect())
+        result.map(|()| in_order(made))
     }
 }
 

@@ -11,8 +11,8 @@
 
 use super::graph::Graph;
 
-/// Number of nodes of a piece that is not divided further.
-const LEAF: usize = 6;
+/// Number of nodes of a part that is not divided further.
+pub(super) const LEAF: usize = 6;
 
 /// No node.
 const NONE: usize = usize::MAX;
@@ -97,9 +97,9 @@ impl Pieces<'_> {
     /// The node of a piece whose removal leaves no part with more than half of the others.
     fn centre(&mut self, reached: &[usize]) -> usize {
         reached.iter().for_each(|node| self.size[*node] = 1);
-        // from the ends to the root: the first node that has half of the nodes behind it
+        // from the ends to the root: the first node that has half of the nodes behind it, at the latest the root
         for &node in reached.iter().rev() {
-            if 2 * self.size[node] >= reached.len() || self.above[node] == NONE {
+            if 2 * self.size[node] >= reached.len() {
                 return node;
             }
             self.size[self.above[node]] += self.size[node];

@@ -8,8 +8,8 @@
 //!
 //! All of it is written for one number type, so that it can be repeated in double-doubles.
 //!
-//! Order of the files: `precision`, `sparse`, `graph`, `forest`, `ordering`, `element`, `combination`, `turning`, `bodies`, `ends`,
-//! `blocks`, `stiffness`.
+//! Order of the files: `precision`, `sparse`, `graph`, `forest`, `ordering`, `element`, `combination`, `turning`, `bodies`,
+//! `ends`, `blocks`, `stiffness`.
 
 mod blocks;
 mod bodies;

@@ -8,18 +8,16 @@ use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::SymbolicSparseColMatRef;
 use faer::sparse::linalg::amd;
 
-use super::forest::order_of_forest;
+use super::forest::{LEAF, order_of_forest};
 use super::graph::Graph;
 
-/// Number of bodies at which dissection stops.
-const LEAF: usize = 6;
 /// Product of two sides, by that of equal ones, from which a separator of one node is as good as any.
 const BALANCED: f64 = 0.9;
 /// Number of loads for which the order is chosen.
 const LOADS: f64 = 200.0;
 
-/// The order of a forest, or the cheaper of nested dissection and approximate minimum degree, by the predicted work of the factor and of some
-/// hundred loads; also the predicted operations of the factor with six unknowns for each body.
+/// The order of a forest, or the cheaper of nested dissection and approximate minimum degree, by the predicted work of the
+/// factor and of some hundred loads; also the predicted operations of the factor with six unknowns for each body.
 pub(crate) fn order(graph: &Graph) -> (Vec<usize>, f64) {
     if let Some(order) = order_of_forest(graph) {
         let work = Work::new(graph, &order);

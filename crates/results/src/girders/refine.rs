@@ -64,26 +64,24 @@ impl Corners<'_> {
         known: (f64, f64),
         value: &mut dyn FnMut(f64) -> f64,
     ) -> Option<[f64; 2]> {
+        let signed = |passage: &Passage| SIGNS[self.kind] * passage.values[self.quantity];
+        let at_row = self.passages.iter().filter(|passage| (passage.position - known.1).abs() <= AT_ROW);
+        if let Some(limit) = at_row.map(signed).reduce(f64::max) {
+            // the known value is at a corner: whether the force falls from it on both sides
+            let falls = |sense: f64| -> bool { value(known.1 + sense * BESIDE) <= limit.max(known.0) };
+            return if [-1.0, 1.0].into_iter().all(falls) { None } else { Some(ends) };
+        }
         let mut part = ends;
         for (side, sense) in [-1.0, 1.0].into_iter().enumerate() {
             let distance = |passage: &Passage| sense * (passage.position - known.1);
             let reach = sense * (ends[side] - known.1);
-            let ahead =
-                self.passages.iter().map(distance).filter(|ahead| *ahead >= -AT_ROW && *ahead < reach);
+            let ahead = self.passages.iter().map(distance).filter(|ahead| *ahead > 0.0 && *ahead < reach);
             let Some(ahead) = ahead.min_by(f64::total_cmp) else { continue };
+            let corner = known.1 + sense * ahead;
             // of the limits on this side of the corner the larger one
             let limits = self.passages.iter().filter(|passage| distance(passage) == ahead);
-            let limits = limits.filter(|passage| passage.is_after == (side == 0) || ahead <= AT_ROW);
-            let limit = limits.map(|passage| SIGNS[self.kind] * passage.values[self.quantity]);
-            let limit = limit.fold(known.0, f64::max);
-            let corner = known.1 + sense * ahead;
-            if ahead <= AT_ROW {
-                // the known value is at the corner, and the force falls from it on this side
-                if [-1.0, 1.0].into_iter().all(|sense| value(corner + sense * BESIDE) <= limit) {
-                    return None;
-                }
-                continue;
-            }
+            let limit =
+                limits.filter(|passage| passage.is_after == (side == 0)).map(signed).fold(known.0, f64::max);
             if limit > known.0 && value(corner - sense * BESIDE * ahead) <= limit {
                 return None;
             }

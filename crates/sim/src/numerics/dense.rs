@@ -56,6 +56,7 @@ fn add_four([(a, first), (b, second), (c, third), (d, fourth)]: [(f64, &[f64]); 
 
 /// Order of a matrix from which blocked factorization is faster.
 pub(crate) const BLOCKED: usize = 64;
+
 /// Solves A x = b by Cholesky factorization for a symmetric positive definite A (n x n, both triangles given) and one or
 /// more right sides, which follow each other in `b`.
 ///
@@ -92,7 +93,7 @@ fn factor_spd(a: &mut [f64], n: usize) -> bool {
     for i in 0..n {
         let (above, row) = a.split_at_mut(i * n);
         let row = &mut row[..=i];
-        solve_lower(above, n, &mut row[..i]);
+        solve_lower(above, n, &mut row[..i], |reciprocal| reciprocal);
         let pivot = row[i] - dot(&row[..i], &row[..i]);
         if !(pivot > 0.0 && pivot.is_finite()) {
             return false;
@@ -102,11 +103,12 @@ fn factor_spd(a: &mut [f64], n: usize) -> bool {
     true
 }
 
-/// Solves L x = b, where L are the leading rows of `a` (n columns) with the reciprocals of its diagonal; `b` is overwritten
-/// by x. Four rows at a time: the sums over the unknowns that are known before them, which all four read together, and then
-/// the unknowns of the four one by one, each of which waits for the one before.
+/// Solves L x = b, where L are the leading rows of `a` (n columns) on and below its diagonal, of whose entries `reciprocal` makes the
+/// reciprocals of the diagonal of L; `b` is overwritten by x. Four rows at a time: the sums over the unknowns that are known
+/// before them, which all four read together, and then the unknowns of the four one by one, each of which waits for the one
+/// before.
 #[inline]
-fn solve_lower(a: &[f64], n: usize, b: &mut [f64]) {
+fn solve_lower(a: &[f64], n: usize, b: &mut [f64], reciprocal: impl Fn(f64) -> f64) {
     let count = b.len();
     let whole = count / 4 * 4;
     for i in (0..whole).step_by(4) {
@@ -114,14 +116,16 @@ fn solve_lower(a: &[f64], n: usize, b: &mut [f64]) {
         let lines: [&[f64]; 4] = std::array::from_fn(|k| &a[(i + k) * n..(i + k) * n + i + 4]);
         let sums = four_dots(lines.map(|line| &line[..i]), known);
         for k in 0..4 {
-            let own_line = &lines[k][i..];
-            let late = own_line[..k].iter().zip(&own[..k]);
-            own[k] = late.fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b) * own_line[k];
+            let line = &lines[k][i..];
+            let late = line[..k].iter().zip(&own[..k]);
+            own[k] = late.fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b) * reciprocal(line[k]);
         }
     }
     for i in whole..count {
-        let (row, (known, own)) = (&a[i * n..=i * n + i], b.split_at_mut(i));
-        own[0] = (own[0] - dot(&row[..i], known)) * row[i];
+        let (row, (known, own)) = (&a[i * n..=i * n + i], b.split_at_mut(whole));
+        let sum = own[i - whole] - dot(&row[..whole], known);
+        let late = row[whole..i].iter().zip(&own[..i - whole]);
+        own[i - whole] = late.fold(sum, |sum, (entry, b)| sum - entry * b) * reciprocal(row[i]);
     }
 }
 
@@ -130,7 +134,7 @@ fn factor_and_solve(a: &mut [f64], b: &mut [f64], n: usize) -> bool {
         return false;
     }
     for b in b.chunks_exact_mut(n) {
-        solve_lower(a, n, b);
+        solve_lower(a, n, b, |reciprocal| reciprocal);
         // The columns of the transposed factor are the rows of the factor.
         for i in (0..n).rev() {
             let (before, rest) = b.split_at_mut(i);
@@ -187,23 +191,8 @@ pub(crate) fn solve_factored(a: &[f64], pivots: &[usize], b: &mut [f64]) {
     for (j, &pivot) in pivots.iter().enumerate() {
         b.swap(j, pivot);
     }
-    // As in `solve_lower`, with a diagonal of ones.
-    let whole = n / 4 * 4;
-    for i in (0..whole).step_by(4) {
-        let (known, own) = b.split_at_mut(i);
-        let sums = four_dots(std::array::from_fn(|k| &a[(i + k) * n..(i + k) * n + i]), known);
-        let line = |k: usize| &a[(i + k) * n + i..(i + k) * n + i + 4];
-        for k in 0..4 {
-            own[k] =
-                line(k)[..k].iter().zip(&own[..k]).fold(own[k] - sums[k], |sum, (entry, b)| sum - entry * b);
-        }
-    }
-    for i in whole..n {
-        let (row, (known, own)) = (&a[i * n..i * n + i], b.split_at_mut(whole));
-        let sum = own[i - whole] - dot(&row[..whole], known);
-        let late = row[whole..].iter().zip(&own[..i - whole]);
-        own[i - whole] = late.fold(sum, |sum, (entry, b)| sum - entry * b);
-    }
+    // the diagonal of L is one; its place has that of U
+    solve_lower(a, n, b, |_| 1.0);
     substitute(a, b);
 }
 

@@ -13,7 +13,7 @@ mod places;
 use super::nodes::Nodes;
 use crate::Error;
 use crate::contact::solver::Solver;
-use crate::contact::solver::follow::Followed;
+use crate::contact::solver::follow::{Followed, delay_of};
 use crate::mechanics::state::State;
 use factors::Factors;
 use places::{COUNT, SpringSlopes, slopes, sum_of, weights};
@@ -126,9 +126,9 @@ impl Penetrations {
         is_free.clear();
         self.delay = 0.0;
         for (r, &i) in contacts.iter().enumerate() {
-            let ([_, by_place, by_rate], compliance) =
-                (solver.law_of(i, from.p[i], from.p_rate[i]), start.own_compliance(r));
-            is_free.push(by_rate * compliance / (1.0 + by_place * compliance) < settled.min(QUICK * h));
+            let law = solver.law_of(i, from.p[i], from.p_rate[i]);
+            let [_, by_place, by_rate] = law;
+            is_free.push(delay_of(law, start.own_compliance(r)) < settled.min(QUICK * h));
             self.delay = self.delay.max(by_rate / by_place.max(0.0));
         }
         self.is_polynomial = is_even && h >= SHORT * self.delay;

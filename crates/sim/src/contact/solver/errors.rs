@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use super::follow::delay_of;
 use super::{RowKind, Solver};
 use crate::mechanics::state::State;
 use crate::numerics::dense::{along, dot};
@@ -178,11 +179,9 @@ impl Solver<'_> {
         }
     }
 
-    /// Time in which the penetration of vertical contact `i` follows its force, c G/(1 + k G).
+    /// Time in which the penetration of vertical contact `i` follows its force ([`delay_of`]).
     pub fn delay(&self, i: usize, at: &State) -> f64 {
-        let [_, by_place, by_rate] = self.law_of(i, at.p[i], at.p_rate[i]);
-        let compliance = self.geometry.own_compliance(i);
-        by_rate * compliance / (1.0 + by_place * compliance)
+        delay_of(self.law_of(i, at.p[i], at.p_rate[i]), self.geometry.own_compliance(i))
     }
 
     /// Fills the problem with W = G, and Y = G/h in the rows of contacts whose penetration is a state.

@@ -59,6 +59,11 @@ impl Followed {
     }
 }
 
+/// Time in which a penetration follows its force, c G/(1 + k G), under a law as [`Solver::law_of`] returns it.
+pub(crate) fn delay_of([_, by_place, by_rate]: [f64; 3], compliance: f64) -> f64 {
+    by_rate * compliance / (1.0 + by_place * compliance)
+}
+
 /// Replaces the contents of a vector.
 fn set<T>(out: &mut Vec<T>, values: impl Iterator<Item = T>) {
     out.clear();
