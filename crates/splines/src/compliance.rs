@@ -245,6 +245,12 @@ pub trait Compliance: Send + Sync {
     /// Whether `value[(i, j)]` = `value[(j, i)]` for all probes (Maxwell's reciprocal theorem). A solver may
     /// then compute half of the matrix.
     fn is_symmetric(&self) -> bool;
+
+    /// Whether, between two breaks of a rail, the place of a probe enters `value` by polynomials of at most the third degree, also
+    /// where another probe on the same rail element keeps its distance from it.
+    fn is_cubic(&self) -> bool {
+        false
+    }
 }
 
 /// Displacements of fixed places under loads that change from call to call, made by [`Compliance::at_places`].

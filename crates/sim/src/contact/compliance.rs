@@ -1,8 +1,9 @@
 //! Compliance of the massless rails at the wheels, evaluated only as often as the accuracy requires.
 //!
-//! For each structure, the first applicable rule is used. 1. If a path has been set for the next steps and the wheels
-//! are near it, G is interpolated along it ([`CompliancePath`]). 2. If every wheel is within a tolerance distance of
-//! its position at the last evaluation, G is extrapolated by its slope, G + dG/dx dx. 3. Otherwise G is evaluated.
+//! For each structure, the first applicable rule is used. 1. If the wheels move together as prescribed, and G is known as
+//! polynomials of their way, these are evaluated ([`PrescribedPath`]). 2. If a path has been set for the next steps and the
+//! wheels are near it, G is interpolated along it ([`CompliancePath`]). 3. If every wheel is within a tolerance distance of
+//! its position at the last evaluation, G is extrapolated by its slope, G + dG/dx dx. 4. Otherwise G is evaluated.
 //! Both tolerance distances are zero until an accuracy is set.
 //!
 //! A drive or a brake may act on several structures that are loaded along their rails. Its row of G is then the sum of what
@@ -13,6 +14,7 @@ use splines::{Influence, Probe};
 use super::candidates::Candidates;
 use super::matrices::RailMatrices;
 use super::path::{CompliancePath, PathLimits, between};
+use super::prescribed::PrescribedPath;
 use super::probes::{Entry, Probes};
 use crate::Error;
 use crate::mechanics::assembly::Mechanics;
@@ -49,7 +51,8 @@ struct Provider {
     probes: Vec<Probe>,
     moved: Vec<f64>,
     path: Option<CompliancePath>,
-    /// Whether the matrices were interpolated along the path.
+    prescribed: Option<PrescribedPath>,
+    /// Whether the matrices were interpolated along a path.
     is_on_path: bool,
     is_evaluated: bool,
 }
@@ -62,12 +65,13 @@ impl RailCompliance {
         let has_shared_rows = compliant
             .flat_map(|(s, entries)| entries.iter().map(move |entry| (s, entry.element)))
             .any(|(s, element)| bears[element].replace(s).is_some_and(|other| other != s));
-        let own = std::iter::zip(mechanics.foundations, &probes.entries);
-        let providers = own.map(|(foundation, entries)| Provider {
+        let own = mechanics.foundations.iter().zip(&probes.entries).zip(&probes.is_direct);
+        let providers = own.map(|((foundation, entries), is_direct)| Provider {
             influence: Influence::zeros(entries.len()),
             probes: entries.iter().map(|entry| entry.probe).collect(),
             moved: vec![0.0; entries.len()],
             path: if has_shared_rows { None } else { CompliancePath::new(mechanics, foundation, entries) },
+            prescribed: if *is_direct { PrescribedPath::new(mechanics, foundation, entries) } else { None },
             is_on_path: false,
             is_evaluated: false,
         });
@@ -101,7 +105,16 @@ impl RailCompliance {
 
     /// Whether interpolation along paths is useful.
     pub fn wants_paths(&self) -> bool {
-        self.path.beside != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
+        self.path.beside != 0.0 && self.providers.iter().any(Provider::wants_path)
+    }
+
+    /// Takes the polynomials along the prescribed ways of the wheels that `other` has found.
+    pub fn take_paths(&mut self, other: &RailCompliance) {
+        for (own, other) in self.providers.iter_mut().zip(&other.providers) {
+            if let (Some(own), Some(other)) = (&mut own.prescribed, &other.prescribed) {
+                own.take(other);
+            }
+        }
     }
 
     /// Updates the rows of G of the `elements` to the rail coordinates `x` of all wheels. The columns of other elements
@@ -121,6 +134,10 @@ impl RailCompliance {
         let mut has_stale_sums = false;
         for (s, (provider, entries)) in providers.iter_mut().zip(&probes.entries).enumerate() {
             let Some(compliance) = &mechanics.foundations[s].compliance else { continue };
+            if provider.prescribed.as_ref().is_some_and(|path| path.follow(entries, x, matrices)) {
+                provider.is_on_path = true;
+                continue;
+            }
             if let Some(path) = &mut provider.path
                 && path.follow(x, limits.beside, elements, (m, matrices))
             {
@@ -142,6 +159,9 @@ impl RailCompliance {
                     .fill(&provider.probes, &mut provider.influence)
                     .map_err(|source| Error::Compliance { structure: s, source })?;
                 provider.is_evaluated = true;
+                if let Some(path) = &mut provider.prescribed {
+                    path.note(mechanics, s, compliance.as_ref(), entries, x);
+                }
             }
             if *has_shared_rows {
                 has_stale_sums = true;
@@ -168,6 +188,9 @@ impl RailCompliance {
         let reach = limits.beside;
         for (s, (provider, entries)) in self.providers.iter_mut().zip(&probes.entries).enumerate() {
             let foundation = &mechanics.foundations[s];
+            if !provider.wants_path() {
+                continue;
+            }
             let Some(path) = &mut provider.path else { continue };
             if path.leads_to(from, reach) && path.leads_to(to, reach) {
                 continue;
@@ -212,6 +235,11 @@ impl RailCompliance {
 }
 
 impl Provider {
+    /// Whether interpolation along a path is useful: the compliance is no polynomial of a prescribed way.
+    fn wants_path(&self) -> bool {
+        self.path.is_some() && !self.prescribed.as_ref().is_some_and(PrescribedPath::is_polynomial)
+    }
+
     /// Updates the distances of the wheels at `x` from the last evaluation. Returns the largest distance in wheel
     /// radii, and whether the matrices are out of date.
     fn move_to(&mut self, mechanics: &Mechanics, entries: &[Entry], x: &[f64]) -> (f64, bool) {

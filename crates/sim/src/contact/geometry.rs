@@ -530,6 +530,11 @@ impl Geometry {
         self.rails.set_paths(mechanics, &system.probes, places.each_ref().map(Vec::as_slice));
     }
 
+    /// Takes what `other` knows of the compliance along the prescribed ways of the wheels ([`RailCompliance::take_paths`]).
+    pub fn take_paths(&mut self, other: &Geometry) {
+        self.rails.take_paths(&other.rails);
+    }
+
     /// Removes the path of the compliance of structure `s`.
     pub fn clear_path(&mut self, s: usize) {
         self.rails.clear_path(s);

@@ -25,6 +25,7 @@ pub(crate) mod grip;
 pub(crate) mod matrices;
 pub(crate) mod path;
 pub(crate) mod places;
+pub(crate) mod prescribed;
 pub(crate) mod probes;
 pub(crate) mod projection;
 pub(crate) mod rope;

@@ -36,12 +36,24 @@ impl RailBreaks {
         a: f64,
         b: f64,
     ) -> impl ExactSizeIterator<Item = f64> + '_ {
-        let all = self.sorted.get(structure).and_then(|rails| rails.get(rail)).map_or(&[][..], Vec::as_slice);
+        let all = self.of_rail(structure, rail);
         let (low, high) = (a.min(b), a.max(b));
         let from = &all[all.partition_point(|x| *x < low)..];
         let found = &from[..from.partition_point(|x| *x <= high)];
         let last = found.len().saturating_sub(1);
         (0..found.len()).map(move |k| if a <= b { found[k] } else { found[last - k] })
+    }
+
+    /// Breaks of `rail` of `structure` next before and behind `x`; `None` where `x` is at a break or beyond all.
+    pub fn around(&self, structure: usize, rail: usize, x: f64) -> Option<[f64; 2]> {
+        let all = self.of_rail(structure, rail);
+        let behind = all.partition_point(|own| *own < x);
+        let bounds = [*all.get(behind.checked_sub(1)?)?, *all.get(behind)?];
+        (bounds[1] > x).then_some(bounds)
+    }
+
+    fn of_rail(&self, structure: usize, rail: usize) -> &[f64] {
+        self.sorted.get(structure).and_then(|rails| rails.get(rail)).map_or(&[][..], Vec::as_slice)
     }
 }
 
@@ -65,5 +77,9 @@ mod tests {
         assert_eq!(of(f64::NAN, f64::NAN), [0.0; 0]);
         assert_eq!(breaks.between(0, 0, 0.0, 10.0).len(), 0);
         assert_eq!(breaks.between(1, 1, 0.0, 10.0).len(), 0);
+        let around = |x: f64| breaks.around(1, 0, x);
+        assert_eq!([1.5, 4.0, 8.9].map(around), [Some([1.0, 2.0]), Some([3.0, 5.0]), Some([5.0, 9.0])]);
+        assert_eq!([0.5, 1.0, 3.0, 9.0, 9.5, f64::NAN].map(around), [None; 6]);
+        assert_eq!([breaks.around(0, 0, 1.5), breaks.around(1, 1, 1.5)], [None; 2]);
     }
 }

@@ -8,6 +8,7 @@
 //! solved by elimination, others by Newton's method.
 
 use nalgebra::DVector;
+use smallvec::SmallVec;
 
 use crate::contact::geometry::Geometry;
 use crate::contact::solver::Solver;
@@ -68,6 +69,10 @@ const STORED: usize = 12;
 /// Number of nodes up to which the polynomials through displacement, speed and acceleration at both ends of a step are of
 /// a higher order than the motion by the polynomials of the accelerations at the nodes.
 const FEW: usize = 3;
+
+/// Places of a step, and contacts at all of its nodes, for which no memory is allocated.
+const FEW_PLACES: usize = 12;
+const FEW_CONTACTS: usize = 32;
 
 /// Error of a penetration rate at the end of a step, per unit of the difference from its extrapolation.
 const RATE_SHARE: f64 = 0.05;
@@ -190,7 +195,9 @@ impl Collocation {
         for a in 0..s {
             let t = (from.t + self.nodes.c[a] * h).min(limit.next_down());
             self.states[a].t = t;
-            self.geometries[a].set_pieces(&solver.geometry().places().piece);
+            let (before, own) = self.geometries.split_at_mut(a);
+            own[0].set_pieces(&solver.geometry().places().piece);
+            own[0].take_paths(before.last().unwrap_or(solver.geometry()));
             self.geometries[a].update(solver.system(), t, &from.q, &from.force)?;
             if !(self.projection.is_filled && self.loads.is_steady) {
                 self.loads.free[a].copy_from(solver.free_accelerations(t));
@@ -297,26 +304,28 @@ impl Collocation {
 
     /// Places in the step just taken, as fractions of it, with the largest force by which a vertical contact has exceeded its
     /// limit of opening or closing there: the nodes and, by the polynomials through these, the middles between them.
-    pub fn excesses(&self, solver: &Solver) -> Vec<(f64, f64)> {
+    pub fn excesses(&self, solver: &Solver) -> SmallVec<[(f64, f64); FEW_PLACES]> {
         let (s, count) = (self.count(), solver.system().verticals());
         // The solver has that of the last node, if this is the end of the step.
         let last = if self.nodes.c[s - 1] < 1.0 { &self.geometries[s - 1] } else { solver.geometry() };
         let geometries = self.geometries[..s - 1].iter().chain([last]);
-        let mut excess = Vec::with_capacity(s * count);
+        let mut excess = SmallVec::<[f64; FEW_CONTACTS]>::with_capacity(s * count);
         for (geometry, state) in geometries.zip(&self.states) {
             let frame = geometry.frame(solver.system(), state);
             excess.extend((0..count).map(|i| solver.excess(i, &frame)));
         }
-        let largest = |all: &mut dyn Iterator<Item = f64>| all.fold(f64::NEG_INFINITY, f64::max);
-        let at_middle = |weights: &[f64]| {
-            let of =
-                |i: usize| weights.iter().enumerate().map(|(b, weight)| weight * excess[b * count + i]).sum();
-            largest(&mut (0..count).map(of).filter(|excess: &f64| excess.is_finite()))
-        };
-        let nodes = (0..s)
-            .map(|b| (self.nodes.c[b], largest(&mut excess[b * count..(b + 1) * count].iter().copied())));
-        let middles = self.nodes.middles.iter().map(|(share, weights)| (*share, at_middle(weights)));
-        nodes.chain(middles).collect()
+        let largest = |largest: f64, own: f64| if own.is_finite() { largest.max(own) } else { largest };
+        let nodes = self.nodes.c.iter().zip(excess.chunks_exact(count.max(1)));
+        let at_nodes =
+            nodes.map(|(share, excess)| (*share, excess.iter().copied().fold(f64::NEG_INFINITY, f64::max)));
+        let at_middles = self.nodes.middles.iter().map(|(share, weights)| {
+            let of = |i: usize| {
+                let nodes = excess.iter().skip(i).step_by(count).zip(weights);
+                nodes.map(|(excess, weight)| weight * excess).sum()
+            };
+            (*share, (0..count).map(of).fold(f64::NEG_INFINITY, largest))
+        });
+        at_nodes.chain(at_middles).collect()
     }
 
     /// Sets the modes of `at` to their values at the fraction `share` of the step just taken from `from`. They are

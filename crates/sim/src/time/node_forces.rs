@@ -54,6 +54,8 @@ pub(crate) struct NodeForces {
     rate_effect: Vec<f64>,
     /// R S^T for approaches and rates, where it is the same for all nodes: elements x active contacts.
     constant: [Vec<f64>; 2],
+    /// A row of the approach or of its rate by the loads at one node.
+    by_load: Vec<f64>,
     matrix: Vec<f64>,
     /// Right sides and solutions: the unknown forces.
     right: Vec<f64>,
@@ -116,6 +118,7 @@ impl NodeForces {
             effect: Vec::new(),
             rate_effect: Vec::new(),
             constant: Default::default(),
+            by_load: Vec::new(),
             matrix: Vec::new(),
             right: Vec::new(),
             tangents: Vec::new(),
@@ -236,41 +239,49 @@ impl NodeForces {
                 }
             }
         }
-        let (mut by_load, mut by_load_rate) = (vec![0.0; n], vec![0.0; n]);
-        self.effect.clear();
-        self.rate_effect.clear();
-        for a in 0..s {
-            let geometry = &motion.geometries[a];
-            for i in 0..m {
+        let (count, width) = (active.len(), s * active.len());
+        for effects in [&mut self.effect, &mut self.rate_effect] {
+            effects.clear();
+            effects.resize(s * m * width, 0.0);
+        }
+        let mut lines =
+            self.effect.chunks_exact_mut(width.max(1)).zip(self.rate_effect.chunks_exact_mut(width.max(1)));
+        for (a, geometry) in motion.geometries.iter().enumerate() {
+            let rows = geometry.rows();
+            for (i, (effect, rate_effect)) in lines.by_ref().take(m).enumerate() {
                 let feels_rates = system.fixed[i].feels_rates;
-                let own = i * active.len()..(i + 1) * active.len();
                 for b in 0..s {
-                    let first = self.effect.len();
+                    let own = b * count..(b + 1) * count;
+                    let (effect, rate_effect) = (&mut effect[own.clone()], &mut rate_effect[own]);
                     if is_constant {
                         let [by_q, by_v] = motion.responses(a, b)[0];
                         let [approach, rate] =
-                            self.constant.each_ref().map(|constant| &constant[own.clone()]);
-                        self.effect.extend(approach.iter().map(|approach| by_q * approach));
-                        self.rate_effect.extend(rate.iter().map(|rate| by_v * rate));
-                    } else {
-                        let rows = geometry.rows().approach_row(i).iter().zip(geometry.rows().rate_row(i));
-                        let own = by_load.iter_mut().zip(by_load_rate.iter_mut());
-                        for ((load, load_rate), ((row, rate_row), [by_q, by_v])) in
-                            own.zip(rows.zip(motion.responses(a, b)))
-                        {
-                            (*load, *load_rate) = (row * by_q, rate_row * by_v);
+                            self.constant.each_ref().map(|own| &own[i * count..(i + 1) * count]);
+                        effect.iter_mut().zip(approach).for_each(|(effect, own)| *effect = by_q * own);
+                        if feels_rates {
+                            rate_effect.iter_mut().zip(rate).for_each(|(effect, own)| *effect = by_v * own);
                         }
-                        self.effect.extend(active.iter().map(|&j| dot(&by_load, motion.spread(b, j))));
-                        self.rate_effect.extend(active.iter().map(|&j| {
-                            if feels_rates { dot(&by_load_rate, motion.spread(b, j)) } else { 0.0 }
-                        }));
+                        continue;
                     }
-                    if a == b {
-                        let compliance = &geometry.rails().value[i * m..(i + 1) * m];
-                        for (effect, &j) in self.effect[first..].iter_mut().zip(active) {
-                            *effect += compliance[j];
+                    let terms = || motion.responses(a, b).iter();
+                    let by_load = rows.approach_row(i).iter().zip(terms()).map(|(row, [by_q, _])| row * by_q);
+                    self.by_load.clear();
+                    self.by_load.extend(by_load);
+                    for (effect, &j) in effect.iter_mut().zip(active) {
+                        *effect = dot(&self.by_load, motion.spread(b, j));
+                    }
+                    if feels_rates {
+                        let by_load = rows.rate_row(i).iter().zip(terms()).map(|(row, [_, by_v])| row * by_v);
+                        self.by_load.clear();
+                        self.by_load.extend(by_load);
+                        for (effect, &j) in rate_effect.iter_mut().zip(active) {
+                            *effect = dot(&self.by_load, motion.spread(b, j));
                         }
                     }
+                }
+                let compliance = &geometry.rails().value[i * m..(i + 1) * m];
+                for (effect, &j) in effect[a * count..(a + 1) * count].iter_mut().zip(active) {
+                    *effect += compliance[j];
                 }
             }
         }

@@ -16,7 +16,7 @@ use crate::contact::solver::Solver;
 use crate::contact::solver::follow::{Followed, delay_of};
 use crate::mechanics::state::State;
 use factors::Factors;
-use places::{COUNT, SpringSlopes, slopes, sum_of, weights};
+use places::{COUNT, SpringPolynomial, slopes, sum_of, values, weights};
 
 /// Number of iterations at most; with the factors of all places linear laws need one or two.
 const ITERATIONS: usize = 12;
@@ -243,31 +243,40 @@ impl Penetrations {
         }
     }
 
-    /// Sets the penetration rates of the interpolated state `at`, at the fraction `share` of the step.
+    /// Sets the penetration rates of the interpolated state `at`, at the fraction `share` of the step, and the penetrations
+    /// themselves where those of the springs follow a polynomial; returns whether these are known for all active contacts.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
-    pub fn set_rates(&mut self, solver: &mut Solver, share: f64, at: &mut State) -> Result<(), Error> {
+    pub fn set_rates(&mut self, solver: &mut Solver, share: f64, at: &mut State) -> Result<bool, Error> {
         if self.contacts.is_empty() {
-            return Ok(());
+            return Ok(false);
         }
         if !self.is_polynomial {
             solver.update(at)?;
             if !solver.follow(at, &self.contacts, &self.stiffness, &mut self.at_sample) {
-                return Ok(());
+                return Ok(false);
             }
         }
-        let slopes = slopes(share);
-        let springs = SpringSlopes::new(share, &slopes);
-        for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
+        let (values, slopes) = (values(share), slopes(share));
+        let springs = SpringPolynomial::new(share, &values, &slopes);
+        let mut are_known = self.is_polynomial;
+        for (r, &i) in self.contacts.iter().enumerate() {
+            if !solver.remembers(i) {
+                are_known = false;
+                continue;
+            }
+            let own = &self.differences[r];
             let by_springs = if self.is_polynomial {
-                springs.rate(&self.followed, r, self.h)
+                let [value, rate] = springs.at(&self.followed, r, self.h);
+                at.p[i] = value + sum_of(&values, own);
+                rate
             } else {
                 self.at_sample.rate[r]
             };
-            at.p_rate[i] = by_springs + sum_of(&slopes, &self.differences[r]) / self.h;
+            at.p_rate[i] = by_springs + sum_of(&slopes, own) / self.h;
         }
-        Ok(())
+        Ok(are_known)
     }
 }
 

@@ -292,11 +292,11 @@ impl<'a, 'b> Step<'a, 'b> {
     }
 
     /// Sets `at` to the interpolant of the step just taken, at the given fraction. The rates of penetrations under
-    /// dampers between wheel and rail follow from the motion ([`Penetrations`]).
+    /// dampers between wheel and rail follow from the motion ([`Penetrations`]); returns whether all penetrations do.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
-    pub fn sample(&mut self, fraction: f64, at: &mut State) -> Result<(), Error> {
+    pub fn sample(&mut self, fraction: f64, at: &mut State) -> Result<bool, Error> {
         if !self.penetrations.is_known() {
             self.find_penetrations(at)?;
         }

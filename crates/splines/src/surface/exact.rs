@@ -342,6 +342,10 @@ impl Compliance for ExactSurface {
     fn is_symmetric(&self) -> bool {
         true
     }
+
+    fn is_cubic(&self) -> bool {
+        true
+    }
 }
 
 impl Differentiable for ExactSurface {

@@ -70,8 +70,11 @@ impl Solver<'_> {
             let Ringing { periods, amplitude } = ringing[k];
             (repeated * periods * error).min(RINGING * (amplitude * place).abs()).max(least * error)
         };
-        let zeros = || vec![[0.0; 2]; out.len()];
-        let (mut now, mut later, mut own) = (zeros(), zeros(), zeros());
+        let [mut now, mut later, mut own] = std::mem::take(&mut self.state_errors);
+        for errors in [&mut now, &mut later, &mut own] {
+            errors.clear();
+            errors.resize(out.len(), [0.0; 2]);
+        }
         for &i in &self.problem.sought {
             let tilted = system.mechanics.moves_freely && !system.fixed[i].is_tangential;
             let place = &(if tilted { &rows.force } else { &rows.approach })[i * n..(i + 1) * n];
@@ -96,12 +99,12 @@ impl Solver<'_> {
         }
         let (local, active) = (self.geometry.local(), self.active.flags());
         // The last stage ends with its laws evaluated, and with the factors of its problem, unless this was linear.
-        let is_solved = self.factored_for.take().is_some() && self.problem.is_factored();
-        let is_current = is_staged && is_solved;
-        if !(is_current || self.problem.linearise(system, local, active, &at.force)) {
-            return false;
-        }
-        self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out)
+        let is_factored = self.factored_for.take().is_some() && self.problem.is_factored();
+        let is_current = is_staged && is_factored;
+        let is_solved = (is_current || self.problem.linearise(system, local, active, &at.force))
+            && self.problem.add_responses([(&now, bounces), (&later, bounces), (&own, 1.0)], out);
+        self.state_errors = [now, later, own];
+        is_solved
     }
 
     /// Sets the `frequency` of each degree of freedom, or 0 where it has none, and returns the largest number of bounces
@@ -147,6 +150,9 @@ impl Solver<'_> {
     /// amplitude ((q''/omega^2)^2 + (q'/omega)^2)^(1/2). The geometry must belong to the end. `is_staged` says that the step
     /// has stages.
     pub fn ringing(&self, ends: [&State; 2], end: f64, is_staged: bool, out: &mut [Ringing]) {
+        if self.system.mechanics.omegas.iter().all(Option::is_none) {
+            return;
+        }
         let most = PERIODS[usize::from(is_staged)];
         let (mechanics, n, at) = (&self.system.mechanics, out.len(), ends[1]);
         let wheels: Vec<(&[f64], f64, f64)> = (0..self.system.verticals())

@@ -3,6 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::Solver;
+use crate::Error;
 use crate::mechanics::state::State;
 use crate::numerics::lu::LuFactors;
 
@@ -130,6 +131,34 @@ impl Solver<'_> {
         };
         set(rate, contacts.iter().enumerate().map(rate_of));
         factors.solve(rate)
+    }
+
+    /// Sets the forces to those of the laws at the penetrations of `at` and their rates, and the accelerations to those by these
+    /// forces. Returns false if elements other than active vertical contacts may have forces, if one of these must open, or if
+    /// rows depend on the forces.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails.
+    pub fn apply_laws(&mut self, at: &mut State) -> Result<bool, Error> {
+        let (system, count) = (self.system, self.system.elements.len());
+        let is_simple = system.traits.has_constant_rows && count == system.verticals();
+        if !(is_simple && (0..count).all(|i| self.active.has(i))) {
+            return Ok(false);
+        }
+        self.update(at)?;
+        for i in 0..count {
+            // a rigid rail has no deflection, not one by rounding
+            if self.geometry.own_compliance(i) == 0.0 {
+                at.p[i] = self.geometry.approach(i, &at.q);
+            }
+            at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
+            if self.opens(i, at) {
+                return Ok(false);
+            }
+        }
+        self.update_rail_slope(at);
+        self.free.accelerate(system, at, &self.geometry.rows().force)?;
+        Ok(true)
     }
 
     /// Whether a damper acts between the wheel of active vertical contact `i` and a rail with mass, or a rigid one.

@@ -61,6 +61,8 @@ pub(crate) struct Solver<'a> {
     evaluated: Evaluated,
     convergence: Convergence,
     rail_memory: RailMemory,
+    /// Working memory: errors of approaches and rates that add up now, a quarter of a period later, and on their own.
+    state_errors: [Vec<[f64; 2]>; 3],
 }
 
 impl<'a> Solver<'a> {
@@ -84,6 +86,7 @@ impl<'a> Solver<'a> {
             },
             convergence: Convergence::default(),
             rail_memory,
+            state_errors: Default::default(),
         })
     }
 

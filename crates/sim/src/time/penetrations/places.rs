@@ -47,36 +47,46 @@ pub fn sum_of(weights: &[f64; COUNT], values: &[f64; COUNT]) -> f64 {
     weights.iter().zip(values).map(|(weight, value)| weight * value).sum()
 }
 
-/// Weights of the derivative of the polynomial of the seventh degree through the values, per unit of the step, and the rates at
-/// the places: with the Lagrange polynomials l_j of the places x_j it is the sum over j of
-///
-/// (1 - 2 l_j'(x_j) (x - x_j)) l_j^2 value_j + (x - x_j) l_j^2 rate_j.
-pub struct SpringSlopes {
-    by_value: [f64; COUNT],
-    by_rate: [f64; COUNT],
+/// Values at `share` of the cubic Lagrange polynomials through the places.
+pub fn values(share: f64) -> [f64; COUNT] {
+    let away = PLACES.map(|place| share - place);
+    std::array::from_fn(|j| OTHERS[j].iter().fold(SCALE[j], |product, other| product * away[*other]))
 }
 
-impl SpringSlopes {
-    /// Those at the fraction `share` of the step, where the Lagrange polynomials have these `slopes`.
-    pub fn new(share: f64, slopes: &[f64; COUNT]) -> SpringSlopes {
-        let away = PLACES.map(|place| share - place);
-        let parts: [[f64; 2]; COUNT] = std::array::from_fn(|j| {
-            let own = weights()[j][j];
-            let value = OTHERS[j].iter().fold(SCALE[j], |product, other| product * away[*other]);
-            let square_slope = 2.0 * value * slopes[j];
-            [
-                (1.0 - 2.0 * own * away[j]) * square_slope - 2.0 * own * value * value,
-                away[j] * square_slope + value * value,
-            ]
-        });
-        SpringSlopes { by_value: parts.map(|part| part[0]), by_rate: parts.map(|part| part[1]) }
+/// Weights of the polynomial of the seventh degree through the values, and the rates at the places, and of its derivative per
+/// unit of the step: with the Lagrange polynomials l_j of the places x_j it is the sum over j of
+///
+/// (1 - 2 l_j'(x_j) (x - x_j)) l_j^2 value_j + (x - x_j) l_j^2 rate_j.
+pub struct SpringPolynomial {
+    /// By values and by rates.
+    value: [[f64; COUNT]; 2],
+    slope: [[f64; COUNT]; 2],
+}
+
+impl SpringPolynomial {
+    /// The weights at the fraction `share` of the step, where the Lagrange polynomials have these `values` and `slopes`.
+    pub fn new(share: f64, values: &[f64; COUNT], slopes: &[f64; COUNT]) -> SpringPolynomial {
+        let mut made = SpringPolynomial { value: [[0.0; COUNT]; 2], slope: [[0.0; COUNT]; 2] };
+        for j in 0..COUNT {
+            let (away, own, value) = (share - PLACES[j], weights()[j][j], values[j]);
+            let (square, square_slope) = (value * value, 2.0 * value * slopes[j]);
+            let by_value = 1.0 - 2.0 * own * away;
+            (made.value[0][j], made.value[1][j]) = (by_value * square, away * square);
+            made.slope[0][j] = by_value * square_slope - 2.0 * own * square;
+            made.slope[1][j] = away * square_slope + square;
+        }
+        made
     }
 
-    /// Rate of the spring of contact `r` in a step of length `h`.
-    pub fn rate(&self, followed: &[Followed; COUNT], r: usize, h: f64) -> f64 {
-        let by_value = followed.iter().zip(self.by_value).map(|(node, weight)| weight * node.value[r]);
-        let by_rate = followed.iter().zip(self.by_rate).map(|(node, weight)| weight * node.rate[r]);
-        by_value.sum::<f64>() / h + by_rate.sum::<f64>()
+    /// Penetration of the spring of contact `r` and its rate in a step of length `h`.
+    pub fn at(&self, followed: &[Followed; COUNT], r: usize, h: f64) -> [f64; 2] {
+        let sum = |[by_value, by_rate]: &[[f64; COUNT]; 2]| {
+            let of_values = followed.iter().zip(by_value).map(|(node, weight)| weight * node.value[r]);
+            let of_rates = followed.iter().zip(by_rate).map(|(node, weight)| weight * node.rate[r]);
+            [of_values.sum::<f64>(), of_rates.sum::<f64>()]
+        };
+        let ([by_values, by_rates], [slope_by_values, slope_by_rates]) = (sum(&self.value), sum(&self.slope));
+        [by_values + h * by_rates, slope_by_values / h + slope_by_rates]
     }
 }
 
@@ -84,9 +94,9 @@ impl SpringSlopes {
 mod tests {
     use super::*;
 
-    /// Identity: the derivative of a polynomial of the seventh degree from its values and derivatives at the places.
+    /// Identity: a polynomial of the seventh degree, and its derivative, from its values and derivatives at the places.
     #[test]
-    fn rates_of_springs_between_the_places_are_those_of_their_polynomial() {
+    fn springs_between_the_places_follow_their_polynomial() {
         let (value, rate) =
             (|x: f64| x.powi(7) - 2.0 * x.powi(4) + x, |x: f64| 7.0 * x.powi(6) - 8.0 * x.powi(3) + 1.0);
         let h = 0.25;
@@ -96,8 +106,10 @@ mod tests {
             node
         });
         for share in [0.0, 0.1, 0.4, PLACES[2], 0.9, 1.0] {
-            let found = SpringSlopes::new(share, &slopes(share)).rate(&followed, 0, h);
-            assert!((found - rate(share) / h).abs() < 1e-12 / h, "{share}: {found}");
+            let polynomial = SpringPolynomial::new(share, &values(share), &slopes(share));
+            let [found, found_rate] = polynomial.at(&followed, 0, h);
+            assert!((found - value(share)).abs() < 1e-13, "{share}: {found}");
+            assert!((found_rate - rate(share) / h).abs() < 1e-12 / h, "{share}: {found_rate}");
         }
     }
 }
