@@ -3,6 +3,7 @@
 //! Both are computed at nodes of each member under a rail by the effects of the frame ([`crate::response::inertia`]). Between the
 //! nodes, shear, normal force and torsion are linear, and a moment is the cubic with the slopes of its shear.
 
+use nalgebra::DVectorView;
 use trains::{GirderResponse, MemberForces};
 
 use super::sections::Sections;
@@ -33,8 +34,11 @@ struct MemberNodes {
     /// Distances from the first end of the member.
     places: Vec<f64>,
     dead: Vec<Quantities>,
-    /// By node: quantities per unit acceleration of each degree of freedom, with the sign of inertia.
-    inertia: Vec<Vec<Quantities>>,
+    /// Quantities that inertia changes anywhere on the member.
+    moved: Vec<usize>,
+    /// By node: each of these per unit acceleration of the degrees of freedom, with the sign of inertia, one quantity after the
+    /// other.
+    inertia: Vec<Vec<f64>>,
 }
 
 impl DistributedForces {
@@ -71,15 +75,22 @@ impl DistributedForces {
         let inertia = inertia(&effects, built.basis.as_ref(), solved)?;
         let mut first = 0;
         for (index, node) in nodes.iter_mut().enumerate() {
+            let mut by_dof = Vec::with_capacity(node.places.len());
             for _ in 0..node.places.len() {
                 let own = std::array::from_fn(|k| weight[first + k]);
                 node.dead.push(members.quantities(index, own));
                 let per_dof = (0..inertia.ncols()).map(|dof| {
                     members.quantities(index, std::array::from_fn(|k| 0.0 - inertia[(first + k, dof)]))
                 });
-                node.inertia.push(per_dof.collect());
+                by_dof.push(per_dof.collect::<Vec<Quantities>>());
                 first += FORCES;
             }
+            let is_moved = |k: &usize| by_dof.iter().flatten().any(|own| own[*k] != 0.0);
+            node.moved = (0..FORCES).filter(is_moved).collect();
+            let by_quantity = |own: &Vec<Quantities>| {
+                node.moved.iter().flat_map(|k| own.iter().map(|own| own[*k])).collect()
+            };
+            node.inertia = by_dof.iter().map(by_quantity).collect();
         }
         Ok(DistributedForces { members: nodes })
     }
@@ -91,11 +102,12 @@ impl DistributedForces {
 
     /// Whether each quantity is not zero throughout.
     pub fn acting(&self) -> [bool; FORCES] {
-        let nodes =
-            self.members.iter().flat_map(|member| member.dead.iter().chain(member.inertia.iter().flatten()));
         let mut out = [false; FORCES];
-        for values in nodes {
-            out.iter_mut().zip(values).for_each(|(out, value)| *out |= *value != 0.0);
+        for member in &self.members {
+            member.moved.iter().for_each(|k| out[*k] = true);
+            for values in &member.dead {
+                out.iter_mut().zip(values).for_each(|(out, value)| *out |= *value != 0.0);
+            }
         }
         for (moment, shear) in SLOPES {
             out[moment as usize] |= out[shear as usize];
@@ -108,8 +120,12 @@ impl DistributedForces {
         let nodes = &self.members[member];
         nodes.between(place, |node| {
             let mut out = nodes.dead[node];
-            for (per, a) in nodes.inertia[node].iter().zip(accelerations) {
-                out.iter_mut().zip(per).for_each(|(sum, value)| *sum += value * a);
+            // no accelerations are known where none were recorded
+            let known = DVectorView::from_slice(accelerations, accelerations.len());
+            if !accelerations.is_empty() {
+                for (k, per) in nodes.moved.iter().zip(nodes.inertia[node].chunks_exact(known.len())) {
+                    out[*k] += DVectorView::from_slice(per, per.len()).dot(&known);
+                }
             }
             out
         })

@@ -111,7 +111,7 @@ impl LoadState<'_> {
         match &self.values {
             StateValues::Row(values) => Cow::Borrowed(&values[range]),
             StateValues::Limit(values) => Cow::Borrowed(&values[range]),
-            StateValues::Between(between) => Cow::Owned(range.map(|c| between.value(c)).collect()),
+            StateValues::Between(between) => Cow::Owned(between.values(range)),
         }
     }
 }
@@ -443,17 +443,18 @@ struct Between<'a> {
 impl Between<'_> {
     /// Value `c` of a row.
     fn value(&self, c: usize) -> f64 {
-        if c == 0 {
-            return self.time;
-        }
+        if c == 0 { self.time } else { self.value_by(c, 0) }
+    }
+
+    /// Value `c` of a row by the polynomials from number `first` on.
+    fn value_by(&self, c: usize, first: usize) -> f64 {
         let [from, to] = self.ends.map(|row| row[c]);
         // all polynomials have one of both ends, and no value beside a zero
-        let is_open = from == 0.0 && to == 0.0;
-        for (start, cubic) in self.starts.iter().zip(&self.cubics).filter(|_| !is_open) {
-            let start = || start.filter(|start| self.states.is_clear(*start));
-            let make = || start().map(|start| Cubic::new(self.states.four(start), self.time));
-            if let Some(value) = cubic.get_or_init(make).as_ref().and_then(|cubic| cubic.value(c)) {
-                return value;
+        if from != 0.0 || to != 0.0 {
+            for number in first..self.starts.len() {
+                if let Some(value) = self.cubic(number).and_then(|cubic| cubic.value(c)) {
+                    return value;
+                }
             }
         }
         match self.is_after.filter(|_| self.states.may_jump[c]) {
@@ -461,6 +462,18 @@ impl Between<'_> {
             Some(true) => to,
             None => from + self.fraction * (to - from),
         }
+    }
+
+    /// Values of a range of motions.
+    fn values(&self, range: Range<usize>) -> Vec<f64> {
+        let best = self.cubic(0);
+        range.map(|c| best.and_then(|best| best.value(c)).unwrap_or_else(|| self.value_by(c, 1))).collect()
+    }
+
+    fn cubic(&self, number: usize) -> Option<&Cubic<'_>> {
+        let start = || self.starts[number].filter(|start| self.states.is_clear(*start));
+        let make = || start().map(|start| Cubic::new(self.states.four(start), self.time));
+        self.cubics[number].get_or_init(make).as_ref()
     }
 }
 
@@ -486,18 +499,19 @@ impl<'a> Cubic<'a> {
     /// The value of channel `c`; `None` where it has a jump or a corner, or where the rows are so uneven that the polynomial
     /// leaves their range. A value that is exactly zero is a force of a contact that is open, and there is a corner beside it.
     fn value(&self, c: usize) -> Option<f64> {
-        if self.rows.iter().any(|row| row[c] == 0.0) {
+        let values = self.rows.map(|row| row[c]);
+        if values.contains(&0.0) {
             return None;
         }
-        let slope = |i: usize| (self.rows[i + 1][c] - self.rows[i][c]) * self.rates[i];
+        let slope = |i: usize| (values[i + 1] - values[i]) * self.rates[i];
         let [a, b, d] = [slope(0), slope(1), slope(2)];
         if (d - 2.0 * b + a).abs() > CORNER * (a.abs() + d.abs()) {
             return None;
         }
-        let values = self.rows.map(|row| row[c]);
         let value: f64 = values.iter().zip(self.weights).map(|(value, weight)| weight * value).sum();
-        let low = values.iter().fold(values[0], |low, value| low.min(*value));
-        let high = values.iter().fold(values[0], |high, value| high.max(*value));
+        let [low, high] = values[1..].iter().fold([values[0]; 2], |[low, high], &value| {
+            [if value < low { value } else { low }, if value > high { value } else { high }]
+        });
         let beyond = OVERSHOOT * (high - low);
         (low - beyond <= value && value <= high + beyond).then_some(value)
     }
