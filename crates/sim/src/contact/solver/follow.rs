@@ -134,14 +134,15 @@ impl Solver<'_> {
     }
 
     /// Sets the forces to those of the laws at the penetrations of `at` and their rates, and the accelerations to those by these
-    /// forces. Returns false if elements other than active vertical contacts may have forces, if one of these must open, or if
-    /// rows depend on the forces.
+    /// forces. Returns false if elements other than active vertical contacts may have forces, if one of these must open, if
+    /// rows depend on the forces, or if laws are not linear: penetrations then differ more from those of the springs.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
     pub fn apply_laws(&mut self, at: &mut State) -> Result<bool, Error> {
         let (system, count) = (self.system, self.system.elements.len());
-        let is_simple = system.traits.has_constant_rows && count == system.verticals();
+        let traits = &system.traits;
+        let is_simple = traits.has_constant_rows && traits.has_linear_laws && count == system.verticals();
         if !(is_simple && (0..count).all(|i| self.active.has(i))) {
             return Ok(false);
         }
