@@ -15,7 +15,7 @@ use crate::Error;
 use crate::contact::solver::Solver;
 use crate::contact::solver::follow::{Followed, delay_of};
 use crate::mechanics::state::State;
-use factors::Factors;
+use factors::{Factors, MIDDLE};
 use places::{COUNT, SpringPolynomial, slopes, sum_of, values, weights};
 
 /// Number of iterations at most; with the factors of all places linear laws need one or two.
@@ -64,8 +64,9 @@ pub(crate) struct Penetrations {
     delay: f64,
     /// Whether the springs' penetrations are a polynomial in the step.
     is_polynomial: bool,
-    /// The contacts at a sample, where they are not.
+    /// The contacts at a sample, where they are not, and the residual of the equation there, where they are.
     at_sample: Followed,
+    residual: Vec<f64>,
     newton: Newton,
 }
 
@@ -277,6 +278,15 @@ impl Penetrations {
             at.p_rate[i] = by_springs + sum_of(&slopes, own) / self.h;
         }
         Ok(are_known)
+    }
+
+    /// Sets the forces of a state whose penetrations are known by [`Penetrations::set_rates`]; see [`Solver::apply_laws`].
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails.
+    pub fn apply_laws(&mut self, solver: &mut Solver, at: &mut State) -> Result<bool, Error> {
+        let Penetrations { followed, residual, .. } = self;
+        solver.apply_laws(at, followed[MIDDLE].factors(), residual)
     }
 }
 

@@ -137,7 +137,7 @@ impl Samples {
         self.begun.restore(step.solver);
         let is_known = step.sample(fraction, &mut self.sample)?;
         self.sample.t = t;
-        if !(is_known && step.solver.apply_laws(&mut self.sample)?) {
+        if !(is_known && step.apply_laws(&mut self.sample)?) {
             let slack = step.solver.allowed_error();
             settle_within(step.solver, &mut self.sample, slack)?;
         }

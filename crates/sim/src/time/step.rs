@@ -304,6 +304,14 @@ impl<'a, 'b> Step<'a, 'b> {
         self.penetrations.set_rates(self.solver, fraction, at)
     }
 
+    /// Sets the forces of a sample all of whose penetrations follow from the motion; returns whether they are found.
+    ///
+    /// # Errors
+    /// Any error from evaluating the rails.
+    pub fn apply_laws(&mut self, at: &mut State) -> Result<bool, Error> {
+        self.penetrations.apply_laws(self.solver, at)
+    }
+
     /// Finds the penetrations in the step just taken; `at` is overwritten.
     fn find_penetrations(&mut self, at: &mut State) -> Result<(), Error> {
         let settled = if self.begins_smoothly { f64::INFINITY } else { self.shortest_delay };

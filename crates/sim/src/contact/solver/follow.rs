@@ -7,6 +7,9 @@ use crate::Error;
 use crate::mechanics::state::State;
 use crate::numerics::lu::LuFactors;
 
+/// Number of corrections of penetrations that are nearly known.
+const CORRECTIONS: usize = 2;
+
 /// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
 /// their rates g'. Its memory serves for one state after the other.
 #[derive(Default)]
@@ -133,13 +136,20 @@ impl Solver<'_> {
         factors.solve(rate)
     }
 
-    /// Sets the forces to those of the laws at the penetrations of `at` and their rates, and the accelerations to those by these
-    /// forces. Returns false if elements other than active vertical contacts may have forces, if one of these must open, if
-    /// rows depend on the forces, or if laws are not linear: penetrations then differ more from those of the springs.
+    /// Sets the forces to those of the laws, at the penetrations of `at`, corrected a few times, and at their rates, and
+    /// the accelerations to those by these forces. A correction is -(I + G K)^-1 (p + G F - e), with `factors` of I + G K at a
+    /// state near to this one; an error of the rates then enters the forces as where the equation is solved. Returns false
+    /// if elements other than active vertical contacts may have forces, if one of these must open, if rows depend on the
+    /// forces, or if laws are not linear: penetrations then differ more from those of the springs.
     ///
     /// # Errors
     /// Any error from evaluating the rails.
-    pub fn apply_laws(&mut self, at: &mut State) -> Result<bool, Error> {
+    pub fn apply_laws(
+        &mut self,
+        at: &mut State,
+        factors: &LuFactors,
+        residual: &mut Vec<f64>,
+    ) -> Result<bool, Error> {
         let (system, count) = (self.system, self.system.elements.len());
         let traits = &system.traits;
         let is_simple = traits.has_constant_rows && traits.has_linear_laws && count == system.verticals();
@@ -153,9 +163,19 @@ impl Solver<'_> {
                 at.p[i] = self.geometry.approach(i, &at.q);
             }
             at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
-            if self.opens(i, at) {
+        }
+        for _ in 0..CORRECTIONS {
+            set(residual, (0..count).map(|i| at.p[i] - self.geometry.penetration(i, at)));
+            if !factors.solve(residual) {
                 return Ok(false);
             }
+            for i in 0..count {
+                at.p[i] -= residual[i];
+                at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
+            }
+        }
+        if (0..count).any(|i| self.opens(i, at)) {
+            return Ok(false);
         }
         self.update_rail_slope(at);
         self.free.accelerate(system, at, &self.geometry.rows().force)?;

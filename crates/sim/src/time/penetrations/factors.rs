@@ -5,7 +5,7 @@ use crate::contact::solver::follow::Followed;
 use crate::numerics::lu::LuFactors;
 
 /// Place whose compliance serves for all.
-const MIDDLE: usize = 2;
+pub const MIDDLE: usize = 2;
 
 /// Factors of the derivatives of the residual by the differences.
 ///
