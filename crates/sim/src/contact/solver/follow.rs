@@ -7,9 +7,6 @@ use crate::Error;
 use crate::mechanics::state::State;
 use crate::numerics::lu::LuFactors;
 
-/// Number of corrections of penetrations that are nearly known.
-const CORRECTIONS: usize = 2;
-
 /// Contacts at one state: approaches e, compliance G, and the penetrations g of springs K alone, (I + G K) g = e, with
 /// their rates g'. Its memory serves for one state after the other.
 #[derive(Default)]
@@ -136,8 +133,8 @@ impl Solver<'_> {
         factors.solve(rate)
     }
 
-    /// Sets the forces to those of the laws, at the penetrations of `at`, corrected a few times, and at their rates, and
-    /// the accelerations to those by these forces. A correction is -(I + G K)^-1 (p + G F - e), with `factors` of I + G K at a
+    /// Sets the forces to those of the laws, at the penetrations of `at`, corrected once, and at their rates, and
+    /// the accelerations to those by these forces. The correction is -(I + G K)^-1 (p + G F - e), with `factors` of I + G K at a
     /// state near to this one; an error of the rates then enters the forces as where the equation is solved. Returns false
     /// if elements other than active vertical contacts may have forces, if one of these must open, if rows depend on the
     /// forces, or if laws are not linear: penetrations then differ more from those of the springs.
@@ -164,18 +161,16 @@ impl Solver<'_> {
             }
             at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
         }
-        for _ in 0..CORRECTIONS {
-            set(residual, (0..count).map(|i| at.p[i] - self.geometry.penetration(i, at)));
-            if !factors.solve(residual) {
+        set(residual, (0..count).map(|i| at.p[i] - self.geometry.penetration(i, at)));
+        if !factors.solve(residual) {
+            return Ok(false);
+        }
+        for (i, error) in residual.iter().enumerate() {
+            at.p[i] -= error;
+            at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
+            if self.opens(i, at) {
                 return Ok(false);
             }
-            for i in 0..count {
-                at.p[i] -= residual[i];
-                at.force[i] = self.law_of(i, at.p[i], at.p_rate[i])[0];
-            }
-        }
-        if (0..count).any(|i| self.opens(i, at)) {
-            return Ok(false);
         }
         self.update_rail_slope(at);
         self.free.accelerate(system, at, &self.geometry.rows().force)?;
