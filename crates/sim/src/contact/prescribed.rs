@@ -34,7 +34,7 @@ const PLACES: [f64; TERMS] = [
 const RATED: usize = 3;
 const WORTH: f64 = 12.0;
 
-/// Number of wheels up to which polynomials are faster than the evaluation: they are read from memory.
+/// Number of wheels up to which the coefficients fit the cache of a core.
 const MOST: usize = 64;
 
 /// Error of the fit, relative to the largest value or slope, up to which it is rounding.
