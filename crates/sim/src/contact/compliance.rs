@@ -50,6 +50,7 @@ struct Provider {
     /// Probes of the last evaluation, and the distance that each wheel has moved since.
     probes: Vec<Probe>,
     moved: Vec<f64>,
+    /// The path along which G is interpolated, or the prescribed way, in which it is a polynomial.
     path: Option<CompliancePath>,
     prescribed: Option<PrescribedPath>,
     /// Whether the matrices were interpolated along a path.
@@ -66,14 +67,21 @@ impl RailCompliance {
             .flat_map(|(s, entries)| entries.iter().map(move |entry| (s, entry.element)))
             .any(|(s, element)| bears[element].replace(s).is_some_and(|other| other != s));
         let own = mechanics.foundations.iter().zip(&probes.entries).zip(&probes.is_direct);
-        let providers = own.map(|((foundation, entries), is_direct)| Provider {
-            influence: Influence::zeros(entries.len()),
-            probes: entries.iter().map(|entry| entry.probe).collect(),
-            moved: vec![0.0; entries.len()],
-            path: if has_shared_rows { None } else { CompliancePath::new(mechanics, foundation, entries) },
-            prescribed: if *is_direct { PrescribedPath::new(mechanics, foundation, entries) } else { None },
-            is_on_path: false,
-            is_evaluated: false,
+        let providers = own.map(|((foundation, entries), is_direct)| {
+            let prescribed =
+                if *is_direct { PrescribedPath::new(mechanics, foundation, entries) } else { None };
+            let has_other_rule = has_shared_rows || prescribed.is_some();
+            let path =
+                if has_other_rule { None } else { CompliancePath::new(mechanics, foundation, entries) };
+            Provider {
+                influence: Influence::zeros(entries.len()),
+                probes: entries.iter().map(|entry| entry.probe).collect(),
+                moved: vec![0.0; entries.len()],
+                path,
+                prescribed,
+                is_on_path: false,
+                is_evaluated: false,
+            }
         });
         RailCompliance {
             matrices: RailMatrices::zeros(elements, probes, complies),
@@ -105,7 +113,7 @@ impl RailCompliance {
 
     /// Whether interpolation along paths is useful.
     pub fn wants_paths(&self) -> bool {
-        self.path.beside != 0.0 && self.providers.iter().any(Provider::wants_path)
+        self.path.beside != 0.0 && self.providers.iter().any(|provider| provider.path.is_some())
     }
 
     /// Takes the polynomials along the prescribed ways of the wheels that `other` has found.
@@ -188,9 +196,6 @@ impl RailCompliance {
         let reach = limits.beside;
         for (s, (provider, entries)) in self.providers.iter_mut().zip(&probes.entries).enumerate() {
             let foundation = &mechanics.foundations[s];
-            if !provider.wants_path() {
-                continue;
-            }
             let Some(path) = &mut provider.path else { continue };
             if path.leads_to(from, reach) && path.leads_to(to, reach) {
                 continue;
@@ -235,11 +240,6 @@ impl RailCompliance {
 }
 
 impl Provider {
-    /// Whether interpolation along a path is useful: the compliance is no polynomial of a prescribed way.
-    fn wants_path(&self) -> bool {
-        self.path.is_some() && !self.prescribed.as_ref().is_some_and(PrescribedPath::is_polynomial)
-    }
-
     /// Updates the distances of the wheels at `x` from the last evaluation. Returns the largest distance in wheel
     /// radii, and whether the matrices are out of date.
     fn move_to(&mut self, mechanics: &Mechanics, entries: &[Entry], x: &[f64]) -> (f64, bool) {

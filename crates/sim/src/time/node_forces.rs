@@ -263,20 +263,16 @@ impl NodeForces {
                         }
                         continue;
                     }
-                    let terms = || motion.responses(a, b).iter();
-                    let by_load = rows.approach_row(i).iter().zip(terms()).map(|(row, [by_q, _])| row * by_q);
-                    self.by_load.clear();
-                    self.by_load.extend(by_load);
-                    for (effect, &j) in effect.iter_mut().zip(active) {
-                        *effect = dot(&self.by_load, motion.spread(b, j));
-                    }
-                    if feels_rates {
-                        let by_load = rows.rate_row(i).iter().zip(terms()).map(|(row, [_, by_v])| row * by_v);
+                    let mut fill = |out: &mut [f64], row: &[f64], part: usize| {
+                        let responses = motion.responses(a, b).iter();
                         self.by_load.clear();
-                        self.by_load.extend(by_load);
-                        for (effect, &j) in rate_effect.iter_mut().zip(active) {
-                            *effect = dot(&self.by_load, motion.spread(b, j));
-                        }
+                        self.by_load.extend(row.iter().zip(responses).map(|(row, own)| row * own[part]));
+                        let sums = active.iter().map(|&j| dot(&self.by_load, motion.spread(b, j)));
+                        out.iter_mut().zip(sums).for_each(|(out, sum)| *out = sum);
+                    };
+                    fill(effect, rows.approach_row(i), 0);
+                    if feels_rates {
+                        fill(rate_effect, rows.rate_row(i), 1);
                     }
                 }
                 let compliance = &geometry.rails().value[i * m..(i + 1) * m];

@@ -260,15 +260,10 @@ impl Penetrations {
             }
         }
         let (values, slopes) = (values(share), slopes(share));
-        let springs = SpringPolynomial::new(share, &values, &slopes);
-        let mut are_known = self.is_polynomial;
-        for (r, &i) in self.contacts.iter().enumerate() {
-            if !solver.remembers(i) {
-                are_known = false;
-                continue;
-            }
+        let springs = self.is_polynomial.then(|| SpringPolynomial::new(share, &values, &slopes));
+        for (r, &i) in self.contacts.iter().enumerate().filter(|(_, i)| solver.remembers(**i)) {
             let own = &self.differences[r];
-            let by_springs = if self.is_polynomial {
+            let by_springs = if let Some(springs) = &springs {
                 let [value, rate] = springs.at(&self.followed, r, self.h);
                 at.p[i] = value + sum_of(&values, own);
                 rate
@@ -277,7 +272,7 @@ impl Penetrations {
             };
             at.p_rate[i] = by_springs + sum_of(&slopes, own) / self.h;
         }
-        Ok(are_known)
+        Ok(self.is_polynomial && self.contacts.iter().all(|i| solver.remembers(*i)))
     }
 
     /// Sets the forces of a state whose penetrations are known by [`Penetrations::set_rates`]; see [`Solver::apply_laws`].

@@ -343,8 +343,9 @@ impl Compliance for ExactSurface {
         true
     }
 
+    /// Functions of a member under axial force are no polynomials.
     fn is_cubic(&self) -> bool {
-        true
+        self.rails.elements().iter().all(|element| element.flexibility.tension == 0.0)
     }
 }
 
