@@ -7,6 +7,9 @@ use formats::scene::quantity::{Quantity, quantities};
 use formats::text::number::push_number;
 use formats::units::Dimension;
 
+/// Number of bytes of most numbers of a table with their comma.
+const LENGTH: usize = 14;
+
 /// One column of a history file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct HistoryColumn {
@@ -94,6 +97,7 @@ impl NamedColumns {
         writer.write_record(self.columns.iter().map(|column| &column.name))?;
         let mut out = bytes(writer)?;
         let rows = self.columns.first().map_or(0, |column| column.values.len());
+        out.reserve(rows * self.columns.len() * LENGTH);
         for i in 0..rows {
             for (k, column) in self.columns.iter().enumerate() {
                 if k > 0 {

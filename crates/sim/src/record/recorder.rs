@@ -27,6 +27,17 @@ const MOST_RESERVED: usize = 4_000_000;
 const OF_BODY: usize = 14;
 const OF_WHEEL: usize = 9;
 
+/// Number of samples at the output times of a whole run.
+pub(crate) fn output_samples(scene: &Scene) -> usize {
+    let intervals = (scene.end / scene.output_dt).min(MOST_RESERVED as f64) as usize;
+    intervals.saturating_mul(scene.output_parts.max(1)).saturating_add(2)
+}
+
+/// Reserves memory for more samples of a history, as far as they are not too many: the run may end early.
+pub(crate) fn reserve(history: &mut History, samples: usize) {
+    history.reserve(samples.min(MOST_RESERVED / history.channels().len()));
+}
+
 /// Recorder of samples.
 pub(crate) struct Recorder {
     history: History,
@@ -122,11 +133,9 @@ impl Recorder {
         self.history
     }
 
-    /// Reserves memory for the samples of a whole run, as far as they are not too many: it may end early.
+    /// Reserves memory for the samples of a whole run.
     pub fn reserve_for(&mut self, scene: &Scene) {
-        let intervals = (scene.end / scene.output_dt).min(MOST_RESERVED as f64) as usize;
-        let samples = intervals.saturating_mul(scene.output_parts.max(1)).saturating_add(2);
-        self.history.reserve(samples.min(MOST_RESERVED / self.history.channels().len()));
+        reserve(&mut self.history, output_samples(scene));
     }
 
     /// Adds a sample; `geometry` must be current for `at`.

@@ -7,7 +7,7 @@ use crate::contact::active::ActiveSet;
 use crate::contact::solver::Solver;
 use crate::instant::settle::{settle, settle_within};
 use crate::mechanics::state::State;
-use crate::record::recorder::Recorder;
+use crate::record::recorder::{Recorder, output_samples, reserve};
 use crate::{Error, History};
 
 /// Largest number of values of the history with the ends of steps.
@@ -16,6 +16,9 @@ const MOST_VALUES: usize = 10_000_000;
 /// Fraction of a step behind a break or an event at which a sample shows the forces after it. Wheels roll by more than the
 /// slack within which a step ends at the break.
 const AFTER: f64 = 1e-3;
+
+/// Samples of a step of collocation. Steps between which memory for all of them need not grow are as long as output intervals.
+const SAMPLES_OF_STEP: usize = 3;
 
 /// Times that differ by less, relative to them, are the same: a step ends by rounding before a wheel is at a break of its rail.
 const SAME_TIME: f64 = 1e-14;
@@ -67,7 +70,10 @@ impl Samples {
         let mut recorder = Recorder::new(solver.system());
         recorder.reserve_for(solver.system().scene);
         recorder.record(solver.system(), solver.geometry(), start)?;
-        let steps = wanted.then(|| recorder.history().clone());
+        let mut steps = wanted.then(|| recorder.history().clone());
+        if let Some(steps) = &mut steps {
+            reserve(steps, SAMPLES_OF_STEP * output_samples(solver.system().scene));
+        }
         let (begun, inside) = (Acting::of(solver), Vec::new());
         Ok(Samples { recorder, steps, inside, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use nalgebra::DMatrix;
 
 use super::groups;
-use super::places::{SurfacePlaces, restrained_row};
+use super::places::{AppliedLoads, NodalValues, SurfacePlaces, restrained_row, restrained_row_into};
 use super::planar::{self, PlanarProbe};
 use crate::compliance::{
     Compliance, Differentiable, Influence, KeptProducts, Partials, PlaceDisplacements, ProbeGroups,
@@ -162,39 +162,6 @@ impl ExactSurface {
         Ok(())
     }
 
-    /// C times the nodal forces of loads, at the degrees of freedom that are `wanted`; the rows of the loads are returned as
-    /// well.
-    fn nodal_displacements(
-        &self,
-        loads: &[(Probe, f64)],
-        wanted: &[ShapeRow],
-    ) -> Result<(Vec<f64>, Vec<ShapeRow>), Error> {
-        let size = self.nodal.nrows();
-        let mut forces = vec![0.0; size];
-        let mut loaded = Vec::new();
-        let mut rows = Vec::with_capacity(loads.len());
-        for (probe, force) in loads {
-            let row = self.restrained_row(*probe)?;
-            for (&dof, value) in row.indices().iter().zip(row.values()) {
-                if forces[dof] == 0.0 {
-                    loaded.push(dof);
-                }
-                forces[dof] += value * force;
-            }
-            rows.push(row);
-        }
-        loaded.sort_unstable();
-        loaded.dedup();
-        let mut moved = vec![f64::NAN; size];
-        for &dof in wanted.iter().flat_map(ShapeRow::indices) {
-            if moved[dof].is_nan() {
-                let column = self.nodal.column(dof);
-                moved[dof] = loaded.iter().map(|&k| column[k] * forces[k]).sum();
-            }
-        }
-        Ok((moved, rows))
-    }
-
     /// The shape row of a probe in whose direction the structure has stiffness.
     pub(super) fn restrained_row(&self, at: Probe) -> Result<ShapeRow, Error> {
         restrained_row(&self.rails, &self.nodal, at)
@@ -311,18 +278,27 @@ impl Compliance for ExactSurface {
         if groups::fill(&self.rails, &self.nodal, of, kept, out)? { Ok(()) } else { of.sum(self, kept, out) }
     }
 
-    /// The nodal displacements under all loads are computed once.
+    /// The nodal displacements under all loads are computed once, where they are needed.
     fn displacements(&self, at: &[Probe], loads: &[(Probe, f64)], out: &mut [f64]) -> Result<(), Error> {
-        let rows = at.iter().map(|probe| self.restrained_row(*probe)).collect::<Result<Vec<_>, _>>()?;
-        let (moved, loaded) = self.nodal_displacements(loads, &rows)?;
-        for (row, out) in rows.iter().zip(out) {
-            let nodal: f64 =
-                row.indices().iter().zip(row.values()).map(|(&dof, value)| value * moved[dof]).sum();
-            let own = loaded.iter().zip(loads).filter_map(|(other, (_, force))| {
-                let [own, other_element] = self.rails.clamped_on_one_member(row.element, other.element)?;
-                Some(force * own.value(row.axis, row.place, other_element, other.axis, other.place))
-            });
-            *out = nodal + own.sum::<f64>();
+        let size = self.nodal.nrows();
+        let mut loaded = AppliedLoads::new(size);
+        let mut row = ShapeRow::EMPTY;
+        for (probe, force) in loads {
+            restrained_row_into(&self.rails, &self.nodal, *probe, &mut row)?;
+            loaded.add(&row, *force);
+        }
+        let dofs: NodalValues<usize> = (0..size).filter(|dof| loaded.forces[*dof] != 0.0).collect();
+        let mut moved = NodalValues::from_elem(f64::NAN, size);
+        for (probe, out) in at.iter().zip(out) {
+            restrained_row_into(&self.rails, &self.nodal, *probe, &mut row)?;
+            for &dof in row.indices() {
+                if moved[dof].is_nan() {
+                    let column = self.nodal.column(dof);
+                    moved[dof] = dofs.iter().map(|&k| column[k] * loaded.forces[k]).sum();
+                }
+            }
+            let nodal = row.indices().iter().zip(row.values()).map(|(&dof, value)| value * moved[dof]);
+            *out = nodal.sum::<f64>() + loaded.on_member(&self.rails, &row);
         }
         Ok(())
     }

@@ -3,6 +3,7 @@
 use std::sync::OnceLock;
 
 use nalgebra::DMatrix;
+use smallvec::SmallVec;
 
 use crate::compliance::PlaceDisplacements;
 use crate::error::Error;
@@ -26,6 +27,48 @@ pub(super) struct SurfacePlaces<'s> {
     members: Vec<[OnceLock<Vec<OnMember>>; 3]>,
 }
 
+/// A value for each degree of freedom of the node states; those of a girder of a few spans need no allocation.
+pub(super) type NodalValues<T> = SmallVec<[T; 36]>;
+
+/// Loads on the rails: their forces on the node states, and their places on the members.
+pub(super) struct AppliedLoads {
+    /// By degree of freedom of the node states.
+    pub forces: NodalValues<f64>,
+    on_members: SmallVec<[LoadOnMember; 8]>,
+}
+
+/// A force on a rail element in the direction of an axis.
+struct LoadOnMember {
+    element: usize,
+    axis: usize,
+    place: MemberPlace,
+    force: f64,
+}
+
+impl AppliedLoads {
+    /// No loads on a structure with `size` degrees of freedom of its node states.
+    pub fn new(size: usize) -> AppliedLoads {
+        AppliedLoads { forces: NodalValues::from_elem(0.0, size), on_members: SmallVec::new() }
+    }
+
+    /// Adds a force at the place and in the direction of `row`.
+    pub fn add(&mut self, row: &ShapeRow, force: f64) {
+        let entries = row.indices().iter().zip(row.values());
+        entries.for_each(|(&dof, shape)| self.forces[dof] += shape * force);
+        let ShapeRow { element, axis, place, .. } = *row;
+        self.on_members.push(LoadOnMember { element, axis, place, force });
+    }
+
+    /// The displacement of the place of `at` by the loads on its member, whose ends are held.
+    pub fn on_member(&self, rails: &Rails, at: &ShapeRow) -> f64 {
+        let own = self.on_members.iter().filter_map(|load| {
+            let [own, other] = rails.clamped_on_one_member(at.element, load.element)?;
+            Some(load.force * own.value(at.axis, at.place, other, load.axis, load.place))
+        });
+        own.sum()
+    }
+}
+
 /// Green's function of a clamped member between a place and a load in one direction.
 struct OnMember {
     /// Index of the place.
@@ -46,7 +89,7 @@ pub(super) fn restrained_row(rails: &Rails, nodal: &DMatrix<f64>, at: Probe) -> 
 }
 
 /// [`restrained_row`] into memory that the caller has.
-fn restrained_row_into(
+pub(super) fn restrained_row_into(
     rails: &Rails,
     nodal: &DMatrix<f64>,
     at: Probe,
@@ -111,16 +154,14 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
         if out.len() != rows {
             return Err(Error::EffectShape { rows: out.len(), columns: 1, expected: [rows, 1] });
         }
-        let mut states = vec![0.0; 2 * self.nodal.nrows()];
-        let (forces, moved) = states.split_at_mut(self.nodal.nrows());
+        let mut loaded = AppliedLoads::new(self.nodal.nrows());
+        let mut moved = NodalValues::from_elem(0.0, self.nodal.nrows());
         let mut row = ShapeRow::EMPTY;
         let (out, others) = out.split_at_mut(self.places.len());
         out.fill(0.0);
-        let mut loaded = Vec::with_capacity(loads.len());
         for (probe, force) in loads {
             restrained_row_into(self.rails, self.nodal, *probe, &mut row)?;
-            let entries = row.indices().iter().zip(row.values());
-            entries.for_each(|(&dof, shape)| forces[dof] += shape * force);
+            loaded.add(&row, *force);
             let own = self.members[row.element][row.axis].get_or_init(|| self.on_member(&row));
             for OnMember { index, place, cubics } in own {
                 let Some([before, behind]) = cubics else {
@@ -131,9 +172,8 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
                 let (t, [a, b, c]) = if s <= *place { (s, before) } else { (q, behind) };
                 out[*index] += force * t * (a + t * (b + t * c));
             }
-            loaded.push((row.element, row.axis, row.place, *force));
         }
-        for (dof, force) in forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
+        for (dof, force) in loaded.forces.iter().enumerate().filter(|(_, force)| **force != 0.0) {
             let column = &self.nodal.as_slice()[dof * moved.len()..(dof + 1) * moved.len()];
             moved.iter_mut().zip(column).for_each(|(sum, c)| *sum += c * force);
         }
@@ -146,12 +186,8 @@ impl PlaceDisplacements for SurfacePlaces<'_> {
         for (probe, out) in also.iter().zip(others) {
             restrained_row_into(self.rails, self.nodal, *probe, &mut row)?;
             let entries = row.indices().iter().zip(row.values()).filter(|(_, shape)| **shape != 0.0);
-            *out = entries.map(|(&dof, shape)| shape * moved[dof]).sum();
-            for (element, axis, place, force) in &loaded {
-                if let Some([own, other]) = self.rails.clamped_on_one_member(row.element, *element) {
-                    *out += force * own.value(row.axis, row.place, other, *axis, *place);
-                }
-            }
+            *out = entries.map(|(&dof, shape)| shape * moved[dof]).sum::<f64>();
+            *out += loaded.on_member(self.rails, &row);
         }
         Ok(())
     }
