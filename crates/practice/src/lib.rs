@@ -58,6 +58,6 @@ pub use fatigue::{
     Cycle, Damage, Repetition, SectionPoint, SectionProperties, Strength, aisc, rainflow, stress,
 };
 pub use signals::{
-    Decay, Excursions, ExtremeInstant, Extremes, ResponseCharacteristics, ResponseSettings, RunHistories,
-    SineComponent, TimedValue, decay, dominant, envelope, excursions, low_pass, mean, resample, response,
+    Decay, Excursions, ExtremeInstant, Extremes, HistorySpectrum, ResponseCharacteristics, ResponseSettings,
+    RunHistories, SineComponent, TimedValue, decay, envelope, excursions, low_pass, mean, resample, response,
 };

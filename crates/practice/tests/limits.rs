@@ -4,8 +4,9 @@ use practice::factor::{HoistingClass, Release};
 use practice::fatigue::Stress;
 use practice::skew::{Guide, WheelPairs};
 use practice::{
-    Crane, Error, Repetition, ResponseSettings, SectionPoint, SectionProperties, Strength, aist, asce,
-    buffer, cmaa, drive, duty, factor, limits, local_stress, osha, rainflow, response, skew, stress,
+    Crane, Decay, Error, HistorySpectrum, Repetition, ResponseSettings, SectionPoint, SectionProperties,
+    SineComponent, Strength, aist, asce, buffer, cmaa, decay, drive, duty, factor, limits, local_stress,
+    osha, rainflow, response, skew, stress,
 };
 
 const ODD: [f64; 13] = [
@@ -131,15 +132,8 @@ fn formulas_give_numbers_or_refuse() {
 fn histories_give_numbers_or_refuse() {
     let mut tally = Tally::default();
     let times: Vec<f64> = (0..40).map(f64::from).collect();
-    let view = ResponseSettings {
-        from: 0.0,
-        settled: 0.0,
-        step: 0.5,
-        cut_off: Some(0.3),
-        excursion_fraction: 0.1,
-        band: [0.0, 1.0],
-        floor: 0.0,
-    };
+    let view =
+        ResponseSettings { from: 0.0, settled: 0.0, step: 0.5, cut_off: Some(0.3), excursion_fraction: 0.1 };
     for a in ODD {
         for b in ODD {
             for c in [a, b, 0.3] {
@@ -150,19 +144,23 @@ fn histories_give_numbers_or_refuse() {
                     }),
                 );
                 tally.add(response(&times, &values, &view).map(|found| {
-                    let tone = found.sine.map_or([0.0; 2], |tone| [tone.frequency, tone.amplitude]);
-                    let decay = found.decay.map_or([0.0; 2], |decay| [decay.ratio, decay.frequency]);
-                    [[found.mean, found.peak.value], [found.trough.value, found.trough.time], tone, decay]
-                        .concat()
+                    [[found.mean, found.peak.value], [found.trough.value, found.trough.time]].concat()
                 }));
+                let tone = |tone: SineComponent| vec![tone.frequency, tone.amplitude];
+                for (step, band) in [(0.5, [0.0, 1.0]), (c, [a, b])] {
+                    let strongest = |spectrum: HistorySpectrum| spectrum.strongest(band);
+                    let found = HistorySpectrum::new(&values, step).and_then(strongest);
+                    tally.add(found.map(|found| found.map_or_else(Vec::new, tone)));
+                }
+                let ring = |ring: Decay| vec![ring.ratio, ring.frequency];
+                tally.add(decay(&values, 0.5, 0.0).map(|found| found.map_or_else(Vec::new, ring)));
+                tally.add(decay(&times, c, a).map(|found| found.map_or_else(Vec::new, ring)));
                 let odd = ResponseSettings {
                     from: a,
                     settled: b,
                     step: c,
                     cut_off: Some(b),
                     excursion_fraction: c,
-                    band: [a, b],
-                    floor: a,
                 };
                 tally.add(response(&times, &times, &odd).map(|found| vec![found.mean, found.peak.value]));
             }

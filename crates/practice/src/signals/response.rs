@@ -1,9 +1,7 @@
 //! The characteristics of a response that engineers compare.
 
-use super::decay::{Decay, decay};
 use super::filter::low_pass;
 use super::series::{Excursions, excursions, mean, resample};
-use super::spectrum::{SineComponent, dominant};
 use crate::Error;
 use crate::error::{Argument, within};
 
@@ -20,10 +18,6 @@ pub struct ResponseSettings {
     pub cut_off: Option<f64>,
     /// Half width of the band of excursions, as a fraction of the settled mean.
     pub excursion_fraction: f64,
-    /// Lower and upper limit of the dominant frequency, in cycles per unit of time.
-    pub band: [f64; 2],
-    /// The smallest range that is used for the damping, as a fraction of the largest.
-    pub floor: f64,
 }
 
 /// A value and its time.
@@ -47,16 +41,12 @@ pub struct ResponseCharacteristics {
     pub trough: TimedValue,
     /// Excursions beyond the band about the mean.
     pub excursions: Excursions,
-    /// Strongest sine component; `None` if the spectrum has no peak in the band.
-    pub sine: Option<SineComponent>,
-    /// Damping, which is meaningful if the response is that of one mode; `None` if it does not oscillate.
-    pub decay: Option<Decay>,
 }
 
-/// The settled mean, extremes, excursions, dominant frequency and damping of a history.
+/// The settled mean, extremes and excursions of a history.
 ///
 /// # Errors
-/// Those of [`mean`], [`resample`], [`low_pass`], [`excursions`], [`dominant`] and [`decay`].
+/// Those of [`mean`], [`resample`], [`low_pass`] and [`excursions`].
 ///
 /// ```
 /// use practice::{ResponseSettings, response};
@@ -72,12 +62,11 @@ pub struct ResponseCharacteristics {
 ///     step: 0.01,
 ///     cut_off: None,
 ///     excursion_fraction: 0.1,
-///     band: [0.5, 5.0],
-///     floor: 0.1,
 /// };
 /// let found = response(&times, &values, &view)?;
 /// assert!((found.mean - 50.0).abs() < 0.5 && found.peak.value > 90.0);
-/// assert!((found.decay.expect("an oscillation").ratio - 0.03).abs() < 1e-3);
+/// // Every crest above 55 and every trough below 45: 50 exp(-0.03 pi k) > 5 for k = 0 to 24.
+/// assert_eq!(found.excursions.total(), 25);
 /// # Ok::<(), practice::Error>(())
 /// ```
 pub fn response(
@@ -101,7 +90,5 @@ pub fn response(
         peak: best(|value, found| value > found),
         trough: best(|value, found| value < found),
         excursions: excursions(&even, mean, view.excursion_fraction)?,
-        sine: dominant(&even, view.step, view.band)?,
-        decay: decay(&even, view.step, view.floor)?,
     })
 }

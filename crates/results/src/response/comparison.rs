@@ -1,6 +1,6 @@
 //! Comparison of the force histories of several runs by statistics: mean, extremes, excursions, oscillations.
 
-use practice::{ResponseSettings, SineComponent, TimedValue, dominant, resample, response};
+use practice::{HistorySpectrum, ResponseSettings, SineComponent, TimedValue, resample, response};
 use serde_json::{Map, Value, json};
 
 use super::{Response, SceneMode};
@@ -131,8 +131,6 @@ impl ColumnStatistics {
             step,
             cut_off: None,
             excursion_fraction: BAND,
-            band: [0.0, 0.5 / step],
-            floor: BAND,
         };
         let found = response(times, values, &settings).ok()?;
         // fewer than two periods in the last quarter come from the travel of the crane, not from vibration
@@ -143,7 +141,7 @@ impl ColumnStatistics {
             peak: found.peak,
             least: found.trough,
             excursions: found.excursions.total(),
-            waves: oscillations(&late, step, band),
+            waves: oscillations(&HistorySpectrum::new(&late, step).ok()?, band),
         })
     }
 
@@ -169,14 +167,14 @@ impl ColumnStatistics {
     }
 }
 
-/// Up to [`MAX_OSCILLATIONS`] oscillations of a history in the frequency `band`, largest amplitude first.
+/// Up to [`MAX_OSCILLATIONS`] oscillations of a spectrum in the frequency `band`, largest amplitude first.
 ///
 /// The strongest oscillation of the band is found. The frequencies within the ratio [`MIN_RATIO`] of it are removed,
 /// which divides the band in two. The search continues with the strongest oscillation of all remaining bands and ends
 /// when its amplitude is below the fraction [`MIN_AMPLITUDE`] of the first.
-fn oscillations(values: &[f64], step: f64, band: [f64; 2]) -> Vec<SineComponent> {
+fn oscillations(spectrum: &HistorySpectrum, band: [f64; 2]) -> Vec<SineComponent> {
     let (mut found, mut bands) = (Vec::<SineComponent>::new(), vec![band]);
-    let strongest = |band: &[f64; 2]| dominant(values, step, *band).ok().flatten();
+    let strongest = |band: &[f64; 2]| spectrum.strongest(*band).ok().flatten();
     while found.len() < MAX_OSCILLATIONS {
         let all = bands.iter().enumerate().filter_map(|(k, band)| Some((k, strongest(band)?)));
         let best = all.max_by(|a, b| a.1.amplitude.total_cmp(&b.1.amplitude));
