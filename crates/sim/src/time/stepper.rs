@@ -49,6 +49,12 @@ const NOW: f64 = 1e-6;
 /// Largest number of consecutive steps that may end at events. Beyond it the contacts chatter, and the run fails.
 const CHATTER: usize = 1000;
 
+/// Length of a step, relative to the shortest period of a wheel at the start, below which it resolves nothing that a scene
+/// has, and the largest number of such steps one after the other, without an event. Beyond it the run fails, since it would
+/// not come to its end.
+const CRAWL: f64 = 1e-7;
+const CRAWLING: usize = 5000;
+
 /// Number of consecutive steps that end at events after which the next step is limited to [`WIDER`] times the last.
 /// If a trial ends far beyond an event, the secant always underestimates the time of the event.
 const SHORT: usize = 2;
@@ -139,6 +145,8 @@ pub(crate) struct Stepper<'a, 'b> {
     /// Number of consecutive steps near the smallest length, and of consecutive steps that ended at an event.
     stalled: usize,
     chatter: usize,
+    /// Number of consecutive steps shorter than [`CRAWL`] of the period.
+    crawling: usize,
     /// Shortest period 2 pi sqrt(m/k) of a wheel at the start, with its load m g; zero if none presses.
     period: f64,
     /// Number of bounces so far over which errors add up.
@@ -197,6 +205,7 @@ impl<'a, 'b> Stepper<'a, 'b> {
             strike: None,
             stalled: 0,
             chatter: 0,
+            crawling: 0,
             meets: None,
         })
     }
@@ -269,7 +278,9 @@ impl<'a, 'b> Stepper<'a, 'b> {
         }
         self.stalled = if trial.h <= 4.0 * trial.smallest { self.stalled + 1 } else { 0 };
         self.chatter = if trial.ends_at_event && trial.breaks == 0 { self.chatter + 1 } else { 0 };
-        if self.stalled > REFINEMENTS || self.chatter > CHATTER {
+        let crawls = self.size.fixed.is_none() && !trial.ends_at_event && trial.h < CRAWL * self.period;
+        self.crawling = if crawls { self.crawling + 1 } else { 0 };
+        if self.stalled > REFINEMENTS || self.chatter > CHATTER || self.crawling > CRAWLING {
             return Err(Failure::TooSmall);
         }
         self.accept(trial.h)?;
