@@ -1,8 +1,8 @@
 //! Signals: what a history says in a few numbers, and the extremes of many histories.
 //!
 //! `series` has means, even samples and excursions; `filter`, `spectrum` and `decay` work on even samples;
-//! `response` has the mean, the extremes and the excursions of one history; `envelope` finds extremes over several runs with coincident
-//! values.
+//! `response` has the mean, the extremes and the excursions of one history; `envelope` finds extremes over several
+//! runs with coincident values.
 
 mod decay;
 mod envelope;

@@ -2,6 +2,9 @@
 
 use crate::scene::channel::Channel;
 
+/// Largest number of values for which memory is reserved.
+const MOST_RESERVED: usize = 4_000_000;
+
 /// Samples of every channel at increasing times.
 ///
 /// Values are stored sample by sample. [`History::samples`] and [`History::sample`] return slices over all channels,
@@ -36,9 +39,10 @@ impl History {
         History { channels, values: Vec::new() }
     }
 
-    /// Reserves memory for `samples` more samples.
+    /// Reserves memory for `samples` more samples, as far as they are not too many: the run may end early.
     pub(crate) fn reserve(&mut self, samples: usize) {
-        self.values.reserve(samples * self.channels.len());
+        let width = self.channels.len();
+        self.values.reserve(samples.min(MOST_RESERVED / width) * width);
     }
 
     /// Takes the values out of the history; `put_values` must put them back.

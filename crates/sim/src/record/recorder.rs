@@ -20,22 +20,14 @@ fn recorded<'a>(system: &'a System) -> impl Iterator<Item = (usize, Range<usize>
     all.filter(|(_, (_, foundation))| foundation.recorded).map(|(s, (range, _))| (s, range.clone()))
 }
 
-/// Largest number of values for which memory is reserved.
-const MOST_RESERVED: usize = 4_000_000;
-
 /// Number of channels of a body: six displacements, six speeds, drive and brake; and of a wheel.
 const OF_BODY: usize = 14;
 const OF_WHEEL: usize = 9;
 
 /// Number of samples at the output times of a whole run.
 pub(crate) fn output_samples(scene: &Scene) -> usize {
-    let intervals = (scene.end / scene.output_dt).min(MOST_RESERVED as f64) as usize;
+    let intervals = (scene.end / scene.output_dt) as usize;
     intervals.saturating_mul(scene.output_parts.max(1)).saturating_add(2)
-}
-
-/// Reserves memory for more samples of a history, as far as they are not too many: the run may end early.
-pub(crate) fn reserve(history: &mut History, samples: usize) {
-    history.reserve(samples.min(MOST_RESERVED / history.channels().len()));
 }
 
 /// Recorder of samples.
@@ -135,7 +127,7 @@ impl Recorder {
 
     /// Reserves memory for the samples of a whole run.
     pub fn reserve_for(&mut self, scene: &Scene) {
-        reserve(&mut self.history, output_samples(scene));
+        self.history.reserve(output_samples(scene));
     }
 
     /// Adds a sample; `geometry` must be current for `at`.

@@ -7,7 +7,7 @@ use crate::contact::active::ActiveSet;
 use crate::contact::solver::Solver;
 use crate::instant::settle::{settle, settle_within};
 use crate::mechanics::state::State;
-use crate::record::recorder::{Recorder, output_samples, reserve};
+use crate::record::recorder::{Recorder, output_samples};
 use crate::{Error, History};
 
 /// Largest number of values of the history with the ends of steps.
@@ -70,10 +70,11 @@ impl Samples {
         let mut recorder = Recorder::new(solver.system());
         recorder.reserve_for(solver.system().scene);
         recorder.record(solver.system(), solver.geometry(), start)?;
-        let mut steps = wanted.then(|| recorder.history().clone());
-        if let Some(steps) = &mut steps {
-            reserve(steps, SAMPLES_OF_STEP * output_samples(solver.system().scene));
-        }
+        let steps = wanted.then(|| {
+            let mut steps = recorder.history().clone();
+            steps.reserve(output_samples(solver.system().scene).saturating_mul(SAMPLES_OF_STEP));
+            steps
+        });
         let (begun, inside) = (Acting::of(solver), Vec::new());
         Ok(Samples { recorder, steps, inside, next: 1, sample: start.clone(), after: begun.clone(), begun })
     }

@@ -145,7 +145,7 @@ pub(crate) struct Stepper<'a, 'b> {
     /// Number of consecutive steps near the smallest length, and of consecutive steps that ended at an event.
     stalled: usize,
     chatter: usize,
-    /// Number of consecutive steps shorter than [`CRAWL`] of the period.
+    /// Number of consecutive steps without an event that are shorter than [`CRAWL`] of the period.
     crawling: usize,
     /// Shortest period 2 pi sqrt(m/k) of a wheel at the start, with its load m g; zero if none presses.
     period: f64,

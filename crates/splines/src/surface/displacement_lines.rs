@@ -92,10 +92,7 @@ impl DisplacementLines<'_> {
             out.iter_mut().zip(moved).for_each(|(sum, moved)| *sum += shape * moved);
         }
         for (out, place) in out.iter_mut().zip(&self.places) {
-            let on_one_member = self.surface.rails().clamped_on_one_member(place.element, row.element);
-            if let Some([own, other]) = on_one_member {
-                *out += own.value(place.axis, place.place, other, row.axis, row.place);
-            }
+            *out += self.surface.rails().clamped_between(place, &row);
         }
         Ok(())
     }

@@ -30,42 +30,29 @@ pub(super) struct SurfacePlaces<'s> {
 /// A value for each degree of freedom of the node states; those of a girder of a few spans need no allocation.
 pub(super) type NodalValues<T> = SmallVec<[T; 36]>;
 
-/// Loads on the rails: their forces on the node states, and their places on the members.
+/// Loads on the rails: their forces on the node states, and their places.
 pub(super) struct AppliedLoads {
     /// By degree of freedom of the node states.
     pub forces: NodalValues<f64>,
-    on_members: SmallVec<[LoadOnMember; 8]>,
-}
-
-/// A force on a rail element in the direction of an axis.
-struct LoadOnMember {
-    element: usize,
-    axis: usize,
-    place: MemberPlace,
-    force: f64,
+    loads: SmallVec<[(ShapeRow, f64); 4]>,
 }
 
 impl AppliedLoads {
     /// No loads on a structure with `size` degrees of freedom of its node states.
     pub fn new(size: usize) -> AppliedLoads {
-        AppliedLoads { forces: NodalValues::from_elem(0.0, size), on_members: SmallVec::new() }
+        AppliedLoads { forces: NodalValues::from_elem(0.0, size), loads: SmallVec::new() }
     }
 
     /// Adds a force at the place and in the direction of `row`.
     pub fn add(&mut self, row: &ShapeRow, force: f64) {
         let entries = row.indices().iter().zip(row.values());
         entries.for_each(|(&dof, shape)| self.forces[dof] += shape * force);
-        let ShapeRow { element, axis, place, .. } = *row;
-        self.on_members.push(LoadOnMember { element, axis, place, force });
+        self.loads.push((*row, force));
     }
 
     /// The displacement of the place of `at` by the loads on its member, whose ends are held.
     pub fn on_member(&self, rails: &Rails, at: &ShapeRow) -> f64 {
-        let own = self.on_members.iter().filter_map(|load| {
-            let [own, other] = rails.clamped_on_one_member(at.element, load.element)?;
-            Some(load.force * own.value(at.axis, at.place, other, load.axis, load.place))
-        });
-        own.sum()
+        self.loads.iter().map(|(load, force)| force * rails.clamped_between(at, load)).sum()
     }
 }
 
